@@ -1,0 +1,41 @@
+# Everybody's commands. `make run` and `make test` are all a newcomer needs.
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+STAMP  := $(VENV)/.installed
+
+.PHONY: run test check lint types contracts bench pictures help clean
+
+help:  ## this list
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+run: $(STAMP)  ## install if needed, open the IDE with an example loaded
+	$(BIN)/desire examples/ch1/step_response.src
+
+test: $(STAMP)  ## install what the tests need and run them all
+	$(BIN)/python -m pytest -n 2
+
+check: $(STAMP) lint types contracts test  ## lint + types + import contracts + tests
+
+lint: $(STAMP)
+	$(BIN)/ruff check .
+
+types: $(STAMP)
+	$(BIN)/mypy
+
+contracts: $(STAMP)
+	$(BIN)/lint-imports
+
+bench: $(STAMP)  ## every benchmark, each side by side with its yardstick
+	$(BIN)/python -m benchmarks
+
+pictures: $(STAMP)  ## the screenshots in docs/
+	$(BIN)/python -m tests.app.pictures
+
+clean:  ## remove the environment and caches
+	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache
+
+$(STAMP): pyproject.toml
+	test -d $(VENV) || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]'
+	touch $(STAMP)

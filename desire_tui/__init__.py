@@ -1,0 +1,1 @@
+"""Desire in a terminal: an interactive simulation IDE for dynamic systems."""

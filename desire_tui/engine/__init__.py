@@ -1,0 +1,1 @@
+"""The simulation engine. It never knows that a screen exists."""

@@ -1,0 +1,1 @@
+"""Nodes to a lowered program: names, kinds, shapes, order, guards."""

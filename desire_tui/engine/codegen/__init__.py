@@ -1,0 +1,1 @@
+"""Lowered segment and rule to native code: the only home of llvmlite."""

@@ -1,0 +1,79 @@
+"""What a pass knows about a problem, before anybody words it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.diagnostics.wording import wording_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from desire_tui.engine.source import Source, Span
+
+Severity = Literal["error", "warning"]
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """One problem: a key into the wording tables, where it is, and the facts its sentence needs.
+
+    `span` counts from the start of `source.text`; either may be missing (a missing file has no line).
+    `related` points at a second place, such as the line that invoked a submodel.
+    """
+
+    key: str
+    span: Span | None = None
+    facts: Mapping[str, object] = field(default_factory=dict)
+    source: Source | None = None
+    severity: Severity = "error"
+    related: tuple[Diagnostic, ...] = ()
+
+    @property
+    def code(self) -> int:
+        """Desire's error number."""
+        return wording_of(self.key).code
+
+    @property
+    def message(self) -> str:
+        """What is wrong, in plain words, one sentence without a full stop."""
+        return wording_of(self.key).message.format_map(_Facts(self.facts))
+
+    @property
+    def hint(self) -> str | None:
+        """What to do about it; None where nothing useful can be said."""
+        close = self.facts.get("close")
+        if close:
+            return f"did you mean '{close}'?"
+        text = wording_of(self.key).hint
+        return text.format_map(_Facts(self.facts)) if text else None
+
+    def within(self, source: Source) -> Diagnostic:
+        """Return the same problem, placed in `source` if it has no source yet."""
+        return self if self.source is not None else replace(self, source=source)
+
+
+class DesireError(Exception):
+    """A user's mistake, on its way to the one place that shows it. Holds at least one diagnostic."""
+
+    def __init__(self, *diagnostics: Diagnostic) -> None:
+        super().__init__(*(d.key for d in diagnostics))
+        self.diagnostics = diagnostics
+
+    def __str__(self) -> str:
+        return "; ".join(f"error {d.code}: {d.message}" for d in self.diagnostics)
+
+
+def closest(name: str, known: Iterable[str]) -> str | None:
+    """Return the known name that `name` was probably meant to be, or None."""
+    found = get_close_matches(name, list(known), n=1, cutoff=0.7)
+    return found[0] if found else None
+
+
+class _Facts(dict[str, object]):
+    """Facts that never make formatting fail: a missing one shows as `…`."""
+
+    def __missing__(self, key: str) -> str:
+        return "…"

@@ -1,0 +1,7 @@
+"""Messages of the run stage."""
+
+from __future__ import annotations
+
+from desire_tui.engine.diagnostics.wording.entry import Wording
+
+MESSAGES: dict[str, Wording] = {}

@@ -1,0 +1,1 @@
+"""What a display statement means: frames, curves, colours, keys. No drawing."""

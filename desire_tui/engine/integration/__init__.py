@@ -1,0 +1,1 @@
+"""Integration rules as data, and CVODE by function pointer."""

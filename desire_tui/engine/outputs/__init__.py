@@ -1,0 +1,1 @@
+"""Graphs and samples to files, canvases and text."""

@@ -1,0 +1,1 @@
+"""The lowered segment evaluated by NumPy: the yardstick in tests."""

@@ -1,0 +1,1 @@
+"""Advances a model block by block, samples, pauses, stops."""

@@ -1,0 +1,28 @@
+"""What a back end offers the run loop."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.runtime.memory import Ended, RunMemory
+    from desire_tui.engine.values import Values
+
+
+class Model(Protocol):
+    """A segment made ready for one rule."""
+
+    def advance(self, memory: RunMemory) -> Ended:
+        """Run on (see `memory`). May be called from any one thread at a time; native code frees the interpreter."""
+        ...
+
+
+class Backend(Protocol):
+    """Makes models. The native one keeps what it compiled, so asking again for the same segment costs nothing."""
+
+    name: str
+
+    def model(self, segment: Segment, rule: int, values: Values) -> Model:
+        """Prepare `segment` for integration rule `rule` (0 … 16)."""
+        ...

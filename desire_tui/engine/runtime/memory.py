@@ -1,0 +1,81 @@
+"""What a run knows between two native calls: one C structure that both back ends read and write.
+
+A back end's `advance(memory)` runs language.md 8.2 from where `memory` stands until `row_limit` rows of samples are
+written, `stop` is set, the run ends, or a fault shows. Everything it needs to go on later is here or in the values
+(states, t, DT, hold variables), so that one back end may take over from another at any return.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from enum import IntEnum
+
+
+class Phase(IntEnum):
+    """Where `advance` goes on."""
+
+    AT_POINT = 0
+    """At a communication point: pass(COMM, STEP) comes next."""
+    IN_STEP = 1
+    """Inside a communication interval at a step's start: pass(-, STEP) comes next."""
+    ENDED = 2
+
+
+class Ended(IntEnum):
+    """Why `advance` came back."""
+
+    RUNNING = 0
+    """`row_limit` reached; call again."""
+    TMAX = 1
+    TERM = 2
+    """`term` number `which` fired."""
+    STOPPED = 3
+    """`stop` was set; memory is in a state from which the run can be resumed."""
+    NOT_FINITE = 4
+    """State number `which` (or column number -1 - `which`) is inf or nan."""
+    DEADLOCK = 5
+    """Variable step: error 94, state number `which`."""
+    SOLVER = 6
+    """CVODE gave up: `which` is its flag."""
+
+
+class RunMemory(ctypes.Structure):
+    """The structure. Pointers are addresses; times are in the program's unit."""
+
+    _fields_ = (
+        ("values", ctypes.c_uint64),  # address of slot 0
+        ("rows", ctypes.c_uint64),  # address of the sample rows: t, then the requested columns
+        ("counters", ctypes.c_uint64),  # int64 positions of store/get/delay lines
+        ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
+        ("random", ctypes.c_uint64),  # address of Values.random
+        ("work", ctypes.c_uint64),  # scratch of the back end
+        ("t_start", ctypes.c_double),
+        ("t_max", ctypes.c_double),  # TMAX
+        ("comint", ctypes.c_double),
+        ("t_base", ctypes.c_double),  # t = t_base + k * dt_base while DT is constant
+        ("dt_base", ctypes.c_double),
+        ("dt_max", ctypes.c_double),
+        ("dt_min", ctypes.c_double),
+        ("error_max", ctypes.c_double),
+        ("error_min", ctypes.c_double),
+        ("dt_least", ctypes.c_double),  # smallest and largest step taken
+        ("dt_most", ctypes.c_double),
+        ("k", ctypes.c_int64),
+        ("point", ctypes.c_int64),  # index of the next communication point, 0 … nn-1
+        ("points_before", ctypes.c_int64),  # communication points of earlier, continued runs (SAMPLE counts on)
+        ("joined", ctypes.c_int64),  # 1: this run continues one; store/get/delay skip its first point
+        ("nn", ctypes.c_int64),
+        ("every", ctypes.c_int64),  # MM
+        ("checked", ctypes.c_int64),  # CHECKN
+        ("row", ctypes.c_int64),  # rows written
+        ("row_limit", ctypes.c_int64),  # come back when `row` gets there
+        ("steps", ctypes.c_int64),
+        ("rejected", ctypes.c_int64),
+        ("derivative_calls", ctypes.c_int64),
+        ("jacobian_calls", ctypes.c_int64),
+        ("which", ctypes.c_int64),
+        ("phase", ctypes.c_int32),
+        ("stop", ctypes.c_int32),  # polled at every step; set from another thread
+        ("order", ctypes.c_int32),  # last order of a variable-order rule
+        ("spare", ctypes.c_int32),
+    )

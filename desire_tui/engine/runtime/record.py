@@ -1,0 +1,66 @@
+"""One run as the outside sees it: its settings, its samples as they grow, why it ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.lowered import Column, Request
+
+EndedWord = Literal["running", "tmax", "term", "stopped", "failed"]
+
+
+@dataclass(eq=False)
+class RunRecord:
+    """A run. The engine's thread appends; any thread may read: rows below `count` never change.
+
+    `rows` is capacity × (1 + columns): t, then each requested column. It may be *replaced* by a larger array as it
+    grows, so take `rows` once and `count` before it.
+    """
+
+    number: int
+    segment: str | None
+    line: int
+    requests: tuple[Request, ...]
+    columns: tuple[Column, ...]
+    overlay: bool
+    rule: int
+    scale: float
+    t0: float
+    t_max: float
+    nn: int
+    dt: float
+    rows: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 1)))
+    count: int = 0
+    ended: EndedWord = "running"
+    end_time: float = 0.0
+    steps: int = 0
+    rejected: int = 0
+    derivative_calls: int = 0
+    jacobian_calls: int = 0
+    dt_least: float = 0.0
+    dt_most: float = 0.0
+    order: int = 0
+    seconds: float = 0.0
+    compile_seconds: float = 0.0
+    message: str = ""
+    pictures: list[NDArray[np.float64]] = field(default_factory=list)
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Sample times so far."""
+        count = self.count
+        return self.rows[:count, 0]
+
+    def values(self, name: str) -> NDArray[np.float64]:
+        """Samples of a requested variable so far; KeyError for a name that was not requested."""
+        count = self.count
+        for number, column in enumerate(self.columns):
+            if column.name == name:
+                return self.rows[:count, 1 + number]
+        raise KeyError(name)

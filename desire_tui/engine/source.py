@@ -1,0 +1,60 @@
+"""A program's text and places in it.
+
+Offsets count characters from the start of the whole text. Rows and columns are for people: both start at 1.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+
+class Span(NamedTuple):
+    """The characters `start` … `end - 1` of a source text."""
+
+    start: int
+    end: int
+
+
+class Position(NamedTuple):
+    """A place for people: row and column, both from 1."""
+
+    row: int
+    column: int
+
+
+@dataclass(frozen=True)
+class Source:
+    """A text with the name it is shown under (a path, `<command>`, `<untitled>`)."""
+
+    text: str
+    name: str = "<text>"
+    path: Path | None = field(default=None, compare=False)
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """Offset of each line's first character."""
+        starts = [0]
+        find = self.text.find
+        at = find("\n")
+        while at >= 0:
+            starts.append(at + 1)
+            at = find("\n", at + 1)
+        return starts
+
+    def position(self, offset: int) -> Position:
+        """Row and column of an offset; offsets past the end give the end."""
+        offset = min(max(offset, 0), len(self.text))
+        row = bisect_right(self.line_starts, offset) - 1
+        return Position(row + 1, offset - self.line_starts[row] + 1)
+
+    def line(self, row: int) -> str:
+        """Text of a row (from 1) without its line end; empty for a row that does not exist."""
+        if not 1 <= row <= len(self.line_starts):
+            return ""
+        start = self.line_starts[row - 1]
+        end = self.line_starts[row] - 1 if row < len(self.line_starts) else len(self.text)
+        return self.text[start:end].removesuffix("\r")

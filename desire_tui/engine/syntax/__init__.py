@@ -1,0 +1,1 @@
+"""Source text to nodes: the only home of lark."""

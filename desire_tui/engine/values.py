@@ -1,0 +1,185 @@
+"""All quantities of a session in one flat array of doubles.
+
+Interpreter, compiled code and panes share it: a parameter never needs recompiling, `x` in the script and in a
+segment is the same number, overlays (`ARRAY a[n] + b[m] = ab`) are plain aliases. A large piece of address space is
+reserved once and pages are touched only as they are used, so **addresses never change** while a session lives and
+compiled code may keep them.
+"""
+
+from __future__ import annotations
+
+import mmap
+import os
+from dataclasses import dataclass
+from enum import Enum
+from math import prod
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.source import Span
+
+SYSTEM_VARIABLES = (
+    "t", "TMAX", "DT", "NN", "scale", "DTMAX", "DTMIN", "ERMAX", "ERMIN", "ERRMAX", "CHECKN", "MM", "iRow", "PI",
+)  # fmt: skip
+T, TMAX, DT, NN, SCALE, DTMAX, DTMIN, ERMAX, ERMIN, ERRMAX, CHECKN, MM, IROW, PI = range(len(SYSTEM_VARIABLES))
+
+_NO_RESERVE = 0x4000 if os.uname().sysname == "Linux" else 0  # MAP_NORESERVE; mmap has no name for it before 3.13
+
+
+class Kind(Enum):
+    """Data types. INTEGER values are kept as whole doubles, COMPLEX as two doubles side by side."""
+
+    REAL = 1
+    INTEGER = 2
+    COMPLEX = 3
+
+
+@dataclass(slots=True, eq=False)
+class Quantity:
+    """A named scalar (`shape` is empty) or array; its numbers stand from `slot` on, in row-major order."""
+
+    name: str
+    slot: int
+    shape: tuple[int, ...] = ()
+    kind: Kind = Kind.REAL
+    is_state: bool = False
+    declared_at: Span | None = None
+
+    @property
+    def size(self) -> int:
+        """Number of elements."""
+        return prod(self.shape)
+
+    @property
+    def slots(self) -> int:
+        """Number of doubles."""
+        return self.size * (2 if self.kind is Kind.COMPLEX else 1)
+
+
+class Values:
+    """The session's quantities by name, and their numbers.
+
+    `cells[slot]` reads and writes one number quickly; `data` is the same memory as a NumPy array;
+    `defined[slot]` is 0 for a scalar nobody has assigned yet (array elements are always defined);
+    `random[0]` is the 48-bit state of `ran()`.
+    """
+
+    def __init__(self) -> None:
+        self._memory, self.capacity = _reserve()
+        view = memoryview(self._memory)
+        self.cells: memoryview[float] = view.cast("d")  # type: ignore[assignment]
+        self.data: NDArray[np.float64] = np.frombuffer(view, dtype=np.float64)
+        self.defined = bytearray(4096)
+        self.random = np.zeros(1, dtype=np.uint64)
+        self.names: dict[str, Quantity] = {}
+        self.used = 0
+        self._clear()
+
+    @property
+    def address(self) -> int:
+        """Address of slot 0."""
+        return int(self.data.ctypes.data)
+
+    def clear(self) -> None:
+        """Forget all names (`clear`, `erun`): only the system variables remain, undefined but for PI and scale."""
+        self.data[: self.used] = 0.0
+        if hasattr(self._memory, "madvise") and self.used > 1 << 20:
+            self._memory.madvise(mmap.MADV_DONTNEED, 0, _pages(self.used * 8))
+        self._clear()
+
+    def _clear(self) -> None:
+        self.names.clear()
+        self.used = 0
+        self.defined[:] = bytes(len(self.defined))
+        for name in SYSTEM_VARIABLES:
+            self.scalar(name)
+        self.assign(PI, float(np.pi))
+        self.assign(SCALE, 1.0)
+
+    def __iter__(self) -> Iterator[Quantity]:
+        return iter(list(self.names.values()))
+
+    def find(self, name: str) -> Quantity | None:
+        """Return the quantity of that name, if there is one (a scalar may still be undefined)."""
+        return self.names.get(name)
+
+    def scalar(self, name: str, kind: Kind = Kind.REAL, *, is_state: bool = False) -> Quantity:
+        """Return the quantity `name`, made as an undefined scalar if it is new."""
+        known = self.names.get(name)
+        if known is not None:
+            return known
+        slots = 2 if kind is Kind.COMPLEX else 1
+        slot = self._take(slots)
+        if len(self.defined) < self.used:
+            self.defined.extend(bytes(len(self.defined)))
+        made = self.names[name] = Quantity(name, slot, (), kind, is_state)
+        return made
+
+    def array(
+        self, name: str, shape: Sequence[int], kind: Kind = Kind.REAL, *, is_state: bool = False
+    ) -> Quantity:
+        """Make a zero-filled array. The caller has checked that the name is free. DesireError 40: no room."""
+        made = Quantity(name, 0, tuple(shape), kind, is_state)
+        made.slot = self._take(made.slots)
+        self._mark_array(made)
+        self.names[name] = made
+        return made
+
+    def alias(self, name: str, shape: Sequence[int], slot: int, *, is_state: bool = False) -> Quantity:
+        """Give existing numbers a second name (overlays and views)."""
+        made = self.names[name] = Quantity(name, slot, tuple(shape), Kind.REAL, is_state)
+        return made
+
+    def assign(self, slot: int, value: float) -> None:
+        """Set a scalar and mark it defined."""
+        self.cells[slot] = value
+        self.defined[slot] = 1
+
+    def is_defined(self, quantity: Quantity) -> bool:
+        """Whether it has a value: arrays always, scalars once assigned."""
+        return bool(quantity.shape) or bool(self.defined[quantity.slot])
+
+    def view(self, quantity: Quantity) -> NDArray[np.float64] | NDArray[np.complex128]:
+        """Return an array's numbers in its shape, sharing memory."""
+        flat = self.data[quantity.slot : quantity.slot + quantity.slots]
+        if quantity.kind is Kind.COMPLEX:
+            return flat.view(np.complex128).reshape(quantity.shape)
+        return flat.reshape(quantity.shape)
+
+    def _take(self, slots: int) -> int:
+        slot = self.used
+        if slots > self.capacity - slot:
+            raise DesireError(Diagnostic("out-of-memory", facts={"elements": slots}))
+        self.used += slots
+        return slot
+
+    def _mark_array(self, quantity: Quantity) -> None:
+        # `defined` is looked at for scalars only; arrays in the middle just need it long enough behind them
+        missing = quantity.slot + quantity.slots - len(self.defined)
+        if missing > 0:
+            self.defined.extend(bytes(missing + 4096))
+
+
+def _pages(size: int) -> int:
+    return -(-size // mmap.PAGESIZE) * mmap.PAGESIZE
+
+
+def _reserve() -> tuple[mmap.mmap, int]:
+    """Reserve address space for as many doubles as the machine's memory could hold, or what is allowed."""
+    size = _pages(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    while True:
+        try:
+            flags = mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | _NO_RESERVE
+            return mmap.mmap(-1, size, flags=flags), size // 8
+        except OSError:
+            if size < 1 << 24:
+                raise
+            size = _pages(size // 2)
