@@ -1,0 +1,70 @@
+"""What the interpreter asks of the world around it. The session implements it; tests use a small stand-in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from desire_tui.engine.diagnostics import DesireError
+    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.values import Quantity
+
+
+class Host(Protocol):
+    """Calls out of the script. Everything here may raise DesireError; the interpreter adds the place."""
+
+    rule: int
+    """`irule`, 1 if never set; `rule_is_set` tells."""
+    rule_is_set: bool
+
+    def write(self, text: str) -> None:
+        """Console output, exactly this text."""
+
+    def ask(self, prompt: str) -> str:
+        """Console input: one line without its end. EOFError: no more; Interrupted stops the script."""
+        ...
+
+    def drun(self, label: str | None, placed: Placed, *, star: bool) -> None:
+        """Make one simulation run of a segment, to its end. `Interrupted` if the user ended it."""
+
+    def reset(self) -> None:
+        """Restore t, DT and states to the start of the last run."""
+
+    def display(self, mode: str, args: Sequence[float]) -> None:
+        """Carry out a `display` statement."""
+
+    def plot(self, x: float, y: float, color: int | None) -> None:
+        """Draw one point of an interpreter plot."""
+
+    def show(self, quantity: Quantity, columns: int) -> None:
+        """Show an array as a picture."""
+
+    def note(self, text: str) -> None:
+        """Append to the notebook."""
+
+    def shell(self, command: str) -> None:
+        """Run a shell command if that is allowed (error 450 otherwise)."""
+
+    def permit(self, path: Path, mode: Literal["read", "write"]) -> Path:
+        """Return the resolved path if the program may open it (error 451 otherwise); relative to its folder."""
+        ...
+
+    def command(self, word: str, argument: str | None) -> None:
+        """Carry out a command that is about editors, files and graphs: ed, keep, load, snapshot, help …"""
+
+    def before(self, placed: Placed) -> None:
+        """Called before each statement while tracing or with breakpoints set; may wait."""
+
+    def interrupted(self) -> bool:
+        """Whether the user wants the script to end; asked at every jump back and at least every 1000 statements."""
+        ...
+
+    def warn(self, problem: DesireError) -> None:
+        """Show a problem without stopping."""
+
+
+class Interrupted(Exception):  # noqa: N818 - a user's wish, not an error
+    """The user ended the script (errors 301, 302)."""
