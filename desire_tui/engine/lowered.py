@@ -391,6 +391,11 @@ class Segment:
     names: dict[int, str] = field(default_factory=dict)
 
     @property
+    def columns(self) -> tuple[Column, ...]:
+        """What a row of samples holds behind t: the requests' variables in turn, then the stashed ones."""
+        return tuple(column for request in self.requests for column in request.columns) + self.stash
+
+    @property
     def order(self) -> int:
         """Number of states."""
         return sum(r.count for r in self.states)

@@ -1,1 +1,14 @@
-"""What a display statement means: frames, curves, colours, keys. No drawing."""
+"""What the display statements mean: frames, curves, colours, keys, points. No drawing (language.md 13)."""
+
+from __future__ import annotations
+
+from desire_tui.engine.graph.book import GraphBook
+from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, rgb
+from desire_tui.engine.graph.lines import clip_polyline, thin_columns
+from desire_tui.engine.graph.model import Curve, Frame, Graph, Key, Points, ShownArray
+from desire_tui.engine.graph.settings import DisplaySettings
+
+__all__ = [
+    "BLACK", "WHITE", "Curve", "DisplaySettings", "Frame", "Graph", "GraphBook", "Key", "Points", "Rgb",
+    "ShownArray", "clip_polyline", "rgb", "thin_columns",
+]  # fmt: skip

@@ -57,6 +57,15 @@ class RunRecord:
         count = self.count
         return self.rows[:count, 0]
 
+    def first_column(self, request: Request) -> int:
+        """Return the position in `columns` of a request's first variable: `columns` are all requests' in turn."""
+        before = 0
+        for known in self.requests:
+            if known is request:
+                break
+            before += len(known.columns)
+        return before
+
     def values(self, name: str) -> NDArray[np.float64]:
         """Samples of a requested variable so far; KeyError for a name that was not requested."""
         count = self.count

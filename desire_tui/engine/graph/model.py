@@ -1,0 +1,166 @@
+"""A graph: its frame, and what stands in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.runtime.record import RunRecord
+
+    Floats = NDArray[np.float64]
+
+FrameKind = Literal["dispt", "dispxy", "DISPXY", "plot", "picture"]
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """The window of program values that a graph shows: `left … right` by `bottom … top`."""
+
+    kind: FrameKind
+    left: float
+    right: float
+    bottom: float
+    top: float
+    scale: float
+
+    @property
+    def x_ticks(self) -> tuple[float, float, float]:
+        """Where abscissas are labelled: start, middle, end."""
+        return self.left, (self.left + self.right) / 2, self.right
+
+    @property
+    def y_ticks(self) -> tuple[float, float, float]:
+        """Where ordinates are labelled."""
+        return self.bottom, (self.bottom + self.top) / 2, self.top
+
+
+class Key(NamedTuple):
+    """A colour key: a curve's name and its colour number."""
+
+    name: str
+    color: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Curve:
+    """One curve of one run; its samples grow while the run goes on.
+
+    `frame` is the window of its own run: in a graph shared by runs (`display 2`) every curve keeps the scale
+    it was made with, as ink on a screen does. `joined`: neighbouring samples are joined by lines; maps
+    (dispxy without `d/dt`) are clouds of dots.
+    """
+
+    name: str
+    x_name: str
+    color: int
+    record: RunRecord
+    y_column: int
+    x_column: int
+    frame: Frame
+    thickness: int = 1
+    joined: bool = True
+
+    @property
+    def count(self) -> int:
+        """Samples so far."""
+        return self.record.count
+
+    def samples(self, start: int = 0, stop: int | None = None) -> tuple[Floats, Floats]:
+        """Abscissas and ordinates of samples `start … stop - 1` (default: all so far), in program units."""
+        count = self.record.count
+        rows = self.record.rows
+        stop = count if stop is None else min(stop, count)
+        return rows[start:stop, self.x_column], rows[start:stop, self.y_column]
+
+
+@dataclass(slots=True, eq=False)
+class Points:
+    """Points of an interpreter plot, in program units; rows below `count` never change."""
+
+    rows: Floats = field(default_factory=lambda: np.empty((256, 2)))
+    colors: NDArray[np.uint8] = field(default_factory=lambda: np.empty(256, dtype=np.uint8))
+    count: int = 0
+
+    def add(self, x: float, y: float, color: int) -> None:
+        """Append a point."""
+        if self.count == len(self.rows):
+            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
+            self.colors = np.concatenate([self.colors, np.empty_like(self.colors)])
+        self.rows[self.count] = x, y
+        self.colors[self.count] = color
+        self.count += 1
+
+    def so_far(self) -> tuple[Floats, Floats, NDArray[np.uint8]]:
+        """x, y and colour numbers."""
+        count = self.count
+        return self.rows[:count, 0], self.rows[:count, 1], self.colors[:count]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShownArray:
+    """A picture made by SHOW: values of `name` as rows of `columns` elements, largest magnitude `scale`.
+
+    `record` and `number` name the run that makes a film of it (`record.pictures`); `values` stands alone.
+    """
+
+    name: str
+    columns: int
+    scale: float
+    values: Floats | None = None
+    record: RunRecord | None = None
+    number: int = 0
+
+    def latest(self) -> Floats | None:
+        """Return the newest picture, rows × columns, filled up with nan; None before the first."""
+        values = self.values if self.record is None else self._newest()
+        if values is None:
+            return None
+        rows = -(-len(values) // self.columns)
+        picture = np.full(rows * self.columns, np.nan)
+        picture[: len(values)] = values
+        return picture.reshape(rows, self.columns)
+
+    def _newest(self) -> Floats | None:
+        assert self.record is not None
+        films = self.record.pictures
+        return films[-1][self.number] if films else None
+
+
+@dataclass(eq=False)
+class Graph:
+    """One page: frame and caption of its newest run; curves, points and pictures in drawing order."""
+
+    number: int
+    frame: Frame
+    caption: str = ""
+    net: int | None = 7
+    white: bool = False
+    thickness: int = 1
+    has_keys: bool = True
+    curves: list[Curve] = field(default_factory=list)
+    points: Points = field(default_factory=Points)
+    shown: list[ShownArray] = field(default_factory=list)
+    erased: int = 0
+    """Goes up when something drawn before must go: what a painter has kept is void."""
+
+    @property
+    def title(self) -> str:
+        """The line above the graph."""
+        return f"scale = {self.frame.scale:g}"
+
+    @property
+    def keys(self) -> tuple[Key, ...]:
+        """Colour keys, each name and colour once; none in graphs of one colour."""
+        if not self.has_keys:
+            return ()
+        return tuple(dict.fromkeys(Key(curve.name, curve.color) for curve in self.curves))
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing has been put on it."""
+        return not (self.curves or self.points.count or self.shown)
