@@ -1,0 +1,11 @@
+"""Help pages: one for every statement, library function, system variable, command and error.
+
+The pages are plain Markdown, built from tables: `pages/*.toml` (statements, commands, variables), the
+function library, and the error wordings. The help pane, F1, completion and `docs/` all read them here.
+"""
+
+from __future__ import annotations
+
+from desire_tui.help.topics import Kind, Topic, find, search, topics
+
+__all__ = ["Kind", "Topic", "find", "search", "topics"]

@@ -1,0 +1,174 @@
+"""Builds and finds the help pages."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any, Literal
+
+Kind = Literal["script", "DYNAMIC", "dialogue", "command", "variable", "function", "error"]
+"""Where a topic belongs. `script` statements are commands too; `dialogue` ones talk to files or the user."""
+
+HEADINGS: dict[Kind, str] = {
+    "script": "script",
+    "dialogue": "script",
+    "DYNAMIC": "DYNAMIC segments",
+    "command": "command line",
+    "variable": "system variable",
+    "function": "library function",
+    "error": "message",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """A help page. `example` is a complete program, `prints` its console output; tests hold them to it."""
+
+    name: str
+    kind: Kind
+    summary: str
+    words: tuple[str, ...] = ()
+    syntax: tuple[str, ...] = ()
+    text: str = ""
+    example: str = ""
+    prints: str = ""
+    see: tuple[str, ...] = ()
+
+    @property
+    def markdown(self) -> str:
+        """The page."""
+        parts = [f"# {self.name}", f"*{HEADINGS[self.kind]}*: {self.summary}"]
+        if self.syntax:
+            parts.append("\n".join(("```desire", *self.syntax, "```")))
+        if self.text:
+            parts.append(self.text)
+        if self.example:
+            parts.append(f"Example:\n\n```desire\n{self.example}\n```")
+        if self.prints:
+            parts.append(f"prints\n\n```\n{self.prints}\n```")
+        if self.see:
+            parts.append("See also: " + ", ".join(f"`{word}`" for word in self.see))
+        return "\n\n".join(parts) + "\n"
+
+
+@cache
+def topics() -> dict[str, Topic]:
+    """Every page by its name: statements first, then variables and commands, functions, errors by number."""
+    pages = [*_written(), *_functions(), *_errors()]
+    table = {page.name: page for page in pages}
+    assert len(table) == len(pages), "two help pages of one name"
+    return table
+
+
+def find(word: str) -> Topic | None:
+    """Return the page of a word as it stands in a program, or of `200` or `error 200`; None if there is none.
+
+    Case decides where it must (`dispxy`, `DISPXY`) and is forgiven elsewhere.
+    """
+    wanted = " ".join(word.split())
+    number = re.fullmatch(r"(?:error\s+)?(\d+)", wanted, re.IGNORECASE)
+    if number:
+        return topics().get(f"error {number[1]}")
+    return _exact().get(wanted) or _folded().get(wanted.casefold())
+
+
+def search(text: str) -> list[Topic]:
+    """Pages that hold every word of `text`, the likeliest first; all pages for an empty text."""
+    wanted = text.casefold().split()
+    ranked = [(rank, page) for page in topics().values() if (rank := _rank(page, wanted)) is not None]
+    return [page for _, page in sorted(ranked, key=lambda entry: entry[0])]
+
+
+def _rank(page: Topic, wanted: list[str]) -> int | None:
+    """0: a name; 1: begins a name; 2: in the summary; 3: somewhere; None: not all words occur."""
+    names = [word.casefold() for word in (page.name, *page.words)]
+    summary, body = page.summary.casefold(), page.markdown.casefold()
+    worst = 0
+    for word in wanted:
+        if word in names:
+            rank = 0
+        elif any(name.startswith(word) for name in names):
+            rank = 1
+        elif word in summary:
+            rank = 2
+        elif word in body:
+            rank = 3
+        else:
+            return None
+        worst = max(worst, rank)
+    return worst
+
+
+@cache
+def _exact() -> dict[str, Topic]:
+    """Every word that leads to a page. A page's own name wins over another page's further words."""
+    table = {page.name: page for page in topics().values()}
+    for page in topics().values():
+        for word in page.words:
+            table.setdefault(word, page)
+    return table
+
+
+@cache
+def _folded() -> dict[str, Topic]:
+    table: dict[str, Topic] = {}
+    for word, page in _exact().items():
+        table.setdefault(word.casefold(), page)
+    return table
+
+
+def _written() -> list[Topic]:
+    """Read the pages of `pages/*.toml`."""
+    pages = []
+    for name in ("script", "runs", "dynamic", "vectors", "display", "files", "commands"):
+        text = files(__package__).joinpath("pages", f"{name}.toml").read_text(encoding="utf-8")
+        pages += [_page(entry) for entry in tomllib.loads(text)["page"]]
+    return pages
+
+
+def _page(entry: dict[str, Any]) -> Topic:
+    kind: Kind = entry.get("kind", "script")
+    return Topic(
+        name=entry["name"],
+        kind=kind,
+        summary=entry["summary"],
+        words=tuple(entry.get("words", ())),
+        syntax=tuple(entry.get("syntax", ())),
+        text=entry.get("text", "").strip(),
+        example=entry.get("example", "").strip("\n"),
+        prints=entry.get("prints", "").strip("\n"),
+        see=tuple(entry.get("see", ())),
+    )
+
+
+def _functions() -> list[Topic]:
+    """One page for each function of the library."""
+    return []
+
+
+def _errors() -> list[Topic]:
+    """One page for each error number; several messages may share one."""
+    from desire_tui.engine.diagnostics.wording import all_wordings
+
+    by_code: dict[int, list[tuple[str, str, str]]] = {}
+    for wording in all_wordings().values():
+        by_code.setdefault(wording.code, []).append((wording.message, wording.hint, wording.explanation))
+    return [_error_page(code, by_code[code]) for code in sorted(by_code)]
+
+
+def _error_page(code: int, messages: list[tuple[str, str, str]]) -> Topic:
+    plain = list(dict.fromkeys(_readable(message) for message, _, _ in messages))
+    paragraphs: list[str] = []
+    for message, hint, explanation in messages:
+        heading = f"**{_readable(message)}**" if len(plain) > 1 else ""
+        paragraphs += [heading, f"Hint: {_readable(hint)}." if hint else "", explanation]
+    text = "\n\n".join(dict.fromkeys(part for part in paragraphs if part))
+    return Topic(name=f"error {code}", kind="error", summary="; ".join(plain), text=text)
+
+
+def _readable(template: str) -> str:
+    """Return a message template with its facts as `…`."""
+    return re.sub(r"\{[^{}]*\}", "…", template)

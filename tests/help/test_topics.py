@@ -1,0 +1,65 @@
+"""The help pages: complete, linked, found."""
+
+from __future__ import annotations
+
+from typing import get_args, get_type_hints
+
+import pytest
+
+from desire_tui.engine import nodes
+from desire_tui.engine.diagnostics.wording import all_wordings
+from desire_tui.help import find, search, topics
+
+ALIASES = {"zz": "erun", "rld": "reload", "quit": "bye", "old": "load", "MACRO": "SUBMODEL", "dimension": "ARRAY",
+           "LEARN": "DELTA", "VECTOR": "Vector", "Delta": "Vectr delta", "else": "if", "until": "repeat"}  # fmt: skip
+
+
+def keywords() -> list[str]:
+    """Every word that the syntax tree knows as the beginning of a statement."""
+    words = list(get_args(nodes.Word)) + list(get_args(get_type_hints(nodes.FileCommand)["word"]))
+    for cls in (nodes.Declare, nodes.Request, nodes.Learn):
+        words += get_args(get_type_hints(cls)["kind"])
+    return sorted(set(words) - {"compare"})
+
+
+@pytest.mark.parametrize("word", keywords())
+def test_every_keyword_has_a_page(word):
+    assert find(word) is not None
+
+
+@pytest.mark.parametrize(("alias", "name"), ALIASES.items())
+def test_an_alias_leads_to_its_statement(alias, name):
+    assert find(alias).name == name
+
+
+def test_case_decides_where_two_statements_differ_by_it_only():
+    assert find("dispxy").name == "dispxy"
+    assert find("DISPXY").name == "DISPXY"
+    assert find("tmax").name == "TMAX"
+
+
+def test_links_lead_somewhere():
+    missing = [(page.name, word) for page in topics().values() for word in page.see if find(word) is None]
+    assert missing == []
+
+
+@pytest.mark.parametrize("page", topics().values(), ids=lambda page: page.name)
+def test_a_page_says_what_it_is_about(page):
+    assert page.summary
+    assert page.markdown.startswith(f"# {page.name}\n")
+    assert page.kind == "error" or page.syntax
+    assert all(find(word) is not None for word in page.words)
+
+
+def test_every_error_number_has_a_page():
+    for wording in all_wordings().values():
+        page = find(str(wording.code))
+        assert page is find(f"error {wording.code}")
+        assert page.kind == "error"
+
+
+def test_search_puts_names_before_mentions():
+    assert search("drun")[0].name == "drun"
+    assert search("integration rule")[0].name == "irule"
+    assert search("no such word anywhere") == []
+    assert len(search("")) == len(topics())
