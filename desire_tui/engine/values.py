@@ -1,9 +1,10 @@
 """All quantities of a session in one flat array of doubles.
 
 Interpreter, compiled code and panes share it: a parameter never needs recompiling, `x` in the script and in a
-segment is the same number, overlays (`ARRAY a[n] + b[m] = ab`) are plain aliases. A large piece of address space is
-reserved once and pages are touched only as they are used, so **addresses never change** while a session lives and
-compiled code may keep them.
+segment is the same number, overlays (`ARRAY a[n] + b[m] = ab`) are plain aliases. A large piece of address
+space is reserved once and pages are touched only as they are used, so **addresses never change** while a session
+lives and compiled code may keep them. Scalars stand in its first part, arrays behind: only scalars need to know
+whether they are defined, so an array costs nothing but its own numbers.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import os
 from dataclasses import dataclass
 from enum import Enum
 from math import prod
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,11 +29,19 @@ if TYPE_CHECKING:
     from desire_tui.engine.source import Span
 
 SYSTEM_VARIABLES = (
-    "t", "TMAX", "DT", "NN", "scale", "DTMAX", "DTMIN", "ERMAX", "ERMIN", "ERRMAX", "CHECKN", "MM", "iRow", "PI",
+    "t", "TMAX", "DT", "NN", "scale", "DTMAX", "DTMIN", "ERMAX", "ERMIN", "ERRMAX", "CHECKN", "MM", "iRow",
+    "PI",
 )  # fmt: skip
-T, TMAX, DT, NN, SCALE, DTMAX, DTMIN, ERMAX, ERMIN, ERRMAX, CHECKN, MM, IROW, PI = range(len(SYSTEM_VARIABLES))
+(
+    T, TMAX, DT, NN, SCALE, DTMAX, DTMIN, ERMAX, ERMIN, ERRMAX, CHECKN, MM, IROW, PI,
+) = range(len(SYSTEM_VARIABLES))  # fmt: skip
 
-_NO_RESERVE = 0x4000 if os.uname().sysname == "Linux" else 0  # MAP_NORESERVE; mmap has no name for it before 3.13
+SCALAR_SLOTS = 1 << 22
+"""Slots below this one hold scalars: 32 MiB of address space, touched as needed."""
+_ALIGN = 8  # arrays start on a cache line
+
+_DROPPED_PAGES_ARE_ZERO = os.uname().sysname == "Linux"  # elsewhere MADV_DONTNEED is only a hint
+_NO_RESERVE = 0x4000 if os.uname().sysname == "Linux" else 0  # MAP_NORESERVE, not named before 3.13
 
 
 class Kind(Enum):
@@ -68,20 +78,23 @@ class Values:
     """The session's quantities by name, and their numbers.
 
     `cells[slot]` reads and writes one number quickly; `data` is the same memory as a NumPy array;
-    `defined[slot]` is 0 for a scalar nobody has assigned yet (array elements are always defined);
-    `random[0]` is the 48-bit state of `ran()`.
+    `defined[slot]` is 0 for a scalar nobody has assigned yet (array elements are always defined, and their slots,
+    from `SCALAR_SLOTS` on, have no place in it: ask `is_defined`);
+    `random[0]` is the 48-bit state of `ran()`; `generation` counts how often all names were cleared.
     """
 
     def __init__(self) -> None:
         self._memory, self.capacity = _reserve()
         view = memoryview(self._memory)
-        self.cells: memoryview[float] = view.cast("d")  # type: ignore[assignment]
+        self.cells: memoryview[float] = view.cast("d")
         self.data: NDArray[np.float64] = np.frombuffer(view, dtype=np.float64)
-        self.defined = bytearray(4096)
+        self.defined = bytearray(1024)
         self.random = np.zeros(1, dtype=np.uint64)
         self.names: dict[str, Quantity] = {}
-        self.used = 0
-        self._clear()
+        self.generation = 0
+        self._scalars = 0
+        self._arrays = SCALAR_SLOTS
+        self._begin()
 
     @property
     def address(self) -> int:
@@ -89,15 +102,16 @@ class Values:
         return int(self.data.ctypes.data)
 
     def clear(self) -> None:
-        """Forget all names (`clear`, `erun`): only the system variables remain, undefined but for PI and scale."""
-        self.data[: self.used] = 0.0
-        if hasattr(self._memory, "madvise") and self.used > 1 << 20:
-            self._memory.madvise(mmap.MADV_DONTNEED, 0, _pages(self.used * 8))
-        self._clear()
+        """Forget all names (`clear`, `erun`); system variables remain, undefined but for PI and scale."""
+        self._zero(0, self._scalars)
+        self._zero(SCALAR_SLOTS, self._arrays - SCALAR_SLOTS)
+        self.generation += 1
+        self._begin()
 
-    def _clear(self) -> None:
+    def _begin(self) -> None:
         self.names.clear()
-        self.used = 0
+        self._scalars = 0
+        self._arrays = SCALAR_SLOTS
         self.defined[:] = bytes(len(self.defined))
         for name in SYSTEM_VARIABLES:
             self.scalar(name)
@@ -116,22 +130,34 @@ class Values:
         known = self.names.get(name)
         if known is not None:
             return known
-        slots = 2 if kind is Kind.COMPLEX else 1
-        slot = self._take(slots)
-        if len(self.defined) < self.used:
-            self.defined.extend(bytes(len(self.defined)))
+        slot = self.unnamed(2 if kind is Kind.COMPLEX else 1)
         made = self.names[name] = Quantity(name, slot, (), kind, is_state)
         return made
+
+    def unnamed(self, slots: int) -> int:
+        """Return the first of some new, undefined scalar slots (a PROCEDURE's dummy arguments)."""
+        slot = self._scalars
+        if slot + slots > SCALAR_SLOTS:
+            raise DesireError(Diagnostic("out-of-memory", facts={"elements": slots}))
+        self._scalars += slots
+        if len(self.defined) < self._scalars:
+            self.defined.extend(bytes(len(self.defined)))
+        return slot
 
     def array(
         self, name: str, shape: Sequence[int], kind: Kind = Kind.REAL, *, is_state: bool = False
     ) -> Quantity:
         """Make a zero-filled array. The caller has checked that the name is free. DesireError 40: no room."""
-        made = Quantity(name, 0, tuple(shape), kind, is_state)
-        made.slot = self._take(made.slots)
-        self._mark_array(made)
+        made = Quantity(name, self._arrays, tuple(shape), kind, is_state)
+        if made.slots > self.capacity - self._arrays:
+            raise DesireError(Diagnostic("out-of-memory", facts={"elements": made.slots}))
+        self._arrays = -(-(made.slot + made.slots) // _ALIGN) * _ALIGN
         self.names[name] = made
         return made
+
+    def zero(self, quantity: Quantity) -> None:
+        """Fill with zeros (an array declared again)."""
+        self._zero(quantity.slot, quantity.slots)
 
     def alias(self, name: str, shape: Sequence[int], slot: int, *, is_state: bool = False) -> Quantity:
         """Give existing numbers a second name (overlays and views)."""
@@ -154,27 +180,35 @@ class Values:
             return flat.view(np.complex128).reshape(quantity.shape)
         return flat.reshape(quantity.shape)
 
-    def _take(self, slots: int) -> int:
-        slot = self.used
-        if slots > self.capacity - slot:
-            raise DesireError(Diagnostic("out-of-memory", facts={"elements": slots}))
-        self.used += slots
-        return slot
-
-    def _mark_array(self, quantity: Quantity) -> None:
-        # `defined` is looked at for scalars only; arrays in the middle just need it long enough behind them
-        missing = quantity.slot + quantity.slots - len(self.defined)
-        if missing > 0:
-            self.defined.extend(bytes(missing + 4096))
+    def _zero(self, slot: int, count: int) -> None:
+        """Zero some numbers; whole pages of a large piece are given back to the system, not written."""
+        first, last = _pages(slot * 8), (slot + count) * 8 // mmap.PAGESIZE * mmap.PAGESIZE
+        if _DROPPED_PAGES_ARE_ZERO and last - first >= 1 << 20:
+            self._memory.madvise(mmap.MADV_DONTNEED, first, last - first)
+            self.data[slot : first // 8] = 0.0
+            self.data[last // 8 : slot + count] = 0.0
+        else:
+            self.data[slot : slot + count] = 0.0
 
 
 def _pages(size: int) -> int:
     return -(-size // mmap.PAGESIZE) * mmap.PAGESIZE
 
 
+def _allowed_bytes() -> int:
+    """Memory of the machine, or of the container this runs in."""
+    size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    for limit in ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"):
+        try:
+            size = min(size, int(Path(limit).read_text(encoding="ascii")))
+        except (OSError, ValueError):
+            continue
+    return max(size, 1 << 27)
+
+
 def _reserve() -> tuple[mmap.mmap, int]:
     """Reserve address space for as many doubles as the machine's memory could hold, or what is allowed."""
-    size = _pages(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    size = _pages(_allowed_bytes())
     while True:
         try:
             flags = mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | _NO_RESERVE
