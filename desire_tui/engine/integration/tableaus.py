@@ -5,8 +5,8 @@ One step from (t, x) with step DT:
     kᵢ = f(t + cᵢ·DT, x + DT·Σⱼ aᵢⱼ·kⱼ)        x(t + DT) = x + DT·Σᵢ bᵢ·kᵢ
 
 and, for a rule with a variable step, the test difference of each state is `DT·|Σᵢ testᵢ·kᵢ|`. The rows are
-exact fractions; back ends write them out as products and sums in the order of the k's, so that all give the same
-bits.
+exact fractions; back ends write them out as products and sums in the order of the k's, so that all give the
+same bits.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ class Tableau:
     """One explicit rule.
 
     `a[i]` has i entries (strictly lower triangle); `c[0]` is 0: the pass at the step's start gives k1. `test`
-    is None for a fixed step. `dt_may_change`: the program may assign DT while a run goes on (rules 2, 3, 5), so
-    that t must be advanced from the current step instead of counted as t_start + k·DT.
+    is None for a fixed step. `dt_may_change`: the program may assign DT while a run goes on (rules 2, 3,
+    5), so that t must be advanced from the current step instead of counted as t_start + k·DT.
     """
 
     rule: int

@@ -11,7 +11,7 @@ from importlib import import_module
 
 from desire_tui.engine.diagnostics.wording.entry import Wording
 
-STAGES = ("syntax", "analysis", "script", "run", "system")
+STAGES = ("syntax", "analysis", "script", "run", "solvers", "system")
 
 
 @cache

@@ -1,0 +1,86 @@
+"""Messages of the stiff rules: CVODE, Jacobians."""
+
+from __future__ import annotations
+
+from desire_tui.engine.diagnostics.wording.entry import Wording
+
+_AT = "at t = {t:.6g} with DT = {dt:.3g}, state '{state}'"
+_DISCONTINUITY = "A jump in the right-hand side is the usual cause: put the switching statement after `step`"
+
+MESSAGES: dict[str, Wording] = {
+    "solver-missing": Wording(
+        460,
+        "rules 9 to 16 need the SUNDIALS library, which could not be loaded: {reason}",
+        "install scikit-sundae 1.2.0, or use rules 0 to 8, which need nothing",
+    ),
+    "solver-version": Wording(
+        461,
+        "rules 9 to 16 need SUNDIALS {wanted}, found {found}",
+        "install scikit-sundae 1.2.0, or use rules 0 to 8, which need nothing",
+    ),
+    "solver-gave-up": Wording(
+        220,
+        f"rule {{rule}} got nowhere {_AT}",
+        "try another rule, or look for a term that grows without bound",
+    ),
+    "solver-too-accurate": Wording(
+        221,
+        f"rule {{rule}} cannot reach this accuracy {_AT}",
+        "make ERMAX larger: doubles carry about 16 digits",
+    ),
+    "solver-error-test": Wording(
+        222,
+        f"the error test of rule {{rule}} failed again and again {_AT}",
+        "a smaller first DT, or a look at jumps and poles of the right-hand side, usually helps",
+        f"{_DISCONTINUITY}, or stop the run with `term` before a solution that grows without bound.",
+    ),
+    "solver-corrector": Wording(
+        223,
+        f"the corrector of rule {{rule}} did not converge {_AT}",
+        "rules 13 to 15 suit stiff problems; look at the JACOBIAN segment, if there is one, and try a smaller DT",
+    ),
+    "solver-singular": Wording(
+        224,
+        f"rule {{rule}} met a singular matrix {_AT}",
+        "look at the JACOBIAN segment, or use rule 15, which finds the matrix itself",
+    ),
+    "solver-linear": Wording(
+        225,
+        f"the linear equations of rule {{rule}} could not be solved {_AT}",
+        "look at the JACOBIAN segment, or use rule 15, which finds the matrix itself",
+    ),
+    "solver-derivative": Wording(
+        226,
+        f"a derivative is not a number {_AT}",
+        "look for a division by zero, a root or logarithm of a negative number, or an overflow",
+    ),
+    "solver-too-close": Wording(
+        227,
+        f"rule {{rule}} cannot make a step that small {_AT}",
+        "COMINT or DT is too small compared with t",
+    ),
+    "solver-broken": Wording(
+        228,
+        f"rule {{rule}} stopped with SUNDIALS' flag {{flag}} {_AT}",
+    ),
+    "jacobian-missing": Wording(
+        229,
+        "the segment's JACOBIAN assigns no element of an array",
+        "declare `ARRAY J[{n},{n}]` in the script and assign J[i,k] after JACOBIAN",
+    ),
+    "jacobian-shape": Wording(
+        230,
+        "'{name}' must be {n} by {n}, as there are {n} states, but it is {shape}",
+        "states count in the order of their d/dt lines, a vector state by its elements",
+    ),
+    "jacobian-wrong": Wording(
+        462,
+        "J[{row},{column}] is {given:.6g} but the derivative of d/dt {state} by {by} is {found:.6g} here",
+        "states count in the order of their d/dt lines; rule 15 needs no JACOBIAN",
+    ),
+    "jacobian-not-diagonal": Wording(
+        463,
+        "rule {rule} keeps only the Jacobian's diagonal, but it is far from diagonal: results may be wrong",
+        "use rule {better}, or compare with it",
+    ),
+}

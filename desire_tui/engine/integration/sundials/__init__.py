@@ -1,0 +1,1 @@
+"""SUNDIALS' CVODE, driven through its C interface from the libraries inside scikit-sundae's wheel."""

@@ -1,0 +1,166 @@
+"""One CVODE memory with everything that belongs to it."""
+
+from __future__ import annotations
+
+import ctypes
+import weakref
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.integration.sundials.library import libraries
+from desire_tui.engine.integration.sundials.linear import Attached, Linear
+from desire_tui.engine.integration.sundials.signatures import ADAMS, BDF, ONE_STEP, SUCCESS, address
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_FAILURES_ALLOWED = 40
+"""Failed tests in one step. CVODE's own 7 to 10 are too few where the program's DT is a wild guess."""
+
+
+@dataclass(frozen=True)
+class Callbacks:
+    """Addresses of C functions (CVRhsFn, CVEwtFn) and of the structure handed to them."""
+
+    rhs: int
+    weights: int
+    user: int = 0
+
+
+@dataclass(frozen=True)
+class Counts:
+    """What CVODE did since its last restart."""
+
+    steps: int
+    failed: int
+    """Steps tried again: error tests failed and corrector iterations that did not converge."""
+    derivative_calls: int
+    jacobian_calls: int
+    order: int
+
+
+class Solver:
+    """CVODE for `n` states at `states` (an address: the solution is written there, nothing is copied).
+
+    `rule` 9 … 12 is Adams, 13 … 16 BDF. Start it with `restart`, then call `step` again and again, or let
+    native code call `CVode` through `step_address` with `memory` and `vector`.
+    """
+
+    def __init__(self, rule: int, n: int, states: int, callbacks: Callbacks, linear: Linear) -> None:
+        self.n = n
+        self._library = library = libraries().cvode
+        core = libraries().core
+        context = ctypes.c_void_p()
+        core.SUNContext_Create(0, ctypes.byref(context))
+        core.SUNContext_ClearErrHandlers(context)  # they would write to the terminal; flags tell us enough
+        self.vector: int = library.N_VMake_Serial(n, states, context)
+        self.memory: int = library.CVodeCreate(ADAMS if rule <= 12 else BDF, context)
+        parts = _Parts(core, library, context, self.memory, self.vector)
+        self._free = weakref.finalize(self, parts.free)
+        self._set("CVodeInit", callbacks.rhs, 0.0, self.vector)
+        self._set("CVodeSetUserData", callbacks.user)
+        self._set("CVodeWFtolerances", callbacks.weights)
+        self._set("CVodeSetMaxNumSteps", -1)  # one step a call, as many as it takes
+        self._set("CVodeSetMaxErrTestFails", _FAILURES_ALLOWED)
+        self._set("CVodeSetMaxConvFails", _FAILURES_ALLOWED)
+        self._set("CVodeSetMaxHnilWarns", -1)
+        parts.attached = Attached(libraries(), context, self.memory, self.vector, n, linear)
+        self._diagonal = linear.kind == "diagonal"
+        self._matrix = linear.kind in {"dense", "band", "sparse"}
+        self._reached = ctypes.c_double()
+
+    def free(self) -> None:
+        """Give everything back now (also done when the object goes)."""
+        self._free()
+
+    def limit(self, dt_max: float, dt_min: float = 0.0) -> None:
+        """Set the largest step, 0 for none, and the smallest."""
+        self._set("CVodeSetMinStep", 0.0)
+        self._set("CVodeSetMaxStep", max(dt_max, 0.0))
+        self._set("CVodeSetMinStep", dt_min)
+
+    def restart(self, t: float, first_step: float) -> None:
+        """Begin anew, order 1, from the states at `states`."""
+        self._set("CVodeReInit", t, self.vector)
+        self._set("CVodeSetInitStep", first_step)
+
+    def step(self, t_stop: float) -> tuple[int, float]:
+        """Take one step, never beyond `t_stop`; return CVODE's flag (< 0: failed) and the time reached."""
+        self._set("CVodeSetStopTime", t_stop)
+        reached = self._reached
+        flag = self._library.CVode(self.memory, t_stop, self.vector, ctypes.byref(reached), ONE_STEP)
+        return flag, reached.value
+
+    @property
+    def last_step(self) -> float:
+        """Size of the last step taken."""
+        return self._number("CVodeGetLastStep")
+
+    def counts(self) -> Counts:
+        """Return what was done since the last restart."""
+        steps, rhs, fails = ctypes.c_long(), ctypes.c_long(), ctypes.c_long()
+        order, setups, next_order = ctypes.c_int(), ctypes.c_long(), ctypes.c_int()
+        unused = [ctypes.c_double() for _ in range(4)]
+        counted = (steps, rhs, setups, fails, order, next_order)
+        self._set("CVodeGetIntegratorStats", *map(ctypes.byref, counted), *map(ctypes.byref, unused))
+        diverged = self._count("CVodeGetNumNonlinSolvConvFails")
+        more = 0
+        if self._diagonal:
+            more = self._count("CVDiagGetNumRhsEvals")
+        elif self._matrix:
+            more = self._count("CVodeGetNumLinRhsEvals")
+        jacobians = self._count("CVodeGetNumJacEvals") if self._matrix else 0
+        return Counts(steps.value, fails.value + diverged, rhs.value + more, jacobians, order.value)
+
+    def worst_state(self) -> int:
+        """Return the number of the state with the largest weighted error estimate in the last try."""
+        errors, weights = np.zeros(self.n), np.zeros(self.n)
+        self._fetch("CVodeGetEstLocalErrors", errors)
+        self._fetch("CVodeGetErrWeights", weights)
+        return int(np.argmax(np.nan_to_num(np.abs(errors * weights), nan=np.inf)))
+
+    @property
+    def step_address(self) -> int:
+        """Address of the C function `CVode`."""
+        return address(self._library, "CVode")
+
+    def _set(self, name: str, *arguments: object) -> None:
+        flag = getattr(self._library, name)(self.memory, *arguments)
+        assert flag == SUCCESS, f"{name}{arguments} refused: {flag}"
+
+    def _number(self, name: str) -> float:
+        value = ctypes.c_double()
+        self._set(name, ctypes.byref(value))
+        return value.value
+
+    def _count(self, name: str) -> int:
+        value = ctypes.c_long()
+        self._set(name, ctypes.byref(value))
+        return value.value
+
+    def _fetch(self, name: str, out: NDArray[np.float64]) -> None:
+        context = ctypes.cast(self.vector, ctypes.POINTER(ctypes.c_void_p))[2]  # {content, ops, sunctx}
+        vector = self._library.N_VMake_Serial(self.n, out.ctypes.data, context)
+        self._set(name, vector)
+        self._library.N_VDestroy_Serial(vector)
+
+
+class _Parts:
+    """What must be given back, in order; keeps no reference to the solver, which can thus be collected."""
+
+    def __init__(
+        self, core: ctypes.CDLL, library: ctypes.CDLL, context: ctypes.c_void_p, memory: int, vector: int
+    ) -> None:
+        self._core, self._library, self._context = core, library, context
+        self._memory, self._vector = memory, vector
+        self.attached: Attached | None = None
+
+    def free(self) -> None:
+        memory = ctypes.c_void_p(self._memory)
+        self._library.CVodeFree(ctypes.byref(memory))
+        if self.attached is not None:
+            self.attached.free()
+        self._library.N_VDestroy_Serial(self._vector)
+        self._core.SUNContext_Free(ctypes.byref(self._context))
