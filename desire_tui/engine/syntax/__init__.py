@@ -1,1 +1,11 @@
-"""Source text to nodes: the only home of lark."""
+"""From text to nodes: tokenizer, grammar, parser, and back again.
+
+`parse` a program, `parse_command` a command line; `highlight` a line for an editor; `format_program` writes nodes as
+text.
+"""
+
+from __future__ import annotations
+
+from desire_tui.engine.syntax.parse import parse, parse_command
+
+__all__ = ["parse", "parse_command"]

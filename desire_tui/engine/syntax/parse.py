@@ -1,0 +1,155 @@
+"""From a program's text to its statements; every bad statement of the text is reported in one go.
+
+Lines are kept by their text: an edit parses one line anew, a second run none.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.nodes import Label, Placed, Program, SegmentText, Simple
+from desire_tui.engine.source import Source, Span
+from desire_tui.engine.syntax.automaton import Unexpected
+from desire_tui.engine.syntax.build import Misuse
+from desire_tui.engine.syntax.explain import explain
+from desire_tui.engine.syntax.shapes import statement
+from desire_tui.engine.syntax.tokens import Fault, scan
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from desire_tui.engine.nodes import Statement
+    from desire_tui.engine.syntax.tokens import Chunk
+
+    Item = tuple[Statement | Fault, int]
+    Entry = tuple[tuple[Item, ...], bool]
+
+LINES_MAX = 100_000
+"""Lines kept before the store is emptied; a program of that length still runs, only slower to start."""
+
+_lines: dict[str, Entry] = {}
+_NUMBERED = re.compile(r"[ \t]*([0-9]+)(?=[ \t\r]*\Z|[ \t]+[^\s]|--)")
+_HEADER = re.compile(r"[ \t]*(?:/[ \t]*(?:NEW)?[ \t\r]*\Z|PIC[ \t]*['\"‘’“”])")
+_STARTS_ODD = frozenset("0123456789/P \t")
+
+
+def parse(source: Source) -> Program:
+    """Parse a whole program. Never raises: problems are in the result."""
+    script: list[Placed] = []
+    segments: list[SegmentText] = []
+    problems: list[Diagnostic] = []
+    body: list[Placed] | None = script
+    jacobian: list[Placed] = []
+    opened: tuple[str | None, int] = (None, 0)
+
+    def close() -> None:
+        if body is not None and body is not script:
+            first = body if main is None else main
+            segments.append(SegmentText(opened[0], tuple(first), tuple(jacobian), opened[1]))
+
+    main: list[Placed] | None = None
+    for entry, at, number in _logical_lines(source.text):
+        for item, offset in entry[0]:
+            if isinstance(item, Fault):
+                if body is not None:
+                    problems.append(_diagnostic(item, at + offset, source))
+                continue
+            placed = Placed(item, at + offset, number)
+            if body is script:
+                if isinstance(item, Simple) and item.word == "DYNAMIC":
+                    body, opened = [], (None, placed.at)
+                else:
+                    script.append(placed)
+                continue
+            if isinstance(item, Label):
+                close()
+                body, main, jacobian, opened = [], None, [], (item.name, placed.at)
+            elif body is None:
+                continue  # commentary behind a STOP
+            elif isinstance(item, Simple) and item.word == "STOP":
+                close()
+                body = None
+            elif isinstance(item, Simple) and item.word == "JACOBIAN" and main is None:
+                main, body = body, jacobian
+            else:
+                body.append(placed)
+    close()
+    return Program(source, tuple(script), tuple(segments), tuple(problems))
+
+
+def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic, ...]]:
+    """Parse a command line: statements, and problems. A bare expression is a `Bare` node. Never raises."""
+    placed: list[Placed] = []
+    problems: list[Diagnostic] = []
+    for entry, at, _ in _logical_lines(source.text, command=True):
+        for item, offset in entry[0]:
+            if isinstance(item, Fault):
+                problems.append(_diagnostic(item, at + offset, source))
+            else:
+                placed.append(Placed(item, at + offset))
+    return tuple(placed), tuple(problems)
+
+
+def _diagnostic(fault: Fault, at: int, source: Source) -> Diagnostic:
+    return Diagnostic(fault.key, Span(at + fault.start, at + fault.end), fault.facts, source)
+
+
+def _logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, int, int | None]]:
+    """Yield each line (with its continuation lines), the offset of its text, and its line number if it has one."""
+    known = _lines.get
+    rows = text.split("\n")
+    count = len(rows)
+    at = i = 0
+    while i < count:
+        line = rows[i]
+        i += 1
+        number = None
+        next_at = at + len(line) + 1
+        if line[:1] in _STARTS_ODD and line and not command:
+            if _HEADER.match(line):
+                at = next_at
+                continue
+            found = _NUMBERED.match(line)
+            if found:
+                number = int(found[1][:9])
+                at += found.end()
+                line = line[found.end() :]
+        entry = known(line) or _parse_line(line)
+        if entry[1] and i < count:
+            parts = [line]
+            length = len(line)
+            while i < count:
+                parts.append(rows[i])
+                length += len(rows[i]) + 1
+                next_at += len(rows[i]) + 1
+                i += 1
+                if not (known(rows[i - 1]) or _parse_line(rows[i - 1]))[1]:
+                    break
+            line = "\n".join(parts)
+            entry = known(line) or _parse_line(line)
+        if entry[0]:
+            yield entry, at, number
+        at = next_at
+
+
+def _parse_line(line: str) -> Entry:
+    """Parse the statements of a logical line, and keep them."""
+    scanned = scan(line)
+    entry: Entry = (tuple((_item(chunk), chunk.base) for chunk in scanned.chunks), scanned.continues)
+    if len(_lines) > LINES_MAX:
+        _lines.clear()
+    _lines[line] = entry
+    return entry
+
+
+def _item(chunk: Chunk) -> Statement | Fault:
+    if chunk.fault is not None:
+        return chunk.fault
+    try:
+        return statement(chunk)
+    except Unexpected as problem:
+        return explain(chunk, problem.at, problem.expected)
+    except Misuse as problem:
+        return Fault(problem.key, chunk.starts[problem.first], chunk.ends[problem.last], problem.facts)

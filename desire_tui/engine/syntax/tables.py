@@ -1,0 +1,142 @@
+"""LALR tables of `desire.lark`: made by lark once, kept in the user's cache, read back without lark.
+
+lark takes 50 ms to import and 250 ms to build the tables; reading them back takes 2 ms, and then `automaton` steps
+through them. lark stays the only thing that understands the grammar file.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+from zlib import crc32
+
+FORMAT = 1
+"""Raised when the stored form below changes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A production: its left side, the number of symbols on its right, the `Builder` method for its node.
+
+    Without a method the single child stands for the whole (`?rule`) or, if `splice`, the children join the parent's.
+    """
+
+    origin: str
+    size: int
+    method: str
+    splice: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Tables:
+    """Per state: token kind → next state (≥ 0) or −1 − rule; rule name → next state. `$` is the end's kind."""
+
+    start: int
+    accept: int
+    actions: tuple[dict[str, int], ...]
+    gotos: tuple[dict[str, int], ...]
+    rules: tuple[Rule, ...]
+
+
+@cache
+def tables() -> Tables:
+    """Return the tables, from the cache if it has them for exactly this grammar."""
+    with open(os.path.join(os.path.dirname(__file__), "desire.lark"), encoding="utf-8") as file:  # noqa: PTH
+        grammar = file.read()
+    key = f"{FORMAT}-{crc32(grammar.encode()):08x}"
+    stored = _read(key)
+    if stored is None:
+        stored = _build(grammar)
+        _write(key, stored)
+    return _unpack(stored)
+
+
+def _unpack(stored: dict[str, Any]) -> Tables:
+    return Tables(
+        stored["start"],
+        stored["accept"],
+        tuple(stored["actions"]),
+        tuple(stored["gotos"]),
+        tuple(Rule(*rule) for rule in stored["rules"]),
+    )
+
+
+def _cache_file(key: str) -> str:
+    from platformdirs import user_cache_dir
+
+    return os.path.join(user_cache_dir("desire-tui"), f"grammar-{key}.json")  # noqa: PTH118 - pathlib: 3 ms
+
+
+def _read(key: str) -> dict[str, Any] | None:
+    try:
+        with open(_cache_file(key), encoding="utf-8") as file:  # noqa: PTH123 - as above
+            stored: dict[str, Any] = json.load(file)
+        _unpack(stored)
+    except (OSError, ValueError, KeyError, TypeError):
+        return None  # absent, unreadable or damaged: it is only a cache
+    return stored
+
+
+def _write(key: str, stored: dict[str, Any]) -> None:
+    """Store the tables if the cache can be written; a half-written file never gets the final name."""
+    path = _cache_file(key)
+    temporary = f"{path}.{os.getpid()}"
+    try:
+        os.makedirs(os.path.dirname(path), exist_ok=True)  # noqa: PTH103, PTH120 - as above
+        with open(temporary, "w", encoding="utf-8") as file:  # noqa: PTH123
+            json.dump(stored, file)
+        os.replace(temporary, path)  # noqa: PTH105
+    except OSError:
+        return
+
+
+def _build(grammar: str) -> dict[str, Any]:
+    """Let lark build the tables; terminals are renamed to the tokenizer's kinds (their own text)."""
+    from lark import Lark
+    from lark.lexer import Lexer
+    from lark.parsers.lalr_analysis import Shift
+
+    class NoLexer(Lexer):
+        """Tokens come from `tokens.scan`: two lexers would be two truths, and lark's cannot see context."""
+
+        def __init__(self, _: object) -> None: ...
+
+        def lex(self, *_: object) -> Any:
+            return iter(())
+
+    parser = Lark(grammar, parser="lalr", lexer=NoLexer, keep_all_tokens=True, maybe_placeholders=False)
+    table = parser.parser.parser._parse_table  # noqa: SLF001 - lark publishes the tables in no other way
+    kinds = {t.name: t.pattern.value.replace("\\", "") for t in parser.terminals if t.pattern.type == "str"}
+    kinds["$END"] = "$END"
+    rules: list[Any] = []
+    numbers: dict[Any, int] = {}
+    number_of_state = {state: i for i, state in enumerate(table.states)}
+    actions: list[dict[str, int]] = []
+    gotos: list[dict[str, int]] = []
+    for moves in table.states.values():
+        action: dict[str, int] = {}
+        goto: dict[str, int] = {}
+        for symbol, (kind, target) in moves.items():
+            if kind is Shift:
+                rule_name = symbol.islower() or symbol.startswith("__") and symbol not in kinds
+                (goto if rule_name else action)[kinds.get(symbol, symbol)] = number_of_state[target]
+                continue
+            if target not in numbers:
+                numbers[target] = len(rules)
+                origin = str(target.origin.name)
+                single = target.options.expand1 and len(target.expansion) == 1
+                method = str(target.alias or ("" if single or origin.startswith("_") else origin))
+                rules.append((origin, len(target.expansion), method, origin.startswith("_")))
+            action[kinds.get(symbol, symbol)] = -1 - numbers[target]
+        actions.append(action)
+        gotos.append(goto)
+    return {
+        "start": number_of_state[table.start_states["start"]],
+        "accept": number_of_state[table.end_states["start"]],
+        "actions": actions,
+        "gotos": gotos,
+        "rules": rules,
+    }
