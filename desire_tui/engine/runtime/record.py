@@ -49,7 +49,8 @@ class RunRecord:
     seconds: float = 0.0
     compile_seconds: float = 0.0
     message: str = ""
-    pictures: list[NDArray[np.float64]] = field(default_factory=list)
+    pictures: list[tuple[NDArray[np.float64], ...]] = field(default_factory=list)
+    """What SHOW kept: at each sample one copy of each shown array, in the order of the SHOW statements."""
 
     @property
     def t(self) -> NDArray[np.float64]:

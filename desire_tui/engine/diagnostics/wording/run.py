@@ -4,4 +4,88 @@ from __future__ import annotations
 
 from desire_tui.engine.diagnostics.wording.entry import Wording
 
-MESSAGES: dict[str, Wording] = {}
+_TMAX_PAGE = """A run lasts from t0 to t0 + TMAX. A segment with `d/dt` lines has no natural length, so the script must say it:
+
+```desire
+TMAX = 10 | DT = 0.01 | NN = 501
+drun
+```
+
+Only segments without `d/dt` choose TMAX = NN - 1 by themselves."""
+
+_FAULT_PAGE = """The run ended because a number became infinite or undefined. Everything up to that time was kept: look at the
+curves. Usual causes: a division by zero, the square root or logarithm of a negative number, a step DT too large for
+the rule (try a quarter of it, or `irule 4`), or a model whose solution really grows without bound (stop it with `term`)."""
+
+MESSAGES: dict[str, Wording] = {
+    "tmax-missing": Wording(
+        87, "TMAX is not set: how long shall the run last?", "set it before drun, for instance TMAX = 10", _TMAX_PAGE
+    ),
+    "tmax-not-positive": Wording(
+        87, "TMAX = {value:g}, but a run must last some time", "set TMAX to a number above 0", _TMAX_PAGE
+    ),
+    "dt-not-positive": Wording(
+        87, "DT = {value:g}, but a step must go forward", "set DT above 0, or leave it out: it then is half of COMINT"
+    ),
+    "nn-not-a-number": Wording(87, "NN = {value:g} is no number of samples", "set NN to 2 or more"),
+    "ermax-missing": Wording(
+        87,
+        "rule {rule} needs an error bound, but ERMAX is not set",
+        "set it before drun, for instance ERMAX = 1.0E-06",
+    ),
+    "ermax-not-positive": Wording(
+        87, "ERMAX = {value:g}, but an error bound must be above 0", "for instance ERMAX = 1.0E-06"
+    ),
+    "checkn-out-of-range": Wording(
+        93,
+        "CHECKN = {value:g}, but the segment has states 1 to {order}",
+        "CHECKN = 0 checks the relative error of all states",
+    ),
+    "dt-above-comint": Wording(
+        110,
+        "DT = {dt:g} is larger than COMINT = TMAX/(NN-1) = {comint:g}",
+        "make DT or NN smaller, or leave out DT",
+        "Samples are taken every COMINT; a step may not jump over one. Make DT a whole fraction of COMINT.",
+    ),
+    "variable-step-deadlock": Wording(
+        94,
+        "variable-step deadlock at t = {t:.6g}: state '{state}' differs by {difference:.3g} > ERMAX = {ermax:g}"
+        " even with DT = {dt:.3g}",
+        "make ERMAX larger or DTMIN smaller; a jump in the right-hand side belongs after `step`",
+        "Rules 4, 7 and 8 halve DT until the test difference is below ERMAX, but never below DTMIN (DT/16 if it is"
+        " not set). The difference that could not be reduced is in ERRMAX.",
+    ),
+    "not-finite": Wording(
+        300,
+        "'{name}' became {what} at t = {t:.6g}",
+        "the samples before are kept; a smaller DT or another rule may help",
+        _FAULT_PAGE,
+    ),
+    "stopped-by-user": Wording(301, "stopped by the user"),
+    "delay-too-long": Wording(
+        105,
+        "the delay {tau:g} needs {needed} elements, but '{buffer}' has {count}",
+        "declare it larger: ARRAY {buffer}[{needed}]",
+        "A delay buffer keeps one value for each step (tdelay) or communication point (delay) of the delay time.",
+    ),
+    "delay-negative": Wording(105, "the delay {tau:g} is no time to wait", "a delay must be 0 or more"),
+    "delay-variable-step": Wording(
+        122,
+        "tdelay needs a constant DT, but rule {rule} changes it",
+        "use irule 1, 2, 3 or 5, or `delay`, which counts communication points",
+    ),
+    "too-many-samples": Wording(
+        470,
+        "NN = {nn} samples of {columns} variables need {gigabytes:.1f} GB; a run keeps at most {most:.1f} GB",
+        "make NN smaller, or set MM to keep only every MM-th sample",
+    ),
+    "stash-missing": Wording(
+        92, "there is no stash file {path}", "a run with a `stash` line writes it (but not `drun *`)"
+    ),
+    "stash-unreadable": Wording(92, "{path} is no stash file", "a run with a `stash` line writes a new one"),
+    "stash-narrow": Wording(
+        92,
+        "{path} holds {found} time histories, but {wanted} are to be recovered",
+        "the k-th recovered variable takes the k-th stashed one",
+    ),
+}

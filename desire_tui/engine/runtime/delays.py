@@ -1,0 +1,72 @@
+"""How many records back a delay line reads: found at the start of each run (language.md 9.2)."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.lowered import Const, DelayLine, Load, Op, Set
+from desire_tui.engine.runtime.faults import actions
+from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP
+from desire_tui.engine.values import DT
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.lowered import Segment, Value
+    from desire_tui.engine.runtime.plan import Plan
+    from desire_tui.engine.values import Values
+
+_OPERATIONS: dict[str, Callable[..., float]] = {
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "div": lambda a, b: a / b if b else math.nan,
+    "neg": lambda a: -a,
+    "pow": math.pow,
+    "ipow": math.pow,
+    "abs": abs,
+    "sqrt": lambda a: math.sqrt(a) if a >= 0 else math.nan,
+    "max": max,
+    "min": min,
+}
+
+
+def lags(segment: Segment, plan: Plan, values: Values) -> dict[int, int]:
+    """Return the lag of each delay line by its counter. DesireError 105: buffer too short; 122: DT not constant."""
+    found: dict[int, int] = {}
+    changes_dt = any(isinstance(a, Set) and a.slot == DT for a in actions(segment.body))
+    for line in actions(segment.body):
+        if not isinstance(line, DelayLine):
+            continue
+        if line.per_step and (changes_dt or plan.rule in VARIABLE_STEP | VARIABLE_ORDER):
+            raise _error("delay-variable-step", segment, line, rule=plan.rule)
+        per_step = line.per_step and plan.rule != DUMMY
+        tau = _evaluate(line.tau, values)
+        if not (math.isfinite(tau) and tau >= 0.0):
+            raise _error("delay-negative", segment, line, tau=tau)
+        lag = math.floor(tau / (plan.dt if per_step else plan.comint) + ROUNDING)
+        if lag > line.count:
+            name = segment.names.get(line.buffer_slot, "buffer")
+            raise _error("delay-too-long", segment, line, tau=tau, needed=lag, buffer=name, count=line.count)
+        found[line.counter] = lag
+    return found
+
+
+def _evaluate(value: Value, values: Values) -> float:
+    match value:
+        case Const():
+            return value.value
+        case Load():
+            return values.cells[value.slot]
+        case Op() if value.name in _OPERATIONS:
+            try:
+                return float(_OPERATIONS[value.name](*(_evaluate(a, values) for a in value.args)))
+            except (OverflowError, ValueError):
+                return math.nan
+    return math.nan
+
+
+def _error(key: str, segment: Segment, line: DelayLine, **facts: object) -> DesireError:
+    return DesireError(Diagnostic(key, line.where.span, facts, segment.source))

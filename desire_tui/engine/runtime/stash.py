@@ -1,0 +1,76 @@
+"""Stash files: time histories kept between runs, programs and sessions (book 1.3.7.3; the form is this project's).
+
+NPY, samples × variables, so that other tools read them. The k-th recovered variable takes the k-th stashed
+one.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.lowered import Get
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.lowered import Column, Segment
+    from desire_tui.engine.values import Values
+
+
+def write_stash(path: Path, histories: NDArray[np.float64]) -> None:
+    """Write the file as a whole, or leave the old one. DesireError 106."""
+    temporary = path.with_name(path.name + ".part")
+    try:
+        with temporary.open("wb") as file:
+            np.save(file, np.ascontiguousarray(histories), allow_pickle=False)
+        os.replace(temporary, path)  # noqa: PTH105 - the atomic replacement on every platform
+    except OSError as reason:
+        temporary.unlink(missing_ok=True)
+        raise DesireError(
+            Diagnostic("file-unwritable", facts={"path": path, "reason": reason.strerror or reason})
+        ) from None
+
+
+def read_stash(path: Path, wanted: tuple[Column, ...], segment: Segment) -> NDArray[np.float64]:
+    """Return the file's samples × variables. DesireError 92: missing, unreadable or too narrow."""
+    where = wanted[0].where.span
+    facts: dict[str, object] = {"path": path, "wanted": len(wanted)}
+    if not path.exists():
+        raise DesireError(Diagnostic("stash-missing", where, facts, segment.source))
+    try:
+        found = np.load(path, allow_pickle=False)
+    except (OSError, ValueError, EOFError):
+        raise DesireError(Diagnostic("stash-unreadable", where, facts, segment.source)) from None
+    if found.ndim != 2 or found.dtype != np.float64:
+        raise DesireError(Diagnostic("stash-unreadable", where, facts, segment.source))
+    if found.shape[1] < len(wanted):
+        facts["found"] = found.shape[1]
+        raise DesireError(Diagnostic("stash-narrow", where, facts, segment.source))
+    return np.asarray(found, dtype=np.float64)
+
+
+def with_recovery(segment: Segment, samples: int, values: Values) -> tuple[Segment, tuple[int, ...]]:
+    """Return the segment with its `recover` line as `get` statements, and the slots to fill with the histories.
+
+    The arrays have no name: they are nobody's quantities.
+    """
+    slots = []
+    for column in segment.recover:
+        hidden = f"recover {column.name}"
+        slots.append(values.array(hidden, (samples,)).slot)
+        del values.names[hidden]
+    gets = tuple(
+        Get(column.slot, slot, samples, segment.counters + number, column.where)
+        for number, (column, slot) in enumerate(zip(segment.recover, slots, strict=True))
+    )
+    changed = replace(
+        segment, body=gets + segment.body, counters=segment.counters + len(gets), recover=()
+    )
+    return changed, tuple(slots)

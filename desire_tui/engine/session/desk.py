@@ -1,0 +1,89 @@
+"""What lies on the desk: the active program, its folder, its compiled segments, the notebook."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.session.journal import Journal
+from desire_tui.engine.session.segments import Segments
+from desire_tui.engine.source import Source
+from desire_tui.engine.values import Values
+
+if TYPE_CHECKING:
+    from desire_tui.engine.analysis import Structure
+    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.session.permissions import Permissions
+
+_NO_SOURCE = Source("", "<none>")
+
+
+class Desk:
+    """State of a session that belongs to the program rather than to a run."""
+
+    def __init__(self, backend: str, folder: Path | None, permissions: Permissions) -> None:
+        self.values = Values()
+        self.segments = Segments(self.values, backend)
+        self.permissions = permissions
+        self.program: Program | None = None
+        self.structure: Structure | None = None
+        self.command: Source | None = None
+        """The command line being carried out, None while the script runs."""
+        self.overrides: dict[str, float] = {}
+        self.parse_seconds = 0.0
+        self.journal = Journal()
+        self._folder = folder
+
+    @property
+    def source(self) -> Source:
+        """The active program's text."""
+        return self.program.source if self.program is not None else _NO_SOURCE
+
+    @property
+    def folder(self) -> Path:
+        """Where relative file names start: the program's folder, or the one given, or the working directory."""
+        path = self.source.path
+        if path is not None:
+            return path.expanduser().resolve().parent
+        return self._folder if self._folder is not None else Path.cwd()
+
+    @property
+    def stash_path(self) -> Path:
+        """Where `stash` writes and `recover` reads: beside the program, `NAME.stash.npy`."""
+        path = self.source.path
+        return self.folder / f"{path.stem if path is not None else 'untitled'}.stash.npy"
+
+    def runnable(self) -> tuple[Program, Structure]:
+        """Return the program and its structure. DesireError 215: there is none; or its syntax problems."""
+        if self.program is None or self.structure is None:
+            raise DesireError(Diagnostic("no-program"))
+        stopping = [p for p in (*self.program.problems, *self.structure.problems) if p.severity == "error"]
+        if stopping:
+            raise DesireError(*(p.within(self.program.source) for p in stopping))
+        return self.program, self.structure
+
+    def source_of(self, placed: Placed) -> Source:
+        """Return the text a statement stands in: the command line's or the program's."""
+        del placed
+        return self.command if self.command is not None else self.source
+
+    def line_of(self, placed: Placed) -> int:
+        """Return a statement's line in the program; 0 for a command."""
+        return 0 if self.command is not None else self.source.position(placed.at).row
+
+    def overridden(self, program: Program) -> Program:
+        """Return the program with the script's own assignments of overridden names replaced."""
+        if not self.overrides:
+            return program
+        from desire_tui.engine.nodes import Assign, Name, Number
+
+        script = []
+        for placed in program.script:
+            node = placed.node
+            if isinstance(node, Assign) and isinstance(node.target, Name) and node.target.name in self.overrides:
+                value = Number(self.overrides[node.target.name], node.value.start, node.value.end)
+                placed = placed._replace(node=Assign(node.target, value, node.start, node.end))  # noqa: PLW2901
+            script.append(placed)
+        return replace(program, script=tuple(script))

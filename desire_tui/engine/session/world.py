@@ -1,0 +1,251 @@
+"""What scripts can reach: the interpreter's host."""
+
+from __future__ import annotations
+
+import subprocess
+from time import perf_counter
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.runtime import listing
+from desire_tui.engine.runtime.record import RunRecord
+from desire_tui.engine.runtime.run import Simulator
+from desire_tui.engine.runtime.stash import write_stash
+from desire_tui.engine.session.status import State
+from desire_tui.engine.values import SCALE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from desire_tui.engine.graph import GraphBook
+    from desire_tui.engine.lowered import Request, Segment
+    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.runtime.control import Control
+    from desire_tui.engine.session.desk import Desk
+    from desire_tui.engine.session.listener import Listener
+    from desire_tui.engine.values import Quantity, Values
+
+RUNS_BYTES_MAX = 1 << 30
+"""Samples of all runs kept; the oldest go first."""
+_SHELL_POLL_SECONDS = 0.05
+
+
+class World:
+    """Implements `interpreter.Host` for a session. Lives on the session's thread."""
+
+    def __init__(self, desk: Desk, listener: Listener, control: Control, graphs: GraphBook) -> None:
+        self._desk = desk
+        self._listener = listener
+        self._control = control
+        self._graphs = graphs
+        self._values: Values = desk.values
+        self.simulator = Simulator(desk.values, control)
+        self.rule = 1
+        self.rule_is_set = False
+        self.state = State.IDLE
+        self.runs: list[RunRecord] = []
+        self.runs_made = 0
+        self.carry_out: Callable[[str, str | None], None] = _nothing
+        self.write_to_channel: Callable[[int, str], None] = _nothing
+
+    # ------------------------------------------------------------------ runs
+
+    def drun(self, label: str | None, placed: Placed, *, star: bool) -> None:
+        """Make one run of a segment, to its end."""
+        before, self.state = self.state, State.COMPILING
+        try:
+            self._run(label, placed, star=star)
+        finally:
+            self.state = before
+
+    def _run(self, label: str | None, placed: Placed, *, star: bool) -> None:
+        desk, began = self._desk, perf_counter()
+        program, structure = desk.runnable()
+        try:
+            segment = desk.segments.lowered(program, structure, label)
+        except DesireError as error:
+            raise _placed_at(error, desk, placed) from None
+        segment = desk.segments.recovering(segment, desk.stash_path)
+        plan = self.simulator.defaults.plan(segment, self.rule, desk.source_of(placed), placed.span())
+        model = desk.segments.model(segment, plan.rule)
+        self.runs_made += 1
+        record = RunRecord(
+            number=self.runs_made, segment=label, line=desk.line_of(placed), requests=segment.requests,
+            columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule, scale=plan.scale,
+            t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt, compile_seconds=perf_counter() - began,
+        )  # fmt: skip
+        self._keep(record)
+        graph = self._graphs.begin_run(record, segment.pictures)
+        lister = _Lister(record, self)
+        self.state = State.RUNNING
+        self._listener.run_started(record)
+        if graph is not None:
+            self._listener.graph_changed(graph)
+        try:
+            finished = self.simulator.run(model, segment, plan, record, lister)
+        except DesireError as error:
+            record.ended = "failed"
+            record.message = record.message or error.diagnostics[0].message
+            raise _placed_at(error, desk, placed) from None
+        finally:
+            desk.journal.run_ended(record)
+            self._listener.run_ended(record)
+        if not finished:
+            raise Interrupted
+        if segment.stash and not star:
+            self._stash(segment, record)
+
+    def _stash(self, segment: Segment, record: RunRecord) -> None:
+        first = 1 + len(record.columns) - len(segment.stash)
+        write_stash(self._desk.stash_path, record.rows[: record.count, first:])
+
+    def _keep(self, record: RunRecord) -> None:
+        self.runs.append(record)
+        total = 0
+        for place in range(len(self.runs) - 1, -1, -1):
+            total += self.runs[place].rows.nbytes
+            if total > RUNS_BYTES_MAX:
+                del self.runs[: place + 1]
+                break
+
+    def reset(self) -> None:
+        """Restore t, DT and states to the start of the last run."""
+        self.simulator.reset()
+
+    # ------------------------------------------------------------------ console
+
+    def write(self, text: str) -> None:
+        """Console output."""
+        self._listener.console_text(text)
+
+    def ask(self, prompt: str) -> str:
+        """Console input."""
+        before, self.state = self.state, State.ASKING
+        try:
+            return self._listener.ask(prompt)
+        finally:
+            self.state = before
+
+    def note(self, text: str) -> None:
+        """Append to the notebook."""
+        self._desk.journal.note(text)
+        self._listener.noted(text)
+
+    def warn(self, problem: DesireError) -> None:
+        """Show a problem without stopping."""
+        self._listener.problems(problem.diagnostics)
+
+    # ------------------------------------------------------------------ graphs
+
+    def display(self, mode: str, args: Sequence[float]) -> None:
+        """Carry out a `display` statement."""
+        changed = self._graphs.display(mode, args, self._scale)
+        if changed and self._graphs.current is not None:
+            self._listener.graph_changed(self._graphs.current)
+
+    def plot(self, x: float, y: float, color: int | None) -> None:
+        """Draw one point."""
+        before = self._graphs.current
+        self._graphs.plot(x, y, color, self._scale)
+        if self._graphs.current is not before:
+            assert self._graphs.current is not None
+            self._listener.graph_changed(self._graphs.current)
+
+    def show(self, quantity: Quantity, columns: int) -> None:
+        """Show an array as a picture."""
+        values = np.array(self._values.view(quantity).real, dtype=np.float64).ravel()
+        width = columns if columns > 0 else (quantity.shape[-1] if quantity.shape else 1)
+        self._graphs.show(quantity.name, values, width, self._scale)
+        assert self._graphs.current is not None
+        self._listener.graph_changed(self._graphs.current)
+
+    @property
+    def _scale(self) -> float:
+        return abs(self._values.cells[SCALE]) or 1.0
+
+    # ------------------------------------------------------------------ the machine
+
+    def shell(self, command: str) -> None:
+        """Run a shell command, its output to the console; Ctrl-C ends it."""
+        self._desk.permissions.shell_command(command, self._listener.permit)
+        process = subprocess.Popen(  # noqa: S602 - a shell is what the statement is for; permission was asked
+            command, shell=True, cwd=self._desk.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )  # fmt: skip
+        while True:
+            try:
+                output, _ = process.communicate(timeout=_SHELL_POLL_SECONDS)
+                break
+            except subprocess.TimeoutExpired:
+                if self._control.ending:
+                    process.kill()
+        self.write(output.decode(errors="replace"))
+        if self._control.ending:
+            raise Interrupted
+        if process.returncode:
+            facts = {"command": command, "status": process.returncode}
+            raise DesireError(Diagnostic("shell-failed", facts=facts))
+
+    def permit(self, path: Path, mode: Literal["read", "write"]) -> Path:
+        """Return the resolved path if the program may open it."""
+        return self._desk.permissions.file(path, mode, self._desk.folder, self._listener.permit)
+
+    def command(self, word: str, argument: str | None) -> None:
+        """Carry out a command that is no statement."""
+        self.carry_out(word, argument)
+
+    def before(self, placed: Placed) -> None:
+        """Nothing to do: a traced script stops like one at a STOP."""
+
+    def interrupted(self) -> bool:
+        """Whether the script is to end; waits while paused."""
+        if self._control.paused:
+            before, self.state = self.state, State.PAUSED
+            self._control.wait()
+            self.state = before
+        return self._control.ending
+
+
+class _Lister:
+    """Writes the samples of a `type` request as they come."""
+
+    def __init__(self, record: RunRecord, world: World) -> None:
+        self._world = world
+        self._request: Request | None = next((r for r in record.requests if r.kind == "type"), None)
+        if self._request is not None:
+            self._first = record.first_column(self._request)
+            self._write(listing.header(self._request) + "\n")
+
+    def block(self, record: RunRecord, first_row: int) -> None:
+        if self._request is None:
+            return
+        rows = record.rows[first_row : record.count]
+        self._write(listing.lines(rows, self._first, len(self._request.columns)))
+
+    def _write(self, text: str) -> None:
+        assert self._request is not None
+        if self._request.channel is None:
+            self._world.write(text)
+        else:
+            self._world.write_to_channel(self._request.channel, text)
+
+
+def _placed_at(error: DesireError, desk: Desk, placed: Placed) -> DesireError:
+    """Place problems that have no place of their own at the drun."""
+    source = desk.source_of(placed)
+    return DesireError(
+        *(
+            d if d.span is not None else Diagnostic(d.key, placed.span(), d.facts, source, d.severity, d.related)
+            for d in error.diagnostics
+        )
+    )
+
+
+def _nothing(*_: object) -> None:
+    return
+
+
