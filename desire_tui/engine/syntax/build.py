@@ -19,20 +19,20 @@ if TYPE_CHECKING:
 class Token(str):
     """A token's text that knows its kind and its number in the statement."""
 
-    __slots__ = ("index", "kind")
+    __slots__ = ("kind", "number")
     kind: str
-    index: int
+    number: int
 
 
 class NumberToken(float):
     """A number's value that knows its token."""
 
-    __slots__ = ("index", "kind")
+    __slots__ = ("kind", "number")
     kind: str
-    index: int
+    number: int
 
 
-Value = Union[n.Node, Token, list["Value"]]
+Value = Union[n.Node, Token, list[Any]]
 Kids = list[Any]
 _EXPRESSIONS = (
     n.Number, n.Text, n.Name, n.Element, n.Call, n.Unary, n.Binary, n.Transposed, n.Shifted, n.RowOf, n.Pair,
@@ -99,7 +99,7 @@ class Builder:
     def token(self, kind: str, text: str, index: int) -> Token:
         """Wrap a token."""
         token = Token(text)
-        token.kind, token.index = kind, index
+        token.kind, token.number = kind, index
         return token
 
     def make(self, method: str, kids: Kids, first: int, last: int) -> n.Node:
@@ -111,7 +111,7 @@ class Builder:
     def number(self, kids: Kids, first: int, last: int) -> n.Node:
         token: Token = kids[0]
         value = NumberToken(float(token) if token.kind == NUMBER else octal_value(token))
-        value.kind, value.index = token.kind, token.index
+        value.kind, value.number = token.kind, token.number
         return n.Number(value, first, last)
 
     def name(self, kids: Kids, first: int, last: int) -> n.Node:
@@ -127,9 +127,9 @@ class Builder:
         return n.Call(kids[0], tuple(map(_plain, _split(kids[2:-1]))), first, last)
 
     def group(self, kids: Kids, first: int, last: int) -> n.Node:
-        inner: n.Node = kids[1]
+        inner: Any = kids[1]
         inner.start, inner.end = first, last  # carets include the parentheses
-        return inner
+        return cast("n.Node", inner)
 
     def transposed(self, kids: Kids, first: int, last: int) -> n.Node:
         return n.Transposed(kids[0], first, last)
@@ -255,7 +255,7 @@ class Builder:
         return n.Note(_items(kids[1:]), first, last)
 
     def item(self, kids: Kids, first: int, last: int) -> n.Node:
-        form = kids[0].kind if len(kids) > 1 else ""
+        form: Any = kids[0].kind if len(kids) > 1 else ""
         return n.WriteItem(_plain(kids[-1]), form, "", first, last)
 
     def connect(self, kids: Kids, first: int, last: int) -> n.Node:
@@ -333,11 +333,11 @@ class Builder:
         """`func y = F(x` means func1(x; F); `func2 f = F(x, y; X, Y` means func2(x, y; F, X, Y)."""
         array: Token = kids[3]
         arguments = list(map(_plain, _nodes(kids[5:])))
-        table = n.Name(array, array.index, array.index)
+        table = n.Name(array, array.number, array.number)
         if kids[0].kind == "func":
-            call = n.Call("func1", (*arguments, table), array.index, last)
+            call = n.Call("func1", (*arguments, table), array.number, last)
         else:
-            call = n.Call("func2", (*arguments[:2], table, *arguments[2:]), array.index, last)
+            call = n.Call("func2", (*arguments[:2], table, *arguments[2:]), array.number, last)
         return n.FunctionTable(kids[1], call, first, last)
 
     def term(self, kids: Kids, first: int, last: int) -> n.Node:
@@ -371,10 +371,10 @@ def _mask(kids: Kids) -> tuple[str | None, Kids]:
 
 def _items(kids: Kids) -> tuple[n.WriteItem, ...]:
     """Give each item the separator behind it."""
-    items: list[n.WriteItem] = []
+    items: list[Any] = []
     for kid in kids:
         if isinstance(kid, Token):
-            items[-1].separator = kid.kind  # type: ignore[assignment]  # a pattern is finished here
+            items[-1].separator = kid.kind
         else:
             items.append(kid)
     return tuple(items)

@@ -48,19 +48,20 @@ def statement(chunk: Chunk) -> nodes.Statement:
 def _filled(part: Any, chunk: Chunk) -> Any:
     """Copy a pattern with this statement's texts and offsets: worth it for a shape that is seen only once."""
     if isinstance(part, nodes.Node):
+        record: Any = part
         values = [
             chunk.starts[part.start] if name == "start" else chunk.ends[part.end] if name == "end"
-            else _filled(getattr(part, name), chunk)
-            for name in part.__slots__
+            else _filled(getattr(record, name), chunk)
+            for name in record.__slots__
         ]  # fmt: skip
         return type(part)(*values)
     if isinstance(part, tuple):
         return tuple(_filled(item, chunk) for item in part)
     if isinstance(part, Token):
-        text = chunk.texts[part.index]
+        text = chunk.texts[part.number]
         return text[1:-1] if part.kind == STRING else text
     if isinstance(part, NumberToken):
-        text = chunk.texts[part.index]
+        text = chunk.texts[part.number]
         return float(text) if part.kind == NUMBER else octal_value(text)
     return part
 
@@ -74,17 +75,18 @@ def _generate(pattern: nodes.Statement) -> Maker:
 def _code(part: Any) -> str:
     """Write the constructor call. Only class names, token numbers and this project's literals get into the code."""
     if isinstance(part, nodes.Node):
+        record: Any = part
         values = [
             f"s[{part.start:d}]" if name == "start" else f"e[{part.end:d}]" if name == "end"
-            else _code(getattr(part, name))
-            for name in part.__slots__
+            else _code(getattr(record, name))
+            for name in record.__slots__
         ]  # fmt: skip
         return f"{type(part).__name__}({', '.join(values)})"
     if isinstance(part, tuple):
         return f"({''.join(_code(item) + ', ' for item in part)})"
     if isinstance(part, Token):
-        return f"v[{part.index:d}]" + ("[1:-1]" if part.kind == STRING else "")
+        return f"v[{part.number:d}]" + ("[1:-1]" if part.kind == STRING else "")
     if isinstance(part, NumberToken):
-        return f"{'float' if part.kind == NUMBER else 'octal_value'}(v[{part.index:d}])"
+        return f"{'float' if part.kind == NUMBER else 'octal_value'}(v[{part.number:d}])"
     assert part is None or isinstance(part, (bool, str))
     return repr(part)

@@ -126,7 +126,13 @@ def scan(text: str) -> Line:
     chunks: list[Chunk] = []
     comments: list[tuple[int, int]] = []
     match = _TOKEN.match
-    pos, chunk, words, in_if, depth = 0, None, None, False, 0
+    pos, words, in_if, depth, base = 0, None, False, 0, 0
+    chunk: Chunk | None = None
+    # The open chunk's lists, in local names: this loop is the hot one of a cold start, and calls would double it.
+    kinds: list[str]
+    texts: list[str]
+    starts: list[int]
+    ends: list[int]
     if len(text) > LINE_MAX:
         chunks.append(Chunk(0, fault=Fault("line-too-long", 0, 1, {"limit": LINE_MAX})))
         return Line(chunks, comments, continues=False)
@@ -147,6 +153,7 @@ def scan(text: str) -> Line:
         if chunk is None:
             chunk = Chunk(start)
             chunks.append(chunk)
+            base, kinds, texts, starts, ends = start, chunk.kinds, chunk.texts, chunk.starts, chunk.ends
             if group == 1:
                 kind = KEYWORDS.get(token)
                 pos = _start(chunk, text, token, kind, start, pos)
@@ -170,15 +177,23 @@ def scan(text: str) -> Line:
                 chunks.append(chunk)
                 chunk = None
                 continue
-            chunk.add(NAME, token, start, pos)
+            kinds.append(NAME)
+            texts.append(token)
+            starts.append(start - base)
+            ends.append(pos - base)
         elif group == 2:
-            chunk.add(NUMBER, token, start, pos)
+            kinds.append(NUMBER)
+            texts.append(token)
+            starts.append(start - base)
+            ends.append(pos - base)
         elif group == 4:
-            chunk.add(token, token, start, pos)
+            kinds.append(token)
+            texts.append(token)
+            starts.append(start - base)
+            ends.append(pos - base)
             if token in _OPEN:
                 depth += 1
                 if depth > DEPTH_MAX and chunk.fault is None:
-                    base = chunk.base
                     chunk.fault = Fault("nested-too-deep", start - base, pos - base, {"limit": DEPTH_MAX})
             elif token in ")]}":
                 depth -= 1
@@ -198,9 +213,6 @@ def _start(chunk: Chunk, text: str, token: str, kind: str | None, start: int, po
         chunk.add("d/dt", "d/dt", start, found.end())
         return found.end()
     if kind is None or _is_variable(text, pos):
-        if token == "PIC":
-            chunk.add(NAME, token, start, pos)
-            return pos
         chunk.add(NAME, token, start, pos)
         return pos
     second = _SECOND_WORD.get(token)
