@@ -1,1 +1,7 @@
 """Nodes to a lowered program: names, kinds, shapes, order, guards."""
+
+from __future__ import annotations
+
+from desire_tui.engine.analysis.slices import derivative_slice, full_pass, step_slice, tail_pass
+
+__all__ = ["derivative_slice", "full_pass", "step_slice", "tail_pass"]

@@ -1,0 +1,173 @@
+"""Collects a segment's actions while its statements are lowered: guards, counters, requests, held derivatives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetVec, Vec
+
+if TYPE_CHECKING:
+    from desire_tui.engine.analysis.context import Context
+    from desire_tui.engine.analysis.states import StateTable
+    from desire_tui.engine.lowered import Action, Column, Picture, Request, Value, Where
+    from desire_tui.engine.source import Span
+
+GuardKind = Literal["step", "out", "sample", "if"]
+Path = tuple[tuple[int, bool], ...]
+
+
+@dataclass
+class OpenGuard:
+    """A guard whose end has not been reached. `serial` numbers it, `otherwise` tells that `else` was passed."""
+
+    kind: GuardKind
+    where: Where
+    serial: int
+    outer: list[Action]
+    saved: tuple[dict[str, Load], set[int], set[tuple[int, int]]]
+    condition: Value | None = None
+    every: int = 1
+    otherwise: bool = False
+    then: tuple[Action, ...] = ()
+    after_then: tuple[dict[str, Load], set[int], set[tuple[int, int]]] | None = None
+
+
+@dataclass
+class Builder:
+    """What one segment becomes, piece by piece."""
+
+    context: Context
+    states: StateTable
+    rule: int | None
+    body: list[Action] = field(default_factory=list)
+    guards: list[OpenGuard] = field(default_factory=list)
+    counters: int = 0
+    terms: int = 0
+    serials: int = 0
+    requests: list[Request] = field(default_factory=list)
+    pictures: list[Picture] = field(default_factory=list)
+    stash: list[Column] = field(default_factory=list)
+    recover: list[Column] = field(default_factory=list)
+    once_only: dict[str, Span] = field(default_factory=dict)
+    derivative_paths: dict[tuple[int, int], list[Path]] = field(default_factory=dict)
+    names: dict[int, str] = field(default_factory=dict)
+    _held: dict[tuple[int, int], tuple[int, Where]] = field(default_factory=dict)
+
+    def counter(self) -> int:
+        """Return the number of a new history position."""
+        self.counters += 1
+        return self.counters - 1
+
+    # ------------------------------------------------------------------------------------------ guards
+
+    @property
+    def path(self) -> Path:
+        """The guards around the present line, and which branch of each."""
+        return tuple((g.serial, g.otherwise) for g in self.guards)
+
+    def open(self, kind: GuardKind, where: Where, condition: Value | None = None, every: int = 1) -> None:
+        """Begin a guard."""
+        self.serials += 1
+        saved = self.context.flow.snapshot()
+        self.guards.append(OpenGuard(kind, where, self.serials, self.body, saved, condition, every))
+        self.body = []
+
+    def otherwise(self) -> bool:
+        """Turn the innermost `if` at an `else`; False if there is none open."""
+        inner = self._close_down_to_if()
+        if inner is None or not self.guards or self.guards[-1].otherwise:
+            return False
+        guard = self.guards[-1]
+        flow = self.context.flow
+        guard.then, guard.after_then, guard.otherwise = tuple(self.body), flow.snapshot(), True
+        flow.restore(guard.saved)
+        guard.saved = flow.snapshot()
+        self.body = []
+        self._reopen(inner)
+        return True
+
+    def end_if(self) -> bool:
+        """Close the innermost `if`; OUT, SAMPLE and step inside it go on behind it."""
+        inner = self._close_down_to_if()
+        if inner is None:
+            return False
+        self._close()
+        self._reopen(inner)
+        return True
+
+    def finish(self) -> tuple[Action, ...]:
+        """Close what is open and return the body; derivatives held under guards come last."""
+        while self.guards:
+            self._close()
+        for (slot, count), (held, where) in self._held.items():
+            number = self.states.number(slot)
+            if number is not None:
+                self.body.append(
+                    Deriv(number, Load(held), where)
+                    if count == 1
+                    else DerivVec(number, count, Vec(held, count), where)
+                )
+        return tuple(self.body)
+
+    def _close_down_to_if(self) -> list[OpenGuard] | None:
+        if not any(g.kind == "if" for g in self.guards):
+            return None
+        inner = []
+        while self.guards[-1].kind != "if":
+            inner.append(self._close())
+        return inner[::-1]
+
+    def _reopen(self, inner: list[OpenGuard]) -> None:
+        for guard in inner:
+            self.open(guard.kind, guard.where, guard.condition, guard.every)
+
+    def _close(self) -> OpenGuard:
+        guard = self.guards.pop()
+        flow = self.context.flow
+        then, orelse = (guard.then, tuple(self.body)) if guard.otherwise else (tuple(self.body), ())
+        if guard.after_then is not None:
+            flow.keep_common(guard.after_then)
+        else:
+            flow.restore(guard.saved)
+        self.body = guard.outer
+        if then or orelse:
+            self.body.append(Guard(guard.kind, then, guard.where, guard.condition, orelse, guard.every))
+        return guard
+
+    # ------------------------------------------------------------------------------------------ derivatives
+
+    def derivative(self, slot: int, count: int, value: Value, where: Where) -> None:
+        """Add a derivative of `count` states from `slot` on.
+
+        Under a guard the derivative keeps its last value where the guard is shut, 0 at first: it is computed into
+        numbers of the compiler's own, and the derivative proper reads them at the end of the pass.
+        """
+        number = self.states.number(slot)
+        if number is None:
+            return
+        if not self.guards:
+            self.body.append(
+                Deriv(number, value, where) if count == 1 else DerivVec(number, count, value, where)
+            )
+            return
+        held = self._held.get((slot, count))
+        if held is None:
+            held = self._held[slot, count] = (self.context.scope.hidden(count), where)
+        made = (
+            Set(held[0], value, where, persistent=True)
+            if count == 1
+            else SetVec(held[0], count, value, where, persistent=True)
+        )
+        self.body.append(made)
+
+    def is_second(self, slot: int, count: int) -> bool:
+        """Whether this state already has a `d/dt` that could hold in the same pass (error 101)."""
+        paths = self.derivative_paths.setdefault((slot, count), [])
+        path = self.path
+        branches = dict(path)
+        second = any(all(branches.get(s, b) == b for s, b in earlier) for earlier in paths)
+        paths.append(path)
+        return second
+
+

@@ -1,0 +1,170 @@
+"""Where the lowering stands: the place in the text, the names that hold here, the problems found so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from desire_tui.engine.analysis.flow import Flow
+from desire_tui.engine.diagnostics import Diagnostic, closest
+from desire_tui.engine.library import LIBRARY
+from desire_tui.engine.lowered import Const, Load, Where
+from desire_tui.engine.nodes import Name
+from desire_tui.engine.source import Source, Span
+from desire_tui.engine.values import Kind, Quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from desire_tui.engine.analysis.scope import Scope
+    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.nodes import Expr, Function, Node
+
+BAD = Const(0.0)
+"""Stands for an expression that has been complained about."""
+
+DEPTH_MAX = 200
+"""Nested FUNCTION calls and invocations; deeper ones are recursion in all but name."""
+
+
+@dataclass
+class Argument:
+    """An argument of a FUNCTION being expanded: lowered at its first use, then shared by all uses."""
+
+    node: Expr
+    outer: Frame
+    value: Value | None = None
+
+
+_NO_NAMES: Mapping[str, str] = {}
+_NO_ARGUMENTS: Mapping[str, Argument] = {}
+
+
+class Frame(NamedTuple):
+    """How names read in the text being lowered: a submodel's or FUNCTION's dummies stand for something else."""
+
+    at: int
+    rename: Mapping[str, str] = _NO_NAMES
+    arguments: Mapping[str, Argument] = _NO_ARGUMENTS
+    invoked: tuple[Span, ...] = ()
+    calls: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class FunctionText:
+    """A FUNCTION statement and the offset of its raw text."""
+
+    node: Function
+    at: int
+
+
+class Context:
+    """State shared by everything that lowers one segment.
+
+    `assigned` holds the place of the first assignment to each scalar of the segment.
+    """
+
+    def __init__(self, scope: Scope, source: Source, functions: Mapping[str, FunctionText]) -> None:
+        self.scope = scope
+        self.source = source
+        self.functions = functions
+        self.flow = Flow()
+        self.frame = Frame(0)
+        self.problems: list[Diagnostic] = []
+        self.assigned: dict[str, tuple[Span, ...]] = {}
+        self.assigned_slots: set[int] = set()
+        self.assigned_arrays = False
+        self.own: str | None = None
+        """The scalar that the present statement assigns."""
+        self.target: tuple[int, int] | None = None
+        """Slots of the array that the present statement assigns; None where it may be read freely."""
+        self.complained: set[str] = set()
+
+    # ------------------------------------------------------------------------------------------ places
+
+    def span(self, part: Node) -> Span:
+        """Place of a part of the statement being lowered."""
+        return Span(self.frame.at + part.start, self.frame.at + part.end)
+
+    def where(self, part: Node) -> Where:
+        """Place for a lowered statement."""
+        frame = self.frame
+        return Where(
+            Span(frame.at + part.start, frame.at + part.end), frame.invoked[0] if frame.invoked else None
+        )
+
+    def report(self, key: str, part: Node | Span, **facts: object) -> Const:
+        """Note a problem; the result stands for the expression that cannot be lowered."""
+        span = part if isinstance(part, Span) else self.span(part)
+        related = tuple(Diagnostic("expanded-here", s, {}, self.source) for s in reversed(self.frame.invoked))
+        self.problems.append(Diagnostic(key, span, facts, self.source, related=related))
+        return BAD
+
+    def once(self, name: str) -> bool:
+        """Whether this name has not been complained about yet."""
+        if name in self.complained:
+            return False
+        self.complained.add(name)
+        return True
+
+    # ------------------------------------------------------------------------------------------ names
+
+    def actual(self, name: str) -> str:
+        """Return what a name of the text stands for: itself, or the argument given for a dummy."""
+        frame = self.frame
+        while name in frame.arguments:
+            argument = frame.arguments[name]
+            if not isinstance(argument.node, Name):
+                return name
+            name, frame = argument.node.name, argument.outer
+        return frame.rename.get(name, name)
+
+    def quantity(self, name: str) -> Quantity | None:
+        """Return the quantity a name of the text stands for."""
+        return self.scope.names.get(self.actual(name))
+
+    def read(self, node: Name) -> Value:
+        """Read a scalar. Reports errors 200, 69, 218."""
+        name = self.actual(node.name)
+        load = self.flow.ready.get(name)
+        if load is not None:
+            return load
+        quantity = self.scope.names.get(name)
+        if quantity is not None and quantity.shape:
+            return self.report("array-as-number", node, name=name)
+        if quantity is not None and quantity.kind is Kind.COMPLEX:
+            return self.report("complex-in-dynamic", node, name=name)
+        if quantity is None or not self.scope.is_defined(quantity):
+            return self._undefined(node, name, quantity)
+        load = Load(quantity.slot)
+        if name in self.assigned:
+            self.flow.read_slot(quantity.slot)
+        else:
+            self.flow.ready[name] = load
+        return load
+
+    def _undefined(self, node: Name, name: str, quantity: Quantity | None) -> Value:
+        places = self.assigned.get(name)
+        if places is None:
+            if self.once(name):
+                known = [n for n in (*self.scope.names, *self.assigned) if n != name]
+                self.report("undefined-in-segment", node, name=name, close=closest(name, known))
+            return BAD
+        if name == self.own and quantity is not None:
+            # difference equation x = x + e whose target is new: starts at 0 [O]
+            self.flow.read_slot(quantity.slot)
+            self.assigned_slots.add(quantity.slot)
+            return Load(quantity.slot)
+        if self.once(name):
+            line = self.source.position(places[0].start).row
+            self.report("used-before-set", node, name=name, line=line)
+        return BAD
+
+    def is_known_scalar(self, name: str) -> bool:
+        """Whether a name of the text is a number, not an array."""
+        found = self.quantity(name)
+        return found is not None and not found.shape
+
+    def known_function(self, name: str) -> bool:
+        """Whether `name` can be called in a segment."""
+        return name in self.functions or (name in LIBRARY and "D" in LIBRARY[name].where)

@@ -1,0 +1,108 @@
+"""Expressions of a segment: names become slots, FUNCTIONs are expanded, arrays are checked against the extent.
+
+The *extent* says what is being computed: a scalar (`()`), a vector of n elements (`(n,)`), a matrix (`(m, n)`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.analysis import calls, products
+from desire_tui.engine.analysis.context import BAD
+from desire_tui.engine.analysis.subscripts import element
+from desire_tui.engine.lowered import Const, Load, Op
+from desire_tui.engine.nodes import Binary, Call, Element, Name, Number, RowOf, Shifted, Text, Transposed, Unary
+
+if TYPE_CHECKING:
+    from desire_tui.engine.analysis.context import Context
+    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.nodes import Expr
+
+Extent = tuple[int, ...]
+SCALAR: Extent = ()
+
+_NAMES = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
+
+
+def lower(context: Context, node: Expr, extent: Extent = SCALAR) -> Value:
+    """Return the value of an expression over `extent`; problems go to the context.
+
+    Errors 200, 70, 69, 2, 19, 59, 74, 75, 218 and those of FUNCTION calls (56, 52).
+    """
+    kind = node.__class__
+    if kind is Name:
+        return name(context, node, extent)  # type: ignore[arg-type]
+    if kind is Number:
+        return Const(node.value)  # type: ignore[union-attr, arg-type]
+    if kind is Binary:
+        return binary(context, node, extent)  # type: ignore[arg-type]
+    if kind is Call:
+        return calls.call(context, node, extent)  # type: ignore[arg-type]
+    if kind is Unary:
+        operand = lower(context, node.operand, extent)  # type: ignore[union-attr]
+        if node.op == "+":  # type: ignore[union-attr]
+            return operand
+        return Const(-operand.value) if isinstance(operand, Const) else Op("neg", (operand,))
+    if kind is Element:
+        return subscripted(context, node)  # type: ignore[arg-type]
+    if isinstance(node, Shifted | RowOf | Transposed):
+        return products.operand(context, node, extent)
+    if isinstance(node, Text):
+        return context.report("text-in-dynamic", node)
+    return context.report("complex-in-dynamic", node, name="[…]")
+
+
+def name(context: Context, node: Name, extent: Extent) -> Value:
+    """Lower a name: a scalar, a FUNCTION's dummy, or a whole array where the extent allows it."""
+    frame = context.frame
+    if not frame.arguments and not frame.rename:
+        load = context.flow.ready.get(node.name)
+        if load is not None:
+            return load
+    argument = frame.arguments.get(node.name)
+    if argument is not None:
+        if argument.value is None:
+            context.frame = argument.outer
+            argument.value = lower(context, argument.node, extent)
+            context.frame = frame
+        return argument.value
+    if extent:
+        quantity = context.quantity(node.name)
+        actual = context.actual(node.name)
+        if quantity is not None and quantity.shape:
+            return products.operand(context, node, extent)
+        if quantity is None and actual not in context.assigned and actual != context.own:
+            return products.unknown(context, node)
+    return context.read(node)
+
+
+def subscripted(context: Context, node: Element) -> Value:
+    """Lower `A[i, k]`."""
+    slot, _ = element(context, node)
+    if slot is None:
+        return BAD
+    if context.assigned_arrays:
+        context.flow.read_slot(slot)
+    return Load(slot)
+
+
+def binary(context: Context, node: Binary, extent: Extent) -> Value:
+    """Lower an operation; products over an extent may hold matrix/vector products."""
+    op = node.op
+    if extent and op in "*/&":
+        return products.product(context, node, extent)
+    left = lower(context, node.left, extent)
+    right = lower(context, node.right, extent)
+    operation = _NAMES.get(op)
+    if operation is not None:
+        return Op(operation, (left, right))
+    if op == "^":
+        return power(left, right)
+    return context.report("ampersand-here", node)
+
+
+def power(left: Value, right: Value) -> Op:
+    """Lower `left ^ right`: whole constant powers are products (language.md 4)."""
+    if isinstance(right, Const) and right.value == int(right.value) and abs(right.value) <= 1024:
+        return Op("ipow", (left, right))
+    return Op("pow", (left, right))

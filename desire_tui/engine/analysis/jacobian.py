@@ -1,0 +1,57 @@
+"""The JACOBIAN part of a segment: helper variables and entries J[i, k] (language.md 9.7)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.analysis.expressions import lower
+from desire_tui.engine.analysis.scope import UNKNOWN
+from desire_tui.engine.analysis.statements import assign
+from desire_tui.engine.analysis.subscripts import constant
+from desire_tui.engine.lowered import Entry, Jacobian
+from desire_tui.engine.nodes import Assign, Element
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.analysis.builder import Builder
+    from desire_tui.engine.analysis.expansion import Line
+
+
+def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
+    """Lower the statements behind JACOBIAN. Errors 219, 229 (no matrix, no entry), 230 (entry out of range)."""
+    context = builder.context
+    entries: list[Entry] = []
+    matrix: str | None = None
+    slot: int | None = None
+    outer, builder.body = builder.body, []
+    for node, frame in lines:
+        context.frame = frame
+        if not isinstance(node, Assign):
+            context.report("illegal-in-jacobian", node)
+            continue
+        target = node.target
+        quantity = context.quantity(target.name) if isinstance(target, Element) else None
+        if not isinstance(target, Element) or quantity is None or len(quantity.shape) != 2:
+            assign(builder, node)
+            continue
+        if matrix not in (None, quantity.name):
+            context.report("second-jacobian", target, name=quantity.name, first=matrix)
+            continue
+        matrix, slot = quantity.name, quantity.slot
+        value = lower(context, node.value)
+        row, column = (constant(context, s) for s in target.subscripts)
+        if row is None or column is None:
+            continue
+        order = builder.states.order
+        size = min((n for n in quantity.shape if n != UNKNOWN), default=order)
+        if size < order:
+            context.report("jacobian-too-small", target, name=quantity.name, order=order)
+        elif not (1 <= row < order + 1 and 1 <= column < order + 1):
+            context.report("jacobian-entry", target, order=order)
+        else:
+            entries.append(Entry(int(row) - 1, int(column) - 1, value))
+    body, builder.body = tuple(builder.body), outer
+    if slot is None:
+        return None
+    return Jacobian(slot, body, tuple(entries))

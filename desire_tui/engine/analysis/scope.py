@@ -1,0 +1,123 @@
+"""What a segment may name: the script's quantities as they are (`LiveScope`) or as they could be (`StaticScope`).
+
+Both hand out `Quantity` objects. A static scope does not know every size: a dimension it cannot tell is `UNKNOWN`,
+which agrees with any other.
+"""
+
+from __future__ import annotations
+
+from math import prod
+from typing import TYPE_CHECKING, Protocol
+
+from desire_tui.engine.values import SYSTEM_VARIABLES, Quantity, Values
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+UNKNOWN = -1
+SYSTEM_SLOTS = len(SYSTEM_VARIABLES)
+
+
+def agree(a: int, b: int) -> bool:
+    """Whether two sizes can be the same."""
+    return a == b or UNKNOWN in (a, b)
+
+
+def size_of(quantity: Quantity) -> int:
+    """Number of elements, or UNKNOWN."""
+    return UNKNOWN if UNKNOWN in quantity.shape else prod(quantity.shape)
+
+
+class Scope(Protocol):
+    """Names, their quantities, and the values known now."""
+
+    @property
+    def names(self) -> Mapping[str, Quantity]:
+        """Every quantity by name."""
+        ...
+
+    def is_defined(self, quantity: Quantity) -> bool:
+        """Whether a scalar has a value before the run."""
+        ...
+
+    def scalar(self, name: str, *, is_state: bool = False) -> Quantity:
+        """Return the scalar of that name, made if new."""
+        ...
+
+    def hidden(self, count: int) -> int:
+        """Return the first of `count` slots of the compiler's own, kept from run to run."""
+        ...
+
+    def constant(self, quantity: Quantity, offset: int = 0) -> float | None:
+        """Return the present value of a number; None if it cannot be told yet."""
+        ...
+
+
+class LiveScope:
+    """The session's quantities with their actual values, at `drun`."""
+
+    def __init__(self, values: Values) -> None:
+        self.values = values
+        self.names: Mapping[str, Quantity] = values.names
+
+    def is_defined(self, quantity: Quantity) -> bool:
+        """Whether the script (or an earlier run) gave it a value; states start at 0."""
+        return quantity.is_state or quantity.slot < SYSTEM_SLOTS or self.values.is_defined(quantity)
+
+    def scalar(self, name: str, *, is_state: bool = False) -> Quantity:
+        """Return the scalar of that name, made if new."""
+        made = self.values.scalar(name, is_state=is_state)
+        if is_state and not made.is_state:
+            made.is_state = True
+        return made
+
+    def hidden(self, count: int) -> int:
+        """Return the first of `count` slots of the compiler's own."""
+        return self.values.unnamed(count)
+
+    def constant(self, quantity: Quantity, offset: int = 0) -> float | None:
+        """Return the present value."""
+        return self.values.cells[quantity.slot + offset]
+
+
+class StaticScope:
+    """Quantities as a look at the script tells them, for checks before a run. Slots are only identities."""
+
+    def __init__(
+        self,
+        quantities: Iterable[Quantity],
+        scalars: Iterable[str],
+        constants: Mapping[str, float],
+        first_free: int,
+    ) -> None:
+        self.names: dict[str, Quantity] = {q.name: q for q in quantities}
+        self._constants = constants
+        self._defined = set(scalars)
+        self._next = first_free
+        for slot, name in enumerate(SYSTEM_VARIABLES):
+            self.names[name] = Quantity(name, slot)
+        for name in self._defined:
+            self.scalar(name)
+
+    def is_defined(self, quantity: Quantity) -> bool:
+        """Whether some statement could have given it a value."""
+        return quantity.is_state or quantity.slot < SYSTEM_SLOTS or quantity.name in self._defined
+
+    def scalar(self, name: str, *, is_state: bool = False) -> Quantity:
+        """Return the scalar of that name, made if new."""
+        known = self.names.get(name)
+        if known is None:
+            known = self.names[name] = Quantity(name, self.hidden(1))
+        if is_state and not known.is_state:
+            known = self.names[name] = Quantity(name, known.slot, known.shape, known.kind, is_state=True)
+        return known
+
+    def hidden(self, count: int) -> int:
+        """Return the first of `count` slots of the compiler's own."""
+        slot = self._next
+        self._next += max(count, 1)
+        return slot
+
+    def constant(self, quantity: Quantity, offset: int = 0) -> float | None:
+        """Return a value that the script fixes; None if it may change."""
+        return self._constants.get(quantity.name) if offset == 0 else None

@@ -1,0 +1,64 @@
+"""The differential-equation states of a segment, numbered in the order of their `d/dt` lines."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered import StateRange
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.lowered import Where
+
+
+@dataclass(slots=True)
+class StateLine:
+    """A `d/dt` line's target: `count` numbers from `slot` on."""
+
+    name: str
+    slot: int
+    count: int
+    where: Where
+
+
+class StateTable:
+    """Ranges of states. Targets that overlap (a vector and one of its elements, two views) are one range."""
+
+    def __init__(self, lines: Sequence[StateLine]) -> None:
+        order = sorted(range(len(lines)), key=lambda i: (lines[i].slot, -lines[i].count))
+        merged: list[list[int]] = []  # first line, slot, end, line that gives the name
+        for i in order:
+            line = lines[i]
+            end = line.slot + max(line.count, 1)
+            if merged and line.slot < merged[-1][2]:
+                last = merged[-1]
+                last[0] = min(last[0], i)
+                if end > last[2]:
+                    last[2] = end
+            else:
+                merged.append([i, line.slot, end, i])
+        merged.sort()
+        self.ranges: list[StateRange] = []
+        first = 0
+        for _, slot, end, name_line in merged:
+            named = lines[name_line]
+            self.ranges.append(StateRange(named.name, slot, first, end - slot, named.where))
+            first += end - slot
+        self.order = first
+        self._by_slot = {r.slot: r.first for r in self.ranges}
+        self._sorted = sorted(self.ranges, key=lambda r: r.slot)
+        self._starts = [r.slot for r in self._sorted]
+
+    def number(self, slot: int) -> int | None:
+        """Return the number of the state in a slot; None if there is none."""
+        number = self._by_slot.get(slot)
+        if number is not None:
+            return number
+        at = bisect_right(self._starts, slot) - 1
+        if at < 0:
+            return None
+        found = self._sorted[at]
+        return found.first + slot - found.slot if slot < found.slot + found.count else None
