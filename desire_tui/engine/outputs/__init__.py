@@ -1,1 +1,1 @@
-"""Graphs and samples to files, canvases and text."""
+"""Graph to text canvas and picture files; runs to CSV, JSON and NPY. The only home of plotext and matplotlib."""

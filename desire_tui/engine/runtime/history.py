@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -51,6 +51,11 @@ class History:
     start: Start | None = None
     _ranges: list[tuple[int, int]] = field(default_factory=list)
     _names: int = -1
+
+    def copy(self) -> History:
+        """Return a copy that later runs leave alone."""
+        positions = {label: known.copy() for label, known in self.positions.items()}
+        return replace(self, positions=positions)
 
     def begin(self, segment: Segment) -> Positions:
         """Save the start of a run; return the segment's positions, to be moved by the run."""

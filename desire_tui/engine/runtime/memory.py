@@ -19,6 +19,9 @@ class Phase(IntEnum):
     IN_STEP = 1
     """Inside a communication interval at a step's start: pass(-, STEP) comes next."""
     ENDED = 2
+    AFTER_POINT = 3
+    """Behind a communication point whose row filled the rows: the first step of the interval comes next. The values
+    are as sampled; k1 is kept by the back end that ran the pass, which must also be the one to go on."""
 
 
 class Ended(IntEnum):

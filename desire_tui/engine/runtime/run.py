@@ -53,15 +53,22 @@ class Simulator:
         self._control = control
         self.memory: RunMemory | None = None
         """The run's memory while one goes on."""
+        self._began = 0.0
 
     def reset(self) -> None:
         """Restore t, DT and the states to the start of the last run; rewind store, get, delay and SAMPLE."""
         self.history.reset()
         self.defaults.follow()
 
+    def pace(self, steps: int, record: RunRecord | None) -> float:
+        """Return steps per real second: of the run that goes on, or of `record`. From any thread."""
+        began = self._began
+        seconds = perf_counter() - began if began > 0.0 else record.seconds if record is not None else 0.0
+        return steps / seconds if seconds > 0.0 else 0.0
+
     def run(self, model: Model, segment: Segment, plan: Plan, record: RunRecord, observer: Observer) -> bool:
         """Run to the end; False if the user ended it. DesireError: a fault; the record then says `failed`."""
-        began = perf_counter()
+        began = self._began = perf_counter()
         positions = self.history.begin(segment)
         lag = np.zeros(max(segment.counters, 1), dtype=np.int64)
         for counter, records in lags(segment, plan, self._values).items():
@@ -78,6 +85,7 @@ class Simulator:
             self.memory = None
             self._settle(segment, memory, positions, record)
             record.seconds = perf_counter() - began
+            self._began = 0.0
         if ended in _WORDS:
             record.ended = _WORDS[ended]
             return ended is not Ended.STOPPED

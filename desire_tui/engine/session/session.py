@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from contextlib import contextmanager
+from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.graph import GraphBook
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.runtime.control import Control
+from desire_tui.engine.session.commands import Commands
+from desire_tui.engine.session.desk import Desk
+from desire_tui.engine.session.listener import Listener, StoppedAt
 from desire_tui.engine.session.permissions import Permissions
 from desire_tui.engine.session.status import State, Status
+from desire_tui.engine.session.world import World
+from desire_tui.engine.source import Source
+from desire_tui.engine.values import DT, SCALE, TMAX, T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.graph import Graph, GraphBook
-    from desire_tui.engine.nodes import Program
+    from collections.abc import Iterator, Mapping
+    from pathlib import Path
+
+    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.interpreter import Interpreter
+    from desire_tui.engine.nodes import Placed, Program
     from desire_tui.engine.runtime.record import RunRecord
-    from desire_tui.engine.session.listener import Listener, StoppedAt
-    from desire_tui.engine.source import Source
     from desire_tui.engine.values import Values
 
 BackendName = Literal["native", "reference"]
@@ -23,25 +35,11 @@ BackendName = Literal["native", "reference"]
 class Session:
     """Programs, quantities, runs and graphs of one user.
 
-    Threads: `accept erun run go execute snapshot` belong to one thread (the app's engine thread) and return
-    when the work is done; they raise DesireError with placed diagnostics when something fails, error 301 when
-    the user ended it. `pause resume end check status` may be called from any thread at any time. `values` may
-    be read from any thread; numbers change while a run goes on.
+    Threads: `accept erun run go execute new` belong to one thread (the app's engine thread) and return when the work
+    is done; they raise DesireError with placed diagnostics when something fails, error 301 when the user ended it.
+    `pause resume end check status snapshot help` may be called from any thread at any time. `values` may be read from
+    any thread; numbers change while a run goes on.
     """
-
-    values: Values
-    """All quantities by name and their numbers."""
-    program: Program | None
-    """The active program, as accepted last."""
-    runs: list[RunRecord]
-    """The runs since the program started, oldest first; old ones go when they fill the memory allowed."""
-    graphs: GraphBook
-    """The last graphs, oldest first; `graph` is the newest."""
-    rule: int
-    """`irule`; 1 if never set."""
-    folder: Path
-    """Relative file names of scripts start here; the program's own folder once it has a path."""
-    permissions: Permissions
 
     def __init__(
         self,
@@ -50,66 +48,283 @@ class Session:
         backend: BackendName = "native",
         folder: Path | None = None,
         permissions: Permissions | None = None,
-    ) -> None: ...
+    ) -> None:
+        self._listener = console if console is not None else Listener()
+        self._control = Control()
+        self._desk = Desk(backend, folder, permissions if permissions is not None else Permissions())
+        self.graphs = GraphBook()
+        """The last graphs, oldest first; `graph` is the newest."""
+        self._world = World(self._desk, self._listener, self._control, self.graphs)
+        self._commands = Commands(self, self._desk, self._world, self._listener)
+        self._world.carry_out = self._commands.carry_out
+        self._world.write_to_channel = self._write_to_channel
+        self._interpreter: Interpreter | None = None
+        self._stopped: StoppedAt | None = None
+        self._edited = False
+
+    # ------------------------------------------------------------------ what there is
+
+    @property
+    def values(self) -> Values:
+        """All quantities by name, and their numbers."""
+        return self._desk.values
+
+    @property
+    def program(self) -> Program | None:
+        """The active program, as accepted last."""
+        return self._desk.program
+
+    @property
+    def runs(self) -> list[RunRecord]:
+        """The runs since the program started, oldest first; old ones go when they fill the memory allowed."""
+        return self._world.runs
+
+    @property
+    def graph(self) -> Graph | None:
+        """The newest graph."""
+        return self.graphs.current
+
+    @property
+    def rule(self) -> int:
+        """`irule`; 1 if never set."""
+        return self._world.rule
+
+    @property
+    def folder(self) -> Path:
+        """Where relative file names of scripts start: the program's folder once it has a path."""
+        return self._desk.folder
+
+    @property
+    def permissions(self) -> Permissions:
+        """What programs may do; what the user granted is remembered here."""
+        return self._desk.permissions
+
+    @property
+    def parse_seconds(self) -> float:
+        """Real time that reading the active program took."""
+        return self._desk.parse_seconds
+
+    @property
+    def stopped_at(self) -> StoppedAt | None:
+        """Where the script stopped, if `go` can continue it."""
+        return None if self._edited else self._stopped
+
+    @property
+    def status(self) -> Status:
+        """What is going on now."""
+        world, cells = self._world, self.values.cells
+        record = world.runs[-1] if world.runs else None
+        memory = world.simulator.memory
+        state = world.state
+        if self._control.paused and state in (State.RUNNING, State.SCRIPT):
+            state = State.PAUSED
+        elif state is State.IDLE and self.stopped_at is not None:
+            state = State.STOPPED
+        steps = int(memory.steps) if memory is not None else record.steps if record else 0
+        return Status(
+            state=state, run=world.runs_made, segment=record.segment if record else None, t=cells[T],
+            t0=record.t0 if record else 0.0, t_max=record.t_max if record else cells[TMAX], steps=steps,
+            steps_per_second=world.simulator.pace(steps, record), dt=cells[DT],
+            rule=record.rule if record and memory is not None else world.rule,
+            program=self._desk.source.name if self.program else "", edited=self._edited,
+        )  # fmt: skip
 
     # ------------------------------------------------------------------ the program
 
     def accept(self, source: Source) -> tuple[Diagnostic, ...]:
         """Make `source` the active program (the OK button). Returns its problems; none of them is raised.
 
-        A script that stopped at STOP cannot go on afterwards (error 43).
+        A script that stopped at STOP cannot go on afterwards (error 43), unless the text is the same.
         """
+        from desire_tui.engine.analysis import structure
+        from desire_tui.engine.syntax import parse
+
+        began = perf_counter()
+        program = parse(source)
+        self._desk.parse_seconds = perf_counter() - began
+        if self._stopped is not None and source.text != self._desk.source.text:
+            self._edited = True
+        self._desk.program = self._desk.overridden(program)
+        self._desk.structure = structure(self._desk.program)
+        self._desk.journal.program(source)
+        problems = self.check(source)
+        self._listener.program_accepted(program, problems)
+        return problems
 
     def check(self, source: Source) -> tuple[Diagnostic, ...]:
         """Return all problems of a text (parser, structure, static check) without touching the session."""
+        from desire_tui.engine.analysis import check
+        from desire_tui.engine.syntax import parse
+
+        program = parse(source)
+        problems = {(d.key, d.span): d.within(source) for d in (*program.problems, *check(program))}
+        return tuple(sorted(problems.values(), key=lambda d: d.span or (0, 0)))
+
+    def override(self, settings: Mapping[str, float]) -> None:
+        """Give scalars values that the script's own assignments do not change, from the next `accept` on."""
+        self._desk.overrides = dict(settings)
 
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
+        self._desk.program = self._desk.structure = None
+        self._stopped, self._interpreter = None, None
+        self._clear()
+        self._world.rule, self._world.rule_is_set = 1, False
+        self.values.assign(SCALE, 1.0)
 
     # ------------------------------------------------------------------ running
 
     def erun(self, source: Source | None = None) -> None:
         """Accept `source` (default: the editor in front, else the active program), clear all names, run."""
+        source = source or self._listener.front_source() or (self.program.source if self.program else None)
+        if source is None:
+            raise DesireError(Diagnostic("no-program"))
+        self.accept(source)
+        self._world.rule, self._world.rule_is_set = 1, False
+        self._start(scale=1.0)
 
     def run(self) -> None:
         """Run the active program's script again from the top, keeping irule and scale."""
+        self._start(scale=self.values.cells[SCALE])
 
     def go(self) -> None:
         """Continue after STOP; error 43 if there is nothing to continue or the program was edited."""
+        if self._interpreter is None or self._stopped is None:
+            raise DesireError(Diagnostic("go-without-stop"))
+        if self._edited:
+            raise DesireError(Diagnostic("go-after-edit"))
+        self._stopped = None
+        with self._working():
+            self._interpreter.go()
+        self._note_stop()
 
     def execute(self, text: str) -> None:
         """Carry out one command line; an empty line does nothing."""
+        from desire_tui.engine.syntax import parse_command
+
+        source = Source(text, "<command>")
+        statements, problems = parse_command(source)
+        if problems:
+            raise DesireError(*(p.within(source) for p in problems))
+        if statements:
+            self._desk.journal.command(text)
+        waiting: list[Placed] = []
+        for placed in statements:
+            if self._commands.is_own(placed.node):
+                self._interpret(waiting, source)
+                waiting = []
+                self._commands.carry_out_statement(placed, source)
+            else:
+                waiting.append(placed)
+        self._interpret(waiting, source)
+
+    def _interpret(self, statements: list[Placed], source: Source) -> None:
+        if not statements:
+            return
+        before = self._desk.command
+        self._desk.command = source
+        try:
+            with self._working(source):
+                self._interpreter_now().execute(tuple(statements), source)
+        finally:
+            self._desk.command = before
+
+    def _start(self, scale: float) -> None:
+        program, script = self._desk.runnable()
+        self._clear()
+        self.values.assign(SCALE, scale)
+        self._stopped, self._edited = None, False
+        self._world.runs.clear()
+        self._world.runs_made = 0
+        self._interpreter = None
+        self._desk.journal.program(program.source)
+        with self._working():
+            self._interpreter_now().run()
+        self._note_stop()
+        del script
+
+    def _clear(self) -> None:
+        from desire_tui.engine.analysis import state_order
+
+        self.values.clear()
+        self.graphs.begin_program()
+        if self.program is not None:
+            for name in state_order(self.program):
+                self.values.scalar(name, is_state=True)
+        for name, value in self._desk.overrides.items():
+            self.values.assign(self.values.scalar(name).slot, value)
+        self._listener.quantities_cleared()
+
+    def _interpreter_now(self) -> Interpreter:
+        if self._interpreter is None:
+            from desire_tui.engine.analysis import structure
+            from desire_tui.engine.interpreter import Interpreter
+            from desire_tui.engine.syntax import parse
+
+            program = self._desk.program or parse(Source("", "<none>"))
+            script = self._desk.structure or structure(program)
+            self._interpreter = Interpreter(program, script, self.values, self._world)
+        return self._interpreter
+
+    def _note_stop(self) -> None:
+        """Tell where the script stands, if it came to a STOP."""
+        placed = self._interpreter.position if self._interpreter is not None else None
+        if placed is not None:
+            self._stopped = StoppedAt(placed, self._desk.source, tracing=self._world.tracing)
+            self._listener.stopped_at(self._stopped)
+
+    @contextmanager
+    def _working(self, source: Source | None = None) -> Iterator[None]:
+        """Frame of everything that may be paused and ended; places problems that have no source yet."""
+        control, world = self._control, self._world
+        control.begin()
+        before, world.state = world.state, State.SCRIPT
+        place = source or self._desk.source
+        try:
+            yield
+        except Interrupted:
+            raise DesireError(Diagnostic("stopped-by-user", source=place)) from None
+        except DesireError as error:
+            raise DesireError(*(d.within(place) for d in error.diagnostics)) from error
+        except MemoryError:
+            raise DesireError(Diagnostic("out-of-memory", facts={"elements": "the"}, source=place)) from None
+        finally:
+            world.state = before
+            control.done()
+
+    def _write_to_channel(self, channel: int, text: str) -> None:
+        self._interpreter_now().channels.write(channel, text)
 
     # ------------------------------------------------------------------ steering, from any thread
 
     def pause(self) -> None:
         """Hold the run or the script within 0.1 s; nothing happens when idle."""
+        self._control.pause()
 
     def resume(self) -> None:
         """Go on after `pause`."""
+        self._control.resume()
 
     def end(self) -> None:
         """End the run and the script; the samples stay. The waiting call raises error 301."""
-
-    @property
-    def status(self) -> Status:
-        """What is going on now."""
-
-    @property
-    def stopped_at(self) -> StoppedAt | None:
-        """Where the script stopped, if `go` can continue it."""
-
-    @property
-    def graph(self) -> Graph | None:
-        """The newest graph."""
+        self._control.end()
 
     # ------------------------------------------------------------------ results
 
     def snapshot(self, path: Path, graph: Graph | None = None) -> Path:
         """Write a graph (default: the newest) as PNG, SVG or PDF by the path's ending; returns the path.
 
-        DesireError 106 where it cannot be written, 460 without a graph. Safe from any thread.
+        DesireError 34: another ending, 106: cannot be written, 471: no graph yet.
         """
+        graph = graph or self.graph
+        if graph is None:
+            raise DesireError(Diagnostic("no-graph"))
+        from desire_tui.engine.outputs.picture import write_picture
+
+        write_picture(graph, path)
+        self._desk.journal.picture(path)
+        return path
 
     def help(self, topic: str = "") -> str:
         """Return the help page (Markdown) of a statement, function, command or error number."""
+        return self._commands.help_page(topic)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
@@ -18,7 +19,7 @@ from desire_tui.engine.session.status import State
 from desire_tui.engine.values import SCALE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
     from desire_tui.engine.graph import GraphBook
@@ -49,6 +50,7 @@ class World:
         self.state = State.IDLE
         self.runs: list[RunRecord] = []
         self.runs_made = 0
+        self.tracing = False
         self.carry_out: Callable[[str, str | None], None] = _nothing
         self.write_to_channel: Callable[[int, str], None] = _nothing
 
@@ -115,6 +117,21 @@ class World:
     def reset(self) -> None:
         """Restore t, DT and states to the start of the last run."""
         self.simulator.reset()
+
+    @contextmanager
+    def restored(self) -> Iterator[None]:
+        """Put all quantities, random numbers and positions back afterwards."""
+        values = self._values
+        numbers = [(q.slot, values.data[q.slot : q.slot + q.slots].copy()) for q in values]
+        defined, random, history = bytes(values.defined), values.random.copy(), self.simulator.history.copy()
+        try:
+            yield
+        finally:
+            for slot, saved in numbers:
+                values.data[slot : slot + len(saved)] = saved
+            values.defined[: len(defined)] = defined
+            values.random[:] = random
+            self.simulator.history = history
 
     # ------------------------------------------------------------------ console
 

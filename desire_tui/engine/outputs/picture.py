@@ -1,0 +1,160 @@
+"""A graph as a picture file: PNG, SVG, PDF, drawn by matplotlib (Figure + Agg, never pyplot)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.graph.colors import BLACK, WHITE, rgb
+from desire_tui.engine.graph.lines import clip_polyline, thin_columns, to_unit
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from desire_tui.engine.graph.model import Curve, Graph
+
+    Tint = tuple[float, float, float]
+
+KINDS = (".png", ".svg", ".pdf")
+_INCHES = (8.0, 5.0)
+_DOTS_PER_INCH = 150
+_WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
+_COLUMNS = 4000  # finer than any printer shows at this size
+_FONT = 11
+
+
+def write_picture(graph: Graph, path: Path) -> None:
+    """Write a graph. DesireError 34: an ending that is no picture's; 106: the file cannot be written."""
+    kind = path.suffix.lower()
+    if kind not in KINDS:
+        raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
+    from matplotlib import rc_context
+
+    with rc_context({"svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000}):
+        figure = draw(graph)
+        try:
+            figure.savefig(path, format=kind[1:], dpi=_DOTS_PER_INCH, facecolor=figure.get_facecolor())
+        except OSError as reason:
+            facts = {"path": path, "reason": reason.strerror or reason}
+            raise DesireError(Diagnostic("file-unwritable", facts=facts)) from None
+
+
+def draw(graph: Graph) -> Figure:
+    """Return a graph as a matplotlib figure: same window, colours, caption, keys and thickness as on the screen."""
+    from matplotlib.figure import Figure
+
+    ground = _tint(WHITE if graph.white else BLACK, graph)
+    ink = _tint(BLACK if graph.white else 7, graph)
+    figure = Figure(figsize=_INCHES, facecolor=ground, layout="constrained")
+    if graph.frame.kind == "picture":
+        _draw_pictures(figure, graph, ink)
+        return figure
+    axes = figure.add_subplot()
+    axes.set_facecolor(ground)
+    frame = graph.frame
+    axes.set_xlim(frame.left, frame.right)
+    axes.set_ylim(frame.bottom, frame.top)
+    axes.set_xticks(frame.x_ticks)
+    axes.set_yticks(frame.y_ticks)
+    _dress(axes, graph, ink)
+    for curve in graph.curves:
+        _draw_curve(axes, curve, graph)
+    _draw_points(axes, graph)
+    axes.set_title(graph.title, loc="left", color=ink, fontsize=_FONT)
+    axes.set_xlabel(graph.caption, color=ink, fontsize=_FONT)
+    if graph.keys:
+        _draw_keys(figure, graph, ink)
+    return figure
+
+
+def _dress(axes: Axes, graph: Graph, ink: Tint) -> None:
+    net = None if graph.net is None else _tint(graph.net, graph)
+    for spine in axes.spines.values():
+        spine.set_visible(net is not None)
+        if net is not None:
+            spine.set_color(net)
+    axes.tick_params(colors=ink, labelsize=_FONT, length=4 if net is not None else 0)
+    axes.ticklabel_format(useOffset=False)
+    if net is None:
+        return
+    frame = graph.frame
+    axes.set_xticks(np.linspace(frame.left, frame.right, 11)[1:-1], minor=True)
+    axes.set_yticks(np.linspace(frame.bottom, frame.top, 9)[1:-1], minor=True)
+    axes.tick_params(which="minor", colors=net, length=2)
+    axes.grid(visible=True, which="major", color=net, linewidth=0.7, alpha=0.75)
+    axes.grid(visible=True, which="minor", color=net, linewidth=0.4, alpha=0.25)
+
+
+def _draw_curve(axes: Axes, curve: Curve, graph: Graph) -> None:
+    """Draw in frame units: a curve of an earlier run keeps its own scale."""
+    x, y = to_unit(curve.frame, *curve.samples())
+    color, width = _tint(curve.color, graph), _WIDTHS[curve.thickness]
+    if not curve.joined:
+        with np.errstate(invalid="ignore"):
+            inside = (x >= 0) & (x <= 1) & (y >= 0) & (y <= 1)
+        axes.plot(
+            x[inside], y[inside], linestyle="none", marker="o", markersize=0.8 * width, markeredgewidth=0,
+            color=color, transform=axes.transAxes,
+        )  # fmt: skip
+        return
+    if curve.frame.kind == "dispt":
+        x, y = thin_columns(x, y, _COLUMNS)
+    x1, y1, x2, y2 = clip_polyline(x, y)
+    path_x, path_y = _connected(x1, y1, x2, y2)
+    axes.plot(
+        path_x, path_y, color=color, linewidth=width, solid_joinstyle="round", transform=axes.transAxes,
+        clip_on=False, zorder=3,
+    )  # fmt: skip
+
+
+def _connected(x1: Any, y1: Any, x2: Any, y2: Any) -> tuple[Any, Any]:
+    """Segments end to end as one path, broken by nan where they do not meet."""
+    if not len(x1):
+        return x1, y1
+    broken = np.flatnonzero((x1[1:] != x2[:-1]) | (y1[1:] != y2[:-1])) + 1
+    paths = []
+    for first, last in ((x1, x2), (y1, y2)):
+        points = np.append(first, last[-1])
+        # before each break: the end of the old piece, then a gap
+        values = np.column_stack((last[broken - 1], np.full(len(broken), np.nan))).ravel()
+        paths.append(np.insert(points, np.repeat(broken, 2), values))
+    return paths[0], paths[1]
+
+
+def _draw_points(axes: Axes, graph: Graph) -> None:
+    x, y, colors = graph.points.so_far()
+    if not len(x):
+        return
+    axes.scatter(
+        x, y, s=(2.0 * _WIDTHS[graph.thickness]) ** 2, c=[_tint(int(c), graph) for c in colors],
+        linewidths=0, zorder=3,
+    )  # fmt: skip
+
+
+def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
+    from matplotlib.lines import Line2D
+
+    handles = [Line2D([], [], color=_tint(k.color, graph), linewidth=3, label=k.name) for k in graph.keys]
+    legend = figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 8), frameon=False)
+    for text in legend.get_texts():
+        text.set_color(ink)
+
+
+def _draw_pictures(figure: Figure, graph: Graph, ink: Tint) -> None:
+    shown = [s for s in graph.shown if s.latest() is not None]
+    for number, array in enumerate(shown, 1):
+        axes = figure.add_subplot(1, len(shown), number)
+        axes.imshow(array.latest(), cmap="gray", vmin=-array.scale, vmax=array.scale, interpolation="nearest")
+        axes.set_title(array.name, color=ink, fontsize=_FONT)
+        axes.set_xticks([])
+        axes.set_yticks([])
+
+
+def _tint(color: int, graph: Graph) -> Tint:
+    red, green, blue = rgb(color, white=graph.white)
+    return red / 255, green / 255, blue / 255
