@@ -6,6 +6,7 @@ text.
 
 from __future__ import annotations
 
+from desire_tui.engine.syntax.highlight import highlight
 from desire_tui.engine.syntax.parse import parse, parse_command
 
-__all__ = ["parse", "parse_command"]
+__all__ = ["highlight", "parse", "parse_command"]

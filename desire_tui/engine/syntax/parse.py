@@ -92,6 +92,14 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
     return tuple(placed), tuple(problems)
 
 
+def numbered(line: str) -> int:
+    """Return how many characters of a line are its line number, or the whole length of a header line."""
+    if _HEADER.match(line):
+        return len(line)
+    found = _NUMBERED.match(line)
+    return found.end() if found else 0
+
+
 def _diagnostic(fault: Fault, at: int, source: Source) -> Diagnostic:
     return Diagnostic(fault.key, Span(at + fault.start, at + fault.end), fault.facts, source)
 

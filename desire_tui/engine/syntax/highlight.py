@@ -1,0 +1,51 @@
+"""Classes of a line's parts for an editor, from the parser's own tokens: the two cannot disagree."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from desire_tui.engine.syntax.tokens import LETTER, MATFUN, NAME, NUMBER, OCTAL, RAW, STRING, scan
+
+Class = Literal["keyword", "function", "system", "string", "comment", "number", "operator", "name"]
+
+FUNCTIONS = frozenset(
+    """
+    sin cos tan asin acos atan sinh cosh tanh exp sqrt abs ln log atan2 lim sat SAT deadz deadc swtch sgn comp rect tri
+    sinc sigmoid SIGMOID round trnc ran gauss tim func1 func2 recip max min Re Im Cabs Arg Conjug expj
+    """.split()  # noqa: SIM905 - a list of words reads better than a wall of quotes
+)
+SYSTEM = frozenset("t TMAX DT NN scale DTMAX DTMIN ERMAX ERMIN ERRMAX CHECKN MM iRow PI".split())  # noqa: SIM905
+
+_CLASSES: dict[str, Class] = {
+    NUMBER: "number", OCTAL: "number", STRING: "string", RAW: "string", LETTER: "keyword", MATFUN: "function",
+}  # fmt: skip
+
+
+def highlight(text_line: str) -> list[tuple[int, int, Class]]:
+    """Return (start, end, class) for the parts of one line, in order. A line number counts as a comment."""
+    from desire_tui.engine.syntax.parse import numbered
+
+    skipped = numbered(text_line)
+    found: list[tuple[int, int, Class]] = [(0, skipped, "comment")] if skipped else []
+    line = scan(text_line[skipped:])
+    found += [(skipped + start, skipped + end, "comment") for start, end in line.comments]
+    for chunk in line.chunks:
+        kinds = chunk.kinds
+        base = skipped + chunk.base
+        for i, kind in enumerate(kinds):
+            found.append((base + chunk.starts[i], base + chunk.ends[i], _class(chunk.texts, kinds, i, kind)))
+    found.sort()
+    return found
+
+
+def _class(texts: list[str], kinds: list[str], i: int, kind: str) -> Class:
+    if kind == NAME:
+        text = texts[i]
+        if text in SYSTEM:
+            return "system"
+        called = i + 1 < len(kinds) and kinds[i + 1] == "("
+        return "function" if text in FUNCTIONS and called else "name"
+    known = _CLASSES.get(kind)
+    if known is not None:
+        return known
+    return "keyword" if kind[0].isalpha() else "operator"
