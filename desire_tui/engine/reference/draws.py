@@ -1,0 +1,80 @@
+"""Random draws of one statement, in the order that language.md 4.1 fixes.
+
+A statement over an array draws for the last element first; within an element draws go from left to right.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.library import INCREMENT, MODULUS_MASK, MULTIPLIER
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_SCALE = 2.0**-48
+
+
+class Sequence:
+    """The 48-bit linear congruential sequence; its state is `Values.random`."""
+
+    def __init__(self, state: NDArray[np.uint64]) -> None:
+        self.state = state
+
+    def uniform(self) -> float:
+        """Return the next u, 0 ≤ u < 1."""
+        x = (int(self.state[0]) * MULTIPLIER + INCREMENT) & MODULUS_MASK
+        self.state[0] = x
+        return x * _SCALE
+
+    def block(self, count: int) -> Array:
+        """Return the next `count` numbers u."""
+        x = int(self.state[0])
+        found = np.empty(count)
+        for i in range(count):
+            x = (x * MULTIPLIER + INCREMENT) & MODULUS_MASK
+            found[i] = x * _SCALE
+        self.state[0] = x
+        return found
+
+
+def normal(u1: float, u2: float) -> float:
+    """Return sqrt(-2 ln u1)·cos(2π u2) (Box and Muller)."""
+    radius = math.sqrt(-2.0 * math.log(u1)) if u1 > 0.0 else math.inf
+    return radius * math.cos(2.0 * math.pi * u2)
+
+
+class ElementDraws:
+    """What a statement over `count` elements draws: a table of elements × draws, filled before it is evaluated."""
+
+    def __init__(self, sequence: Sequence, count: int) -> None:
+        self.sequence = sequence
+        self.count = count
+        self.width = 0
+        self.table: Array = np.empty((count, 0))
+
+    def reserve(self, draws: int) -> int:
+        """Return the column of the next `draws` draws of each element."""
+        column = self.width
+        self.width += draws
+        return column
+
+    def fill(self) -> None:
+        """Draw for all elements, the last one first."""
+        if self.width:
+            self.table = self.sequence.block(self.count * self.width).reshape(self.count, self.width)[::-1]
+
+    def uniform(self, column: int) -> Array:
+        """Return `ran()` of each element."""
+        return 2.0 * self.table[:, column] - 1.0
+
+    def normal(self, column: int) -> Array:
+        """Return `gauss(0)` of each element."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            radius = np.sqrt(-2.0 * np.log(self.table[:, column]))
+            return np.asarray(radius * np.cos(2.0 * np.pi * self.table[:, column + 1]), dtype=np.float64)

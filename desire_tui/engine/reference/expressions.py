@@ -1,0 +1,216 @@
+"""Expressions as Python closures: over a number, or over all elements of an array at once."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from desire_tui.engine.library import func1, func2
+from desire_tui.engine.lowered import (
+    Const, Load, MatVec, Op, Outer, RowOf, Shifted, Table1, Table2, Vec,
+)  # fmt: skip
+from desire_tui.engine.reference.draws import ElementDraws, Sequence, normal
+from desire_tui.engine.reference.numbers import ARRAYS, scalar_function, whole_power
+from desire_tui.engine.values import IROW
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.values import Values
+
+    Array = NDArray[np.float64]
+    Thunk = Callable[[], Any]
+
+
+class Expressions:
+    """Compiles the expressions of one statement; `begin` must be called before each evaluation.
+
+    `count` None: a number; else the number of elements that the statement assigns. An expression object that stands
+    at two places is evaluated once (lowered.py).
+    """
+
+    def __init__(self, values: Values, sequence: Sequence, count: int | None) -> None:
+        self.values = values
+        self.cells, self.data = values.cells, values.data
+        self.sequence = sequence
+        self.draws = None if count is None else ElementDraws(sequence, count)
+        self.count = count
+        self._uses: dict[int, int] = {}
+        self._shared: dict[int, Thunk] = {}
+        self._kept: list[list[Any]] = []
+
+    def begin(self) -> None:
+        """Forget shared results and draw the random numbers of this evaluation."""
+        for kept in self._kept:
+            kept.clear()
+        if self.draws is not None:
+            self.draws.fill()
+
+    def compile(self, value: Value) -> Thunk:
+        """Return a closure for the whole expression."""
+        self._count_uses(value)
+        return self._thunk(value)
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether `begin` has nothing to do."""
+        return not self._kept and (self.draws is None or self.draws.width == 0)
+
+    def _count_uses(self, value: Value) -> None:
+        uses = self._uses
+        key = id(value)
+        uses[key] = uses.get(key, 0) + 1
+        if uses[key] > 1:
+            return
+        if isinstance(value, Op):
+            for argument in value.args:
+                self._count_uses(argument)
+        elif isinstance(value, Table1):
+            self._count_uses(value.x)
+        elif isinstance(value, Table2):
+            self._count_uses(value.x)
+            self._count_uses(value.y)
+
+    def _thunk(self, value: Value) -> Thunk:
+        if isinstance(value, Const):
+            number = value.value
+            return lambda: number
+        if isinstance(value, Load):
+            return partial(self.cells.__getitem__, value.slot)
+        known = self._shared.get(id(value))
+        if known is not None:
+            return known
+        made = self._made(value)
+        if self._uses.get(id(value), 1) > 1:
+            made = self._shared[id(value)] = self._once(made)
+        return made
+
+    def _once(self, inner: Thunk) -> Thunk:
+        kept: list[Any] = []
+        self._kept.append(kept)
+
+        def first_time_only() -> Any:
+            if not kept:
+                kept.append(inner())
+            return kept[0]
+
+        return first_time_only
+
+    def _made(self, value: Value) -> Thunk:
+        data = self.data
+        if isinstance(value, Op):
+            return self._operation(value)
+        if isinstance(value, Vec):
+            return partial(data.__getitem__, slice(value.slot, value.slot + value.count))
+        if isinstance(value, Shifted):
+            return partial(_shifted, data[value.slot : value.slot + value.count], value.by)
+        if isinstance(value, MatVec):
+            matrix = data[value.slot : value.slot + value.rows * value.cols].reshape(value.rows, value.cols)
+            matrix = matrix.T if value.transposed else matrix
+            return partial(matrix.dot, data[value.x_slot : value.x_slot + matrix.shape[1]])
+        if isinstance(value, RowOf):
+            matrix = data[value.slot : value.slot + value.rows * value.cols].reshape(value.rows, value.cols)
+            return partial(_row, matrix, self.cells)
+        if isinstance(value, Outer):
+            u = data[value.u_slot : value.u_slot + value.u_count]
+            v = data[value.v_slot : value.v_slot + value.v_count]
+            outer = np.multiply.outer if value.op == "mul" else np.minimum.outer
+            return lambda: outer(u, v).ravel()
+        if isinstance(value, Table1):
+            return self._table1(value)
+        assert isinstance(value, Table2)
+        return self._table2(value)
+
+    def _operation(self, value: Op) -> Thunk:
+        name = value.name
+        if name in {"ran", "gauss"}:
+            return self._random(name)
+        if name == "ipow":
+            base, exponent = self._thunk(value.args[0]), value.args[1]
+            assert isinstance(exponent, Const)
+            n = int(exponent.value)
+            if n == 2:
+                square = base
+                return lambda: (x := square()) * x
+            return lambda: whole_power(base(), n)
+        args = [self._thunk(argument) for argument in value.args]
+        function: Callable[..., Any] = (
+            ARRAYS[name] if any(_is_array(a, self.count) for a in value.args) else scalar_function(name)
+        )
+        if len(args) == 1:
+            (only,) = args
+            return lambda: function(only())
+        if len(args) == 2:
+            a, b = args
+            if name == "add":
+                return lambda: a() + b()
+            if name == "sub":
+                return lambda: a() - b()
+            if name == "mul":
+                return lambda: a() * b()
+            return lambda: function(a(), b())
+        return lambda: function(*[argument() for argument in args])
+
+    def _random(self, name: str) -> Thunk:
+        uniform = self.sequence.uniform
+        if self.draws is None:
+            if name == "ran":
+                return lambda: 2.0 * uniform() - 1.0
+            return lambda: normal(uniform(), uniform())
+        draws = self.draws
+        if name == "ran":
+            return partial(draws.uniform, draws.reserve(1))
+        return partial(draws.normal, draws.reserve(2))
+
+    def _table1(self, value: Table1) -> Thunk:
+        x = self._thunk(value.x)
+        table = self.cells[value.slot : value.slot + 2 * value.count]
+        if _is_array(value.x, self.count):
+            return lambda: np.array([func1(float(one), table) for one in x()])  # type: ignore[arg-type]
+        return lambda: func1(x(), table)  # type: ignore[arg-type]
+
+    def _table2(self, value: Table2) -> Thunk:
+        x, y = self._thunk(value.x), self._thunk(value.y)
+        f = self.cells[value.f_slot : value.f_slot + value.rows * value.cols]
+        xs = self.cells[value.x_slot : value.x_slot + value.rows]
+        ys = self.cells[value.y_slot : value.y_slot + value.cols]
+        if _is_array(value.x, self.count) or _is_array(value.y, self.count):
+            return lambda: np.array(
+                [func2(float(a), float(b), f, xs, ys) for a, b in zip(*np.broadcast_arrays(x(), y()), strict=True)]  # type: ignore[arg-type]
+            )
+        return lambda: func2(x(), y(), f, xs, ys)  # type: ignore[arg-type]
+
+
+def _is_array(value: Value, count: int | None) -> bool:
+    """Whether a value has one number for each element (random draws do, within an array statement)."""
+    if isinstance(value, Const | Load):
+        return False
+    if isinstance(value, Op):
+        if value.name in {"ran", "gauss"}:
+            return count is not None
+        return any(_is_array(argument, count) for argument in value.args)
+    if isinstance(value, Table1):
+        return _is_array(value.x, count)
+    if isinstance(value, Table2):
+        return _is_array(value.x, count) or _is_array(value.y, count)
+    return True
+
+
+def _shifted(x: Array, by: int) -> Array:
+    result = np.zeros(len(x))
+    if by >= 0:
+        result[: len(x) - by] = x[by:]
+    elif -by < len(x):
+        result[-by:] = x[:by]
+    return result
+
+
+def _row(matrix: Array, cells: memoryview[float]) -> Array:
+    row = cells[IROW]
+    number = (int(row) - 1) % len(matrix) if abs(row) < 1e15 else 0
+    return np.asarray(matrix[number])
