@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Literal
 
 from desire_tui.engine.syntax.tokens import LETTER, MATFUN, NAME, NUMBER, OCTAL, RAW, STRING, scan
 
 Class = Literal["keyword", "function", "system", "string", "comment", "number", "operator", "name"]
 
-FUNCTIONS = frozenset(
-    """
-    sin cos tan asin acos atan sinh cosh tanh exp sqrt abs ln log atan2 lim sat SAT deadz deadc swtch sgn comp rect tri
-    sinc sigmoid SIGMOID round trnc ran gauss tim func1 func2 recip max min Re Im Cabs Arg Conjug expj
-    """.split()  # noqa: SIM905 - a list of words reads better than a wall of quotes
-)
-SYSTEM = frozenset("t TMAX DT NN scale DTMAX DTMIN ERMAX ERMIN ERRMAX CHECKN MM iRow PI".split())  # noqa: SIM905
-
 _CLASSES: dict[str, Class] = {
     NUMBER: "number", OCTAL: "number", STRING: "string", RAW: "string", LETTER: "keyword", MATFUN: "function",
 }  # fmt: skip
+
+
+@cache
+def _known() -> tuple[frozenset[str], frozenset[str]]:
+    """Names of library functions and of system variables; imported late, they bring NumPy."""
+    from desire_tui.engine.library import LIBRARY
+    from desire_tui.engine.values import SYSTEM_VARIABLES
+
+    return frozenset(LIBRARY), frozenset(SYSTEM_VARIABLES) | {"PI"}
 
 
 def highlight(text_line: str) -> list[tuple[int, int, Class]]:
@@ -41,10 +43,11 @@ def highlight(text_line: str) -> list[tuple[int, int, Class]]:
 def _class(texts: list[str], kinds: list[str], i: int, kind: str) -> Class:
     if kind == NAME:
         text = texts[i]
-        if text in SYSTEM:
+        functions, system = _known()
+        if text in system:
             return "system"
         called = i + 1 < len(kinds) and kinds[i + 1] == "("
-        return "function" if text in FUNCTIONS and called else "name"
+        return "function" if text in functions and called else "name"
     known = _CLASSES.get(kind)
     if known is not None:
         return known
