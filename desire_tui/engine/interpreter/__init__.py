@@ -1,1 +1,8 @@
 """Walks the experiment-protocol script."""
+
+from __future__ import annotations
+
+from desire_tui.engine.interpreter.host import Host, Interrupted
+from desire_tui.engine.interpreter.interpreter import Interpreter
+
+__all__ = ["Host", "Interpreter", "Interrupted"]

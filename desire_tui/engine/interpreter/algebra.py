@@ -1,0 +1,170 @@
+"""Script statements `MATRIX`, `Vector`, `DOT`, `AVG` on real arrays (language.md section 7; book, section 6.2)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.interpreter.arrays import ArrayExpressions, conform
+from desire_tui.engine.interpreter.assignment import storer
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.nodes import (
+    Binary,
+    Dot,
+    Expr,
+    MatrixAssign,
+    Name,
+    Number,
+    Transposed,
+    Unary,
+    VectorAssign,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.values import Quantity
+
+    Array = NDArray[np.float64]
+
+
+def matrix(site: Site) -> Operation:
+    """`MATRIX C = A * B + …`; `= 1` the identity, `= 0` all zeroes; `DELTA` adds."""
+    node = site.node
+    assert isinstance(node, MatrixAssign)
+    target = site.array(Name(node.name, node.start, node.end))
+    if len(target.shape) != 2:
+        raise Fault("not-a-matrix", node, name=node.name)
+    expressions = ArrayExpressions(site, true_products=True)
+    value = expressions.evaluator(node.value)
+    bounds = [site.real(b) if b is not None else None for b in (node.lower, node.upper)]
+    mask = site.values.view(site.array(Name(node.mask))) if node.mask else None
+    view = site.values.view(target)
+    identity = isinstance(node.value, Number) and node.value.value == 1.0 and not node.delta
+
+    def action() -> None:
+        result = value()
+        if identity:
+            result = np.eye(*target.shape)
+        if np.ndim(result) == 0 and not identity and not node.delta and result != 0.0:
+            raise Fault("matrix-from-number", node.value, name=node.name)
+        result = conform(result, target.shape, node, node.name)
+        result = view + result if node.delta else result
+        if bounds != [None, None]:
+            lower, upper = (b() if b is not None else None for b in bounds)
+            result = np.clip(result, lower, upper)
+        if mask is not None:
+            np.copyto(view, result, where=conform(mask, target.shape, node, node.name) != 0.0)
+        else:
+            view[...] = result
+
+    return site.then(action)
+
+
+def vector(site: Site) -> Operation:
+    """`Vector y = A * x + b`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
+    node = site.node
+    assert isinstance(node, VectorAssign)
+    target = site.array(Name(node.name, node.start, node.end))
+    if len(target.shape) != 1:
+        raise Fault("not-a-vector", node, name=node.name)
+    value = ArrayExpressions(site, true_products=False).evaluator(node.value)
+    mask = site.values.view(site.array(Name(node.mask))) if node.mask else None
+    view = site.values.view(target)
+
+    def action() -> None:
+        result = conform(value(), target.shape, node, node.name)
+        if node.delta:
+            result = view + result
+        if node.largest:
+            result = _largest_only(result)
+        if mask is not None:
+            result = np.where(conform(mask, target.shape, node, node.name) != 0.0, 0.0, result)
+        view[...] = result
+
+    return site.then(action)
+
+
+def _largest_only(vector: Array) -> Array:
+    """Keep the largest element (ties: the highest index); all others become 0."""
+    place = len(vector) - 1 - int(np.argmax(vector[::-1]))
+    result = np.zeros_like(vector)
+    result[place] = vector[place]
+    return result
+
+
+def dot(site: Site) -> Operation:
+    """`DOT s = u*v + u*1 + u*A*v + u*A%*v`; `AVG` divides by the vectors' length."""
+    node = site.node
+    assert isinstance(node, Dot)
+    terms = [_DotTerm(site, sign, term) for sign, term in _terms(node.value, 1.0)]
+    store = storer(site, node.target)
+
+    def action() -> None:
+        total = sum(term.value() for term in terms)
+        store(float(total / terms[0].length if node.average else total))
+
+    return site.then(action)
+
+
+def _terms(node: Expr, sign: float) -> list[tuple[float, Expr]]:
+    if isinstance(node, Binary) and node.op in {"+", "-"}:
+        return _terms(node.left, sign) + _terms(node.right, sign if node.op == "+" else -sign)
+    if isinstance(node, Unary):
+        return _terms(node.operand, sign if node.op == "+" else -sign)
+    return [(sign, node)]
+
+
+def _factors(node: Expr) -> list[Expr]:
+    if isinstance(node, Binary) and node.op == "*":
+        return _factors(node.left) + _factors(node.right)
+    return [node]
+
+
+class _DotTerm:
+    """One product: a vector, perhaps a matrix, and a vector or 1."""
+
+    def __init__(self, site: Site, sign: float, node: Expr) -> None:
+        factors = _factors(node)
+        if not 2 <= len(factors) <= 3:
+            raise Fault("script-dot-term", node)
+        self._sign, self._node = sign, node
+        left = self._vector(site, factors[0])
+        self._left = site.values.view(left)
+        self.length = left.size
+        last = factors[-1]
+        ones = isinstance(last, Number) and last.value == 1.0 and len(factors) == 2
+        self._right = None if ones else site.values.view(self._vector(site, last))
+        self._matrix = self._find_matrix(site, factors[1]) if len(factors) == 3 else None
+        shape = self._matrix.shape if self._matrix is not None else (self.length, self.length)
+        right = self.length if self._right is None else len(self._right)
+        if shape != (self.length, right):
+            raise Fault("nonconformable", node, have=f"{shape[0]}×{shape[1]}", want=f"{self.length}×{right}")
+
+    def _vector(self, site: Site, node: Expr) -> Quantity:
+        quantity = site.array(node)
+        if len(quantity.shape) != 1:
+            raise Fault("not-a-vector", node, name=quantity.name)
+        return quantity
+
+    def _find_matrix(self, site: Site, node: Expr) -> Array:
+        name = Name(node.name, node.start, node.end) if isinstance(node, Transposed) else node
+        quantity = site.array(name)
+        if len(quantity.shape) != 2:
+            raise Fault("not-a-matrix", node, name=quantity.name)
+        view = site.values.view(quantity)
+        return view.T if isinstance(node, Transposed) else view  # type: ignore[return-value]
+
+    def value(self) -> float:
+        """Return the signed sum of products."""
+        if self._right is None:
+            return self._sign * float(np.sum(self._left))
+        right = self._right if self._matrix is None else self._matrix @ self._right
+        return self._sign * float(self._left @ right)
+
+

@@ -1,0 +1,190 @@
+"""Expressions over whole arrays, evaluated by NumPy.
+
+Products are true matrix products in `MATRIX` statements; in `Vector` statements a matrix times a vector is one too, and
+two vectors multiply element by element. Scalars multiply and add everywhere.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.library import LIBRARY, integer_power, power
+from desire_tui.engine.nodes import Binary, Call, Name, Shifted, Transposed, Unary
+from desire_tui.engine.values import Quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.nodes import Expr, Node
+
+    Evaluator = Callable[[], Any]
+
+_SINGULAR = 1e-15
+"""A matrix whose reciprocal condition number (1-norm) is below this is called singular."""
+
+
+class ArrayExpressions:
+    """Makes evaluators of array expressions for one statement."""
+
+    def __init__(self, site: Site, *, true_products: bool) -> None:
+        self._site = site
+        self._true_products = true_products
+
+    def evaluator(self, node: Expr) -> Evaluator:
+        """Return a function that evaluates an expression to a float, a vector or a matrix."""
+        if not self._has_array(node):
+            return self._site.real(node)
+        match node:
+            case Name():
+                view = self._site.values.view(self._site.array(node))
+                return lambda: view
+            case Transposed(name):
+                view = self._site.values.view(self._matrix(Name(name, node.start, node.end)))
+                return lambda: view.T
+            case Shifted():
+                return self._shifted(node)
+            case Unary(op, operand):
+                inner = self.evaluator(operand)
+                return inner if op == "+" else lambda: -inner()
+            case Binary():
+                return self._binary(node)
+            case Call():
+                return self._call(node)
+        raise Fault("not-in-array-expression", node)
+
+    def _has_array(self, node: Expr) -> bool:
+        match node:
+            case Name():
+                meaning = self._site.scope.find(node.name)
+                return isinstance(meaning, Quantity) and bool(meaning.shape)
+            case Transposed() | Shifted():
+                return True
+            case Unary(_, operand):
+                return self._has_array(operand)
+            case Binary(_, left, right):
+                return self._has_array(left) or self._has_array(right)
+            case Call(name, args):
+                return name.startswith("$") or (
+                    name not in {"func1", "func2"} and any(map(self._has_array, args))
+                )
+        return False
+
+    def _matrix(self, node: Expr) -> Quantity:
+        quantity = self._site.array(node)
+        if len(quantity.shape) != 2:
+            raise Fault("not-a-matrix", node, name=quantity.name)
+        return quantity
+
+    def _shifted(self, node: Shifted) -> Evaluator:
+        quantity = self._site.array(Name(node.name, node.start, node.end))
+        if len(quantity.shape) != 1:
+            raise Fault("not-a-vector", node, name=node.name)
+        view, by, size = self._site.values.view(quantity), self._site.real(node.by), quantity.size
+
+        def evaluate() -> NDArray[np.float64]:
+            k = round(max(-size, min(size, by())))
+            result = np.zeros(size)
+            result[max(0, -k) : size - max(0, k)] = view[max(0, k) : size + min(0, k)]
+            return result
+
+        return evaluate
+
+    def _binary(self, node: Binary) -> Evaluator:
+        a, b = self.evaluator(node.left), self.evaluator(node.right)
+        match node.op:
+            case "+":
+                return lambda: np.add(*self._same(a(), b(), node))
+            case "-":
+                return lambda: np.subtract(*self._same(a(), b(), node))
+            case "*":
+                return lambda: self._product(a(), b(), node)
+            case "/":
+                return lambda: _quotient(*self._same(a(), b(), node))
+            case "&":
+                return lambda: np.minimum.outer(a(), b())
+        return lambda: _elementwise(_power, *self._same(a(), b(), node))
+
+    def _same(self, a: Any, b: Any, node: Node) -> tuple[Any, Any]:
+        if np.ndim(a) and np.ndim(b) and np.shape(a) != np.shape(b):
+            raise Fault("nonconformable", node, have=_size(a), want=_size(b))
+        return a, b
+
+    def _product(self, a: Any, b: Any, node: Node) -> Any:
+        dimensions = np.ndim(a), np.ndim(b)
+        if 0 in dimensions:
+            return a * b
+        if dimensions == (1, 1):
+            return np.multiply.outer(a, b) if self._true_products else np.multiply(*self._same(a, b, node))
+        if np.shape(a)[-1] != np.shape(b)[0]:
+            raise Fault("nonconformable", node, have=_size(a), want=_size(b))
+        return a @ b
+
+    def _call(self, node: Call) -> Evaluator:
+        args = [self.evaluator(arg) for arg in node.args]
+        if node.name == "$In" and len(args) == 1:
+            return lambda: _inverse(args[0](), node)
+        if node.name == "$Tr" and len(args) == 1:
+            return lambda: np.transpose(args[0]())
+        entry = LIBRARY.get(node.name)
+        if entry is None or entry.value is None or entry.kind == "table":
+            raise Fault("not-in-array-expression", node)
+        if not entry.fewest <= len(args) <= entry.most:
+            raise Fault("argument-count", node, name=node.name, given=len(args), needed=entry.parameters)
+        function = entry.value
+
+        def evaluate() -> Any:
+            try:
+                return _elementwise(function, *(arg() for arg in args))
+            except ValueError:
+                raise Fault(entry.domain_error, node, function=node.name) from None
+
+        return evaluate
+
+
+def _elementwise(function: Callable[..., complex], *args: Any) -> Any:
+    return np.vectorize(function, otypes=[np.float64])(*args)
+
+
+def _power(x: float, y: float) -> complex:
+    """x^y as in scalar expressions: whole powers are products."""
+    return integer_power(x, int(y)) if y == int(y) and abs(y) < 1 << 31 else power(x, y)
+
+
+def _quotient(a: Any, b: Any) -> Any:
+    if np.any(np.equal(b, 0.0)):
+        raise ZeroDivisionError
+    return np.divide(a, b)
+
+
+def _inverse(matrix: Any, node: Node) -> Any:
+    """Invert by LAPACK's LU decomposition; error 123 for a matrix that is singular to working precision."""
+    if np.ndim(matrix) != 2 or matrix.shape[0] != matrix.shape[1]:
+        raise Fault("not-square", node, have=_size(matrix))
+    try:
+        inverse = np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        raise Fault("singular-matrix", node) from None
+    condition = np.linalg.norm(matrix, 1) * np.linalg.norm(inverse, 1)
+    if not condition * _SINGULAR < 1.0:
+        raise Fault("singular-matrix", node)
+    return inverse
+
+
+def conform(value: Any, shape: tuple[int, ...], node: Node, name: str) -> NDArray[np.float64]:
+    """Return a value spread over a target's shape; errors 3 and 74."""
+    if np.ndim(value) and np.shape(value) != shape:
+        have = _size(value)
+        raise Fault("nonconformable", node, have=have, want=f"{name}[{','.join(map(str, shape))}]")
+    if not np.all(np.isfinite(value)):
+        raise Fault("overflow", node)
+    return np.array(np.broadcast_to(value, shape), dtype=np.float64)
+
+
+def _size(value: Any) -> str:
+    return "×".join(map(str, np.shape(value))) or "a number"

@@ -1,0 +1,112 @@
+"""`x = e`, `x[i] = e`, and storing single values read from data lists, files and the console."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.interpreter import builder as py
+from desire_tui.engine.interpreter.builder import at
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.scope import Reference
+from desire_tui.engine.interpreter.translate import literal
+from desire_tui.engine.nodes import Assign, Name
+from desire_tui.engine.values import SCALAR_SLOTS, Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.nodes import Expr, Target
+
+
+def assign(site: Site) -> Operation:
+    """Make the operation of an assignment. A new name counts as 0 on its own right side."""
+    node = site.node
+    assert isinstance(node, Assign)
+    slot, kind = site.slot_code(node.target)
+    fresh = _fresh_slot(site, slot)
+    if fresh is None:
+        return _assignment(site, node.target, slot, kind, node.value)
+    values = site.values
+    values.assign(fresh, 0.0)
+    try:
+        operation = _assignment(site, node.target, slot, kind, node.value)
+    except BaseException:
+        values.defined[fresh] = 0
+        raise
+
+    def once() -> int:
+        """A target that never got its value stays undefined."""
+        try:
+            following = operation()
+        except BaseException:
+            values.defined[fresh] = 0
+            raise
+        values.defined[fresh] = 1
+        site.code.operations[site.place] = operation
+        return following
+
+    return once
+
+
+def _fresh_slot(site: Site, slot: ast.expr) -> int | None:
+    if not isinstance(slot, ast.Constant):
+        return None
+    number = int(slot.value)  # type: ignore[arg-type]
+    return number if number < SCALAR_SLOTS and not site.values.defined[number] else None
+
+
+def _assignment(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Expr) -> Operation:
+    number = literal(value)
+    if number is not None and kind is Kind.REAL and isinstance(slot, ast.Constant):
+        cells, place, following = site.values.cells, slot.value, site.next
+
+        def constant() -> int:
+            cells[place] = number
+            return following
+
+        return constant
+    body = store_code(site, target, slot, kind, value)
+    return site.function([*body, ast.Return(py.number(site.next))])
+
+
+def store_code(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Expr) -> list[ast.stmt]:
+    """Return code that evaluates an expression and stores it as the target's kind asks for."""
+    code, given = site.translator.expression(value)
+    if given is Kind.COMPLEX and kind is not Kind.COMPLEX:
+        raise Fault("complex-to-real", value, name=target.name)
+    if kind is Kind.COMPLEX:
+        body: list[ast.stmt] = [ast.Expr(at(py.call("set_complex", slot, code), value))]
+    elif kind is Kind.INTEGER:
+        body = [py.set_cell(slot, at(py.call("to_integer", code), value))]
+    elif literal(value) is not None:
+        body = [py.set_cell(slot, code)]
+    else:
+        difference = ast.BinOp(py.load("v"), ast.Sub(), py.load("v"))  # 0 but for inf and nan
+        failed: ast.stmt = ast.Expr(at(py.call("overflow"), value))
+        body = [py.store("v", code), ast.If(difference, [failed], []), py.set_cell(slot, py.load("v"))]
+    meaning = site.scope.dummies.get(target.name)
+    if isinstance(target, Name) and isinstance(meaning, Reference):
+        body.append(ast.Expr(py.call("mark", py.load(meaning.variable))))
+    return body
+
+
+def storer(site: Site, target: Target) -> Callable[[complex], None]:
+    """Return a function that stores one value in a scalar target, as an assignment would."""
+    slot_of, kind = site.slot(target)
+    cells = site.values.cells
+    helpers = site.machine.build.names
+
+    def store(value: complex) -> None:
+        if kind is Kind.COMPLEX:
+            helpers["set_complex"](slot_of(), complex(value))
+            return
+        if isinstance(value, complex):
+            raise Fault("complex-to-real", target, name=target.name)
+        if kind is Kind.INTEGER:
+            value = helpers["to_integer"](value)
+        cells[slot_of()] = value
+
+    return store

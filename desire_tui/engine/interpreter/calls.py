@@ -1,0 +1,95 @@
+"""Calls in expressions: library functions, FUNCTIONs, table functions, random numbers."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.interpreter import builder as py
+from desire_tui.engine.interpreter.builder import Typed, at
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.library import LIBRARY, LibraryFunction
+from desire_tui.engine.nodes import Name
+from desire_tui.engine.values import Kind
+
+if TYPE_CHECKING:
+    from desire_tui.engine.interpreter.builder import Builder
+    from desire_tui.engine.interpreter.functions import Functions
+    from desire_tui.engine.interpreter.translate import Translator
+    from desire_tui.engine.nodes import Call, Expr
+    from desire_tui.engine.values import Quantity
+
+
+class CallTranslator:
+    """Translates calls for a `Translator`."""
+
+    def __init__(self, translator: Translator, build: Builder, functions: Functions) -> None:
+        self.translator = translator
+        self.build = build
+        self.functions = functions
+
+    def call(self, node: Call) -> Typed:
+        """Translate a call; a program's own FUNCTION wins over the library."""
+        if node.name in self.functions.definitions:
+            return self.functions.call(node, self.translator)
+        entry = LIBRARY.get(node.name)
+        if entry is None:
+            known = [*LIBRARY, *self.functions.definitions]
+            raise Fault("undefined-function", node, name=node.name, close=closest(node.name, known))
+        if not entry.fewest <= len(node.args) <= entry.most:
+            needed = entry.parameters or "no arguments"
+            raise Fault("argument-count", node, name=node.name, given=len(node.args), needed=needed)
+        match entry.kind:
+            case "random":
+                return Typed(at(py.call(node.name), node), Kind.REAL)
+            case "time":
+                self.build.names.setdefault("tim", time.process_time)
+                return Typed(at(py.call("tim"), node), Kind.REAL)
+            case "table":
+                return Typed(self._table(node, entry), Kind.REAL)
+            case "complex":
+                return self._complex(node, entry)
+        args = [self.translator.real(arg) for arg in node.args]
+        return Typed(at(py.call(self._shared(entry), *args), node), Kind.REAL)
+
+    def _shared(self, entry: LibraryFunction) -> str:
+        name = f"f_{entry.name}"
+        self.build.names.setdefault(name, entry.value)
+        return name
+
+    def _complex(self, node: Call, entry: LibraryFunction) -> Typed:
+        argument, kind = self.translator.expression(node.args[0])
+        result = Kind.COMPLEX if entry.gives_complex else Kind.REAL
+        if node.name == "exp" and kind is not Kind.COMPLEX:
+            self.build.names.setdefault("real_exp", math.exp)
+            return Typed(at(py.call("real_exp", argument), node), Kind.REAL)
+        if node.name == "exp":
+            result = Kind.COMPLEX
+        return Typed(at(py.call(self._shared(entry), argument), node), result)
+
+    def _table(self, node: Call, entry: LibraryFunction) -> py.ast.expr:
+        tables = 1 if node.name == "func1" else 3
+        args = [self.translator.real(arg) for arg in node.args[:-tables]]
+        arrays = [self._array(arg) for arg in node.args[-tables:]]
+        if node.name == "func1":
+            table = arrays[0]
+            if len(table.shape) != 1 or table.size % 2:
+                raise Fault("table-shape", node.args[-1], name=table.name)
+        else:
+            f, x, y = arrays
+            if f.shape != (x.size, y.size):
+                raise Fault("table2-shape", node, name=f.name, rows=x.size, columns=y.size)
+        cells = self.build.values.cells
+        views = [py.load(self.build.share("a", cells[q.slot : q.slot + q.slots])) for q in arrays]
+        made: py.ast.expr = at(py.call(self._shared(entry), *args, *views), node)
+        return made
+
+    def _array(self, node: Expr) -> Quantity:
+        if not isinstance(node, Name):
+            raise Fault("array-name-expected", node)
+        quantity = self.translator.scope.array(node)
+        if quantity.kind is Kind.COMPLEX:
+            raise Fault("complex-not-possible", node)
+        return quantity

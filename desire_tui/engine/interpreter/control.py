@@ -1,0 +1,165 @@
+"""Blocks, jumps, STOP: everything that moves the program counter."""
+
+from __future__ import annotations
+
+import ast
+from math import floor
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.interpreter import builder as py
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.library import rounded
+from desire_tui.engine.nodes import For, GoTo, If, Name, Until, While
+from desire_tui.engine.values import Kind
+
+if TYPE_CHECKING:
+    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.site import Site
+
+_ROUNDING = 1e-9
+"""Added to the number of steps, so that `0 to 1 step 0.1` makes eleven passes."""
+
+
+def if_then(site: Site) -> Operation:
+    """`if C then`."""
+    node = site.node
+    assert isinstance(node, If)
+    if node.condition is None:
+        raise Fault("if-without-then", node)
+    condition = site.translator.condition(node.condition)
+    return _choose(site, condition, site.next, _behind(site))
+
+
+def while_loop(site: Site) -> Operation:
+    """`while C`."""
+    node = site.node
+    assert isinstance(node, While)
+    condition = site.translator.condition(node.condition)
+    return _choose(site, condition, site.next, _behind(site))
+
+
+def until(site: Site) -> Operation:
+    """`until C`."""
+    node = site.node
+    assert isinstance(node, Until)
+    again = site.code.structure.partner[site.place] + 1
+    leave = ast.If(site.translator.condition(node.condition), [ast.Return(py.number(site.next))], [])
+    check = ast.Expr(py.call("check"))
+    return site.function([leave, check, ast.Return(py.number(again))])
+
+
+def _behind(site: Site) -> int:
+    """Where control goes when it does not enter the block that opens here."""
+    return site.code.structure.partner[site.place] + 1
+
+
+def _choose(site: Site, condition: ast.expr, yes: int, no: int) -> Operation:
+    return site.function([ast.Return(ast.IfExp(condition, py.number(yes), py.number(no)))])
+
+
+def end_while(site: Site) -> Operation:
+    """`end while`."""
+    return _jump_back(site, site.code.structure.partner[site.place])
+
+
+def _jump_back(site: Site, place: int) -> Operation:
+    check = site.machine.check
+
+    def operation() -> int:
+        check()
+        return place
+
+    return operation
+
+
+def go_to(site: Site) -> Operation:
+    """`go to L`."""
+    node = site.node
+    assert isinstance(node, GoTo)
+    place = site.code.structure.place(node.target)
+    if place is None:
+        raise Fault("no-such-label", node, name=node.target)
+    return _jump_back(site, place) if place <= site.place else site.jump(place)
+
+
+def for_loop(site: Site) -> Operation:
+    """`for v = a to b step s`: bounds are evaluated once; error 48 for a loop variable that is not real."""
+    node = site.node
+    assert isinstance(node, For)
+    first, last = site.real(node.first), site.real(node.last)
+    by = site.real(node.by) if node.by is not None else None
+    slot_of, kind = site.slot(node.variable)
+    if kind is Kind.COMPLEX:
+        raise Fault("loop-variable", node.variable, name=node.variable.name)
+    # k, count, first value, step, slot; shared with `next`
+    loop = site.code.loops.setdefault(site.place, [0, 0, 0.0, 1.0, 0])
+    after, body, cells = _behind(site), site.next, site.values.cells
+
+    def operation() -> int:
+        a, b = first(), last()
+        s = by() if by is not None else 1.0
+        if s == 0.0:
+            raise Fault("step-is-zero", node.by)
+        count = floor((b - a) / s + _ROUNDING) + 1
+        if count < 1:
+            return after
+        slot = slot_of()
+        loop[:] = 0, count, a, s, slot
+        cells[slot] = rounded(a) if kind is Kind.INTEGER else a
+        return body
+
+    return operation
+
+
+def next_pass(site: Site) -> Operation:
+    """`next`: the variable is computed from the number of passes, so that steps do not drift."""
+    opening = site.code.structure.partner[site.place]
+    node = site.code.placed[opening].node
+    assert isinstance(node, For)
+    loop = site.code.loops.setdefault(opening, [0, 0, 0.0, 1.0, 0])
+    kind = site.slot_code(node.variable)[1]
+    if isinstance(node.variable, Name):
+        loop[4] = site.slot(node.variable)[0]()  # found anew: `clear` may have moved it
+    cells, body, after, interrupted = site.values.cells, opening + 1, site.next, site.host.interrupted
+    whole = kind is Kind.INTEGER
+
+    def operation() -> int:
+        k = loop[0] + 1
+        if k >= loop[1]:
+            return after
+        if interrupted():
+            raise Interrupted
+        loop[0] = k
+        value = loop[2] + k * loop[3]
+        cells[loop[4]] = rounded(value) if whole else value  # type: ignore[index]
+        return body
+
+    return operation
+
+
+def leave_block(site: Site) -> Operation:
+    """`else` reached from above, a skipped PROCEDURE or SUBMODEL."""
+    return site.jump(_behind(site))
+
+
+def exit_block(site: Site) -> Operation:
+    """`exit`: out of the innermost loop, or back from a PROCEDURE."""
+    closer = site.code.structure.exits[site.place]
+    return site.machine.leave if closer is None else site.jump(closer + 1)
+
+
+def end_procedure(site: Site) -> Operation:
+    """`end` of a PROCEDURE."""
+    return site.machine.leave
+
+
+def stop(site: Site) -> Operation:
+    """`STOP`."""
+    following = site.next
+    return lambda: site.machine.stop(following)
+
+
+def nothing(site: Site) -> Operation:
+    """Labels, data lists, `proceed`, `repeat`, FUNCTION lines."""
+    return site.jump(site.next)

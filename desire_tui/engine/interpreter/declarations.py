@@ -1,0 +1,137 @@
+"""ARRAY, STATE, INTEGER, COMPLEX (book, sections 5.3.1 and 8.3.1)."""
+
+from __future__ import annotations
+
+from math import prod
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.nodes import Declare, Declared
+from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.nodes import DeclaredGroup, Node
+
+_MOST_DIMENSIONS = 10
+_KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
+
+
+def declare(site: Site) -> Operation:
+    """Make the operation of a declaration. Dimensions are evaluated each time it is carried out."""
+    node = site.node
+    assert isinstance(node, Declare)
+    groups = [
+        (group, [[site.real(d) for d in part.dimensions] for part in group.parts]) for group in node.groups
+    ]
+
+    def action() -> None:
+        for group, dimensions in groups:
+            shapes = [_shape(part, of) for part, of in zip(group.parts, dimensions, strict=True)]
+            _declare_group(site, node, group, shapes)
+
+    return site.then(action)
+
+
+def _shape(part: Declared, dimensions: list[Callable[[], float]]) -> tuple[int, ...]:
+    if len(dimensions) > _MOST_DIMENSIONS:
+        raise Fault("too-many-dimensions", part, name=part.name, given=len(dimensions))
+    shape = []
+    for node, evaluate in zip(part.dimensions, dimensions, strict=True):
+        size = evaluate()
+        if not 1 <= size < 1e18:
+            raise Fault("bad-dimension", node, name=part.name, value=f"{size:g}")
+        shape.append(int(size))
+    return tuple(shape)
+
+
+def _declare_group(site: Site, node: Declare, group: DeclaredGroup, shapes: list[tuple[int, ...]]) -> None:
+    kind, is_state = _KINDS[node.kind], node.kind == "STATE"
+    if kind is Kind.COMPLEX:
+        _define_j(site)
+    if group.whole is None:
+        for part, shape in zip(group.parts, shapes, strict=True):
+            _declare_one(site, part, part.name, shape, kind, is_state=is_state)
+        return
+    if kind is Kind.INTEGER or kind is Kind.COMPLEX:
+        raise Fault("overlay-not-real", group, kind=node.kind)
+    total = sum(prod(shape) for shape in shapes)
+    whole = _declare_one(site, group, group.whole, (total,), kind, is_state=is_state)
+    slot = whole.slot
+    for part, shape in zip(group.parts, shapes, strict=True):
+        known = site.values.find(part.name)
+        same = known is not None and known.shape == (shape or (1,)) and known.slot == slot
+        if not same:
+            _check_free(site, part, part.name, scalar=not shape)
+            made = site.values.alias(part.name, shape, slot, is_state=is_state)
+            made.declared_at = site.placed.span(part)
+        slot += prod(shape)
+
+
+def _declare_one(
+    site: Site, node: Node, name: str, shape: tuple[int, ...], kind: Kind, *, is_state: bool
+) -> Quantity:
+    """Make one quantity; the same declaration again zeroes it."""
+    values = site.values
+    known = values.find(name)
+    if known is not None and (known.shape, known.kind, known.is_state) == (shape, kind, is_state) and shape:
+        values.zero(known)
+        return known
+    _check_free(site, node, name, scalar=not shape)
+    if not shape:
+        return _declare_scalar(site, node, name, kind, is_state=is_state)
+    if prod(shape) >= values.capacity:
+        raise Fault("array-too-large", node, name=name, elements=prod(shape), room=values.capacity)
+    values.names.pop(name, None)
+    made = values.array(name, shape, kind, is_state=is_state)
+    made.declared_at = site.placed.span(node)
+    return made
+
+
+def _declare_scalar(site: Site, node: Node, name: str, kind: Kind, *, is_state: bool) -> Quantity:
+    values = site.values
+    known = values.find(name)
+    if known is not None and known.kind is not kind:
+        if values.is_defined(known):
+            raise Fault("declared-twice", node, name=name, before="a number")
+        values.names.pop(name)
+        known = None
+    made = known or values.scalar(name, kind, is_state=is_state)
+    made.is_state = made.is_state or is_state
+    made.declared_at = site.placed.span(node)
+    if not values.defined[made.slot]:
+        values.assign(made.slot, 0.0)
+    return made
+
+
+def _check_free(site: Site, node: Node, name: str, *, scalar: bool) -> None:
+    """Errors 28, 55, 73 for a name that is in use already."""
+    scope, values = site.scope, site.values
+    if name in SYSTEM_VARIABLES:
+        raise Fault("system-variable-declared", node, name=name)
+    if name in scope.functions or name in scope.procedures:
+        what = "FUNCTION" if name in scope.functions else "PROCEDURE"
+        raise Fault("name-of-something-else", node, name=name, what=f"a {what}")
+    known = values.find(name)
+    if known is None:
+        return
+    if known.shape:
+        size = ",".join(map(str, known.shape))
+        raise Fault("declared-twice", node, name=name, before=f"{name}[{size}]")
+    if not scalar and values.is_defined(known):
+        raise Fault("name-of-something-else", node, name=name, what="a number")
+
+
+def _define_j(site: Site) -> None:
+    """The first COMPLEX line defines j, the square root of −1."""
+    values = site.values
+    known = values.find("j")
+    if known is not None and known.kind is Kind.COMPLEX:
+        return
+    values.names.pop("j", None)
+    made = values.scalar("j", Kind.COMPLEX)
+    values.assign(made.slot, 0.0)
+    values.cells[made.slot + 1] = 1.0

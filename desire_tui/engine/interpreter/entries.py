@@ -1,0 +1,108 @@
+"""Entries typed at a prompt or read from a file: expressions separated by newlines, commas and tabs."""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.interpreter.faults import Fault, explain
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.nodes import Bare, Placed
+from desire_tui.engine.source import Source
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.interpreter.site import Site
+
+_SEPARATOR = re.compile(r"[,;\t]")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+
+
+class Entries:
+    """Values in the order they come. From the console a bad entry is asked for again, and `!` breaks off."""
+
+    def __init__(self, site: Site, read_line: Callable[[], str], origin: str) -> None:
+        self._site = site
+        self._read_line = read_line
+        self._origin = origin
+        self._prompt: str | None = None
+        self._waiting: deque[str] = deque()
+
+    def ask(self, name: str) -> None:
+        """Take values from the console from now on, prompting with a name."""
+        self._prompt = f"{name} ? "
+
+    def next(self) -> complex:
+        """Return the next value; errors 18 and 197."""
+        while True:
+            while not self._waiting:
+                line = self._ask_line() if self._prompt is not None else self._read_line()
+                self._waiting.extend(split_entries(line))
+            text = self._waiting.popleft()
+            if _NUMBER.fullmatch(text):
+                return float(text)
+            try:
+                return self._evaluate(text)
+            except DesireError as problem:
+                if self._prompt is None:
+                    facts = {"entry": text, "origin": self._origin, "reason": problem.diagnostics[0].message}
+                    raise DesireError(Diagnostic("bad-entry", facts=facts)) from problem
+                self._site.host.warn(problem)
+                self._waiting.clear()
+
+    def _ask_line(self) -> str:
+        assert self._prompt is not None
+        try:
+            line = self._site.host.ask(self._prompt)
+        except EOFError:
+            raise DesireError(Diagnostic("input-ended")) from None
+        if line.strip() == "!":
+            raise DesireError(Diagnostic("input-broken-off"))
+        return line
+
+    def _evaluate(self, text: str) -> complex:
+        from desire_tui.engine.syntax import parse_command
+
+        source = Source(text, f"<{self._origin}>")
+        statements, problems = parse_command(source)
+        if problems:
+            raise DesireError(*(problem.within(source) for problem in problems))
+        if len(statements) != 1 or not isinstance(statements[0].node, Bare):
+            raise DesireError(Diagnostic("entry-not-a-value", facts={"entry": text}, source=source))
+        placed: Placed = statements[0]
+        assert isinstance(placed.node, Bare)
+        machine = self._site.machine
+        try:
+            code, _ = self._site.translator.expression(placed.node.value)
+            value: complex = machine.build.evaluate(code, placed, source)
+        except Interrupted:
+            raise
+        except (Fault, ArithmeticError, ValueError) as error:
+            raise explain(error, placed, source, machine.origins) from error
+        return value
+
+
+def split_entries(line: str) -> list[str]:
+    """Split a line at commas, semicolons and tabs outside brackets; numbers may stand apart by blanks alone."""
+    entries: list[str] = []
+    depth, start = 0, 0
+    for index, character in enumerate(line):
+        if character in "([":
+            depth += 1
+        elif character in ")]":
+            depth -= 1
+        elif depth <= 0 and _SEPARATOR.match(character):
+            entries.append(line[start:index])
+            start = index + 1
+    entries.append(line[start:])
+    parts: list[str] = []
+    for entry in entries:
+        words = entry.split()
+        if len(words) > 1 and all(map(_NUMBER.fullmatch, words)):
+            parts.extend(words)
+        elif words:
+            parts.append(entry.strip())
+    return parts

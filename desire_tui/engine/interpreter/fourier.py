@@ -1,0 +1,71 @@
+"""`FFT` (language.md section 12; book, section 8.4 and Table 8.1), by NumPy's pocketfft."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.nodes import Fft
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.site import Site
+
+_ARRAYS = {"F": 2, "I": 2, "R": 4, "C": 2}
+
+
+def fft(site: Site) -> Operation:
+    """Make the operation of an FFT statement; errors 61 (not a vector) and 72 (length)."""
+    node = site.node
+    assert isinstance(node, Fft)
+    wanted = _ARRAYS[node.kind]
+    if len(node.args) != wanted + 1:
+        raise Fault("fft-arguments", node, kind=node.kind, needed="n and " + ("four" if wanted == 4 else "two"))
+    count = site.whole(node.args[0])
+    quantities = [site.array(arg) for arg in node.args[1:]]
+    for argument, quantity in zip(node.args[1:], quantities, strict=True):
+        if len(quantity.shape) != 1:
+            raise Fault("fft-array", argument, name=quantity.name)
+    views = [site.values.view(q) for q in quantities]
+
+    def action() -> None:
+        n = count()
+        if n < 2:
+            raise Fault("fft-length", node.args[0], n=n)
+        for argument, quantity in zip(node.args[1:], quantities, strict=True):
+            if quantity.size < n:
+                raise Fault("fft-array-short", argument, name=quantity.name, size=quantity.size, n=n)
+        parts = [view[:n] for view in views]
+        _TRANSFORMS[node.kind](*parts)
+
+    return site.then(action)
+
+
+def _forward(x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
+    transform = np.fft.fft(x + 1j * y)
+    x[:], y[:] = transform.real, transform.imag
+
+
+def _inverse(x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
+    signal = np.fft.ifft(x + 1j * y)
+    x[:], y[:] = signal.real, signal.imag
+
+
+def _two_real(
+    x: NDArray[np.float64], y: NDArray[np.float64], u: NDArray[np.float64], v: NDArray[np.float64]
+) -> None:
+    first, second = np.fft.fft(x), np.fft.fft(y)
+    x[:], u[:] = first.real, first.imag
+    y[:], v[:] = second.real, second.imag
+
+
+def _convolve(x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
+    product = np.fft.ifft(np.fft.fft(x) * np.fft.fft(y))
+    x[:], y[:] = product.real, product.imag
+
+
+_TRANSFORMS = {"F": _forward, "I": _inverse, "R": _two_real, "C": _convolve}

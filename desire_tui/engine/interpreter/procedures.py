@@ -1,0 +1,147 @@
+"""`call p(e1, e2; r1, r2)`: arguments before the `;` by value, behind it by reference (book, section 5.2.4).
+
+A PROCEDURE's body is made into operations once for each combination of argument kinds and whole arrays. Its value
+dummies have slots of their own; a reference to a scalar or element goes through a box that each call fills.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.machine import Code
+from desire_tui.engine.interpreter.scope import Meaning, Reference
+from desire_tui.engine.nodes import CallProcedure, Element, Name
+from desire_tui.engine.values import SCALAR_SLOTS, Kind, Quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.analysis.structure import ProcedureText
+    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.nodes import Expr
+
+_MOST_BODIES = 64
+"""Bodies kept; a program that passes more different arrays than this makes them again."""
+
+Box = list[int]
+
+
+def call(site: Site) -> Operation:
+    """Make the operation of a call; errors 201 and 56."""
+    node = site.node
+    assert isinstance(node, CallProcedure)
+    procedures = site.machine.structure.procedures
+    found = procedures.get(node.name)
+    if found is None:
+        raise Fault("undefined-procedure", node, name=node.name, close=closest(node.name, procedures))
+    wanted = found.node
+    for given, needed, where in (
+        (node.values, wanted.values, "before the ;"),
+        (node.references, wanted.references, "behind the ;"),
+    ):
+        if len(given) != len(needed):
+            facts = {"given": f"{len(given)} {where}", "needed": len(needed)}
+            raise Fault("arguments-do-not-match", node, name=node.name, **facts)
+    values = [site.value(value) for value in node.values]
+    references = [_Bound(site, reference) for reference in node.references]
+    code = _body(site, found, [kind for _, kind in values], references)
+    dummies = code.scope.dummies
+    slots = [meaning.slot for name in wanted.values if isinstance(meaning := dummies[name], Quantity)]
+    boxes = [m.box if isinstance(m := dummies[name], Reference) else None for name in wanted.references]
+    place, back, machine = found.opens + 1, site.next, site.machine
+    store_complex = machine.build.names["set_complex"]
+    cells = site.values.cells
+    stores = [
+        (evaluate, slot, kind is Kind.COMPLEX) for (evaluate, kind), slot in zip(values, slots, strict=True)
+    ]
+    fills = [
+        (bound.fill, box) for bound, box in zip(references, boxes, strict=True) if bound.fill and box is not None
+    ]
+
+    def operation() -> int:
+        for evaluate, slot, is_complex in stores:
+            if is_complex:
+                store_complex(slot, evaluate())
+            else:
+                cells[slot] = evaluate()  # type: ignore[assignment]
+        for fill, box in fills:
+            fill(box)
+        machine.enter(node.name, code, place, back)
+
+    return operation
+
+
+class _Bound:
+    """An argument by reference: a whole array, or a scalar or element whose slot each call finds."""
+
+    def __init__(self, site: Site, node: Expr) -> None:
+        self.array: Quantity | None = None
+        self.kind = Kind.REAL
+        self.fill: Callable[[Box], None] | None = None
+        if isinstance(node, Element):
+            slot_of, self.kind = site.slot(node)
+            self.fill = _fill_element(slot_of)
+        elif isinstance(node, Name):
+            self._name(site, node)
+        else:
+            raise Fault("reference-expected", node)
+
+    def _name(self, site: Site, node: Name) -> None:
+        meaning = site.scope.assigned(node)
+        self.kind = meaning.kind
+        if isinstance(meaning, Reference):
+            self.fill = _fill_again(meaning.box)
+        elif meaning.shape:
+            self.array = meaning
+        else:
+            self.fill = _fill_scalar(meaning.slot, site.values.defined)
+
+
+def _fill_element(slot_of: Callable[[], int]) -> Callable[[Box], None]:
+    def fill(box: Box) -> None:
+        box[:] = slot_of(), 1
+
+    return fill
+
+
+def _fill_again(outer: Box) -> Callable[[Box], None]:
+    def fill(box: Box) -> None:
+        box[:] = outer
+
+    return fill
+
+
+def _fill_scalar(slot: int, defined: bytearray) -> Callable[[Box], None]:
+    def fill(box: Box) -> None:
+        box[:] = slot, 1 if slot >= SCALAR_SLOTS else defined[slot]
+
+    return fill
+
+
+def _body(site: Site, found: ProcedureText, kinds: list[Kind], references: list[_Bound]) -> Code:
+    """Return the body's code for these kinds of arguments."""
+    machine = site.machine
+    wanted = found.node
+    key = (wanted.name, *kinds, *((b.kind, b.array) for b in references))
+    known = machine.procedures.get(key)
+    if known is not None:
+        return known
+    dummies: dict[str, Meaning] = {}
+    for name, kind in zip(wanted.values, kinds, strict=True):
+        slot = machine.values.unnamed(2 if kind is Kind.COMPLEX else 1)
+        dummies[name] = Quantity(name, slot, (), kind)
+        machine.values.defined[slot] = 1
+    for name, bound in zip(wanted.references, references, strict=True):
+        if bound.array is not None:
+            dummies[name] = bound.array
+            continue
+        box = [0, 0]
+        dummies[name] = Reference(machine.build.share("r", box), bound.kind, box)
+    if len(machine.procedures) >= _MOST_BODIES:
+        machine.procedures.clear()
+    code = Code(machine, machine.script, machine.structure, machine.scope.inner(dummies), machine.source)
+    machine.procedures[key] = code
+    return code

@@ -1,0 +1,127 @@
+"""A statement being made into an operation: what the makers of all statements need."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Any
+
+from desire_tui.engine.interpreter import builder as py
+from desire_tui.engine.interpreter.builder import at
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.scope import Reference
+from desire_tui.engine.interpreter.subscripts import element_slot
+from desire_tui.engine.interpreter.translate import literal, scalar_quantity
+from desire_tui.engine.nodes import Element, Name
+from desire_tui.engine.values import SCALAR_SLOTS, Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.interpreter.machine import Code, Operation
+    from desire_tui.engine.nodes import Expr, Placed, Statement, Target
+    from desire_tui.engine.values import Quantity
+
+
+class Site:
+    """One statement of some code."""
+
+    def __init__(self, code: Code, place: int) -> None:
+        self.code = code
+        self.place = place
+        self.placed: Placed = code.placed[place]
+        self.node: Statement = self.placed.node
+        self.next = place + 1
+        self.machine = code.machine
+        self.host = code.machine.host
+        self.values = code.machine.values
+        self.scope = code.scope
+        self.translator = code.translator
+
+    def function(self, body: list[ast.stmt]) -> Callable[..., Any]:
+        """Compile statements that belong to this statement."""
+        return self.machine.build.function(body, self.placed, self.code.source)
+
+    def then(self, action: Callable[[], object]) -> Operation:
+        """Return the operation that carries out `action` and goes on with the next statement."""
+        following = self.next
+
+        def operation() -> int:
+            action()
+            return following
+
+        return operation
+
+    def jump(self, place: int) -> Operation:
+        """Return the operation that only goes on elsewhere."""
+        return lambda: place
+
+    def real(self, node: Expr) -> Callable[[], float]:
+        """Return a function that evaluates a real expression."""
+        value = literal(node)
+        if value is not None:
+            return lambda: value
+        quantity = scalar_quantity(self.scope, node)
+        if quantity is not None:
+            cells, slot = self.values.cells, quantity.slot
+            return lambda: cells[slot]
+        return self.function([ast.Return(self.translator.real(node))])
+
+    def value(self, node: Expr) -> tuple[Callable[[], complex], Kind]:
+        """Return a function that evaluates any scalar expression, and the kind of its value."""
+        if literal(node) is not None:
+            return self.real(node), Kind.REAL
+        code, kind = self.translator.expression(node)
+        return self.function([ast.Return(code)]), kind
+
+    def whole(self, node: Expr) -> Callable[[], int]:
+        """Return a function that evaluates an expression and truncates its value."""
+        value = self.real(node)
+
+        def evaluate() -> int:
+            number = value()
+            if not abs(number) < py.WHOLE_LIMIT:
+                raise Fault("integer-overflow", node, value=f"{number:g}")
+            return int(number)
+
+        return evaluate
+
+    def slot(self, target: Target) -> tuple[Callable[[], int], Kind]:
+        """Return a function that gives a scalar target's slot (marking it defined), and the target's kind."""
+        code, kind = self.slot_code(target)
+        if isinstance(code, ast.Constant):
+            slot = int(code.value)  # type: ignore[arg-type]
+            defined = self.values.defined
+
+            def constant() -> int:
+                if slot < SCALAR_SLOTS:
+                    defined[slot] = 1
+                return slot
+
+            return constant, kind
+        body: list[ast.stmt] = [ast.Return(code)]
+        meaning = self.scope.dummies.get(target.name)
+        if isinstance(meaning, Reference):
+            body.insert(0, ast.Expr(py.call("mark", py.load(meaning.variable))))
+        return self.function(body), kind
+
+    def slot_code(self, target: Target) -> tuple[ast.expr, Kind]:
+        """Return code for the slot of a scalar or an element that is assigned, and its kind."""
+        if isinstance(target, Element):
+            quantity = self.scope.array(target)
+            return element_slot(self.translator, target, quantity), quantity.kind
+        meaning = self.scope.assigned(target)
+        if isinstance(meaning, Reference):
+            box = ast.Subscript(py.load(meaning.variable), py.number(0), ast.Load())
+            return at(box, target), meaning.kind
+        if meaning.shape:
+            raise Fault("array-without-subscripts", target, name=target.name, dimensions=len(meaning.shape))
+        return py.number(meaning.slot), meaning.kind
+
+    def array(self, node: Expr, *, real: bool = True) -> Quantity:
+        """Return the array that an argument names; errors 19 and 84."""
+        if not isinstance(node, Name):
+            raise Fault("array-name-expected", node)
+        quantity = self.scope.array(node)
+        if real and quantity.kind is Kind.COMPLEX:
+            raise Fault("complex-not-possible", node)
+        return quantity

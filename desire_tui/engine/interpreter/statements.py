@@ -1,0 +1,112 @@
+"""Which statement is made into an operation by what, and which are not for scripts or commands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine import nodes as n
+from desire_tui.engine.interpreter import algebra, control, devices, procedures, reading, writing
+from desire_tui.engine.interpreter.assignment import assign
+from desire_tui.engine.interpreter.declarations import declare
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.fourier import fft
+from desire_tui.engine.interpreter.site import Site
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.interpreter.machine import Code, Operation
+
+    Maker = Callable[[Site], Operation]
+
+_MAKERS: dict[type[n.Statement], Maker] = {
+    n.Assign: assign,
+    n.If: control.if_then,
+    n.For: control.for_loop,
+    n.While: control.while_loop,
+    n.Until: control.until,
+    n.GoTo: control.go_to,
+    n.Label: control.nothing,
+    n.Data: control.nothing,
+    n.Function: control.nothing,
+    n.Procedure: control.leave_block,
+    n.Submodel: control.leave_block,
+    n.CallProcedure: procedures.call,
+    n.Declare: declare,
+    n.Read: reading.read,
+    n.Restore: reading.restore,
+    n.Input: reading.get_input,
+    n.Write: writing.write,
+    n.Note: writing.note,
+    n.Dump: writing.dump,
+    n.Connect: devices.connect,
+    n.Disconnect: devices.disconnect,
+    n.Irule: devices.irule,
+    n.Seed: devices.seed,
+    n.Drun: devices.drun,
+    n.Fft: fft,
+    n.Display: devices.display,
+    n.Plot: devices.plot,
+    n.Show: devices.show,
+    n.MatrixAssign: algebra.matrix,
+    n.VectorAssign: algebra.vector,
+    n.Dot: algebra.dot,
+    n.FileCommand: devices.host_command,
+}
+
+_WORDS: dict[str, Maker] = {
+    "else": control.leave_block,
+    "proceed": control.nothing,
+    "repeat": control.nothing,
+    "next": control.next_pass,
+    "end while": control.end_while,
+    "end": control.end_procedure,
+    "exit": control.exit_block,
+    "STOP": control.stop,
+    "go": devices.go,
+    "reset": devices.reset,
+    "clear": devices.clear,
+    "time": devices.time,
+    "trace": devices.trace,
+}
+
+_SEGMENT_WORDS = {"OUT", "step", "JACOBIAN", "end if", "DYNAMIC"}
+_SCRIPT_ONLY = (n.Label, n.GoTo, n.Procedure, n.Submodel, n.Data)
+_SCRIPT_ONLY_WORDS = {"STOP", "end"}
+
+
+def make(code: Code, place: int) -> Operation:
+    """Make the operation of a statement."""
+    site = Site(code, place)
+    node = site.node
+    if isinstance(node, n.Simple):
+        return _make_word(site, node)
+    if code.is_command and isinstance(node, _SCRIPT_ONLY):
+        raise Fault("not-a-command", node, word=_first_word(node))
+    if isinstance(node, n.Bare):
+        return _bare(site, node)
+    maker = _MAKERS.get(type(node))
+    if maker is None:
+        raise Fault("not-in-script", node)
+    return maker(site)
+
+
+def _make_word(site: Site, node: n.Simple) -> Operation:
+    if node.word in _SEGMENT_WORDS:
+        raise Fault("not-in-script", node)
+    if site.code.is_command and node.word in _SCRIPT_ONLY_WORDS:
+        raise Fault("not-a-command", node, word=node.word)
+    return _WORDS.get(node.word, devices.host_command)(site)
+
+
+def _first_word(node: n.Statement) -> str:
+    words = {n.Label: "label", n.GoTo: "go to", n.Procedure: "PROCEDURE", n.Submodel: "SUBMODEL", n.Data: "data"}
+    return words[type(node)]
+
+
+def _bare(site: Site, node: n.Bare) -> Operation:
+    """An expression alone: a command prints its value."""
+    if not site.code.is_command:
+        raise Fault("bare-expression", node)
+    line = writing.line_of(site, (n.WriteItem(node.value, "", "", node.start, node.end),))
+    return site.then(lambda: site.host.write("".join(line())))

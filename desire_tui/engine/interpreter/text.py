@@ -1,0 +1,81 @@
+"""Numbers and arrays as text, in the exact formats of `write` and `dump`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.values import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from desire_tui.engine.values import Quantity, Values
+
+_PER_LINE = 5
+
+
+def scalar_text(value: complex, kind: Kind) -> str:
+    """Return a value as `write` shows it: C's `%g`, `%d` for INTEGER, `a + j*( b)` for COMPLEX."""
+    if isinstance(value, complex):
+        return f"{_g(value.real)} + j*( {_g(value.imag)})"
+    if kind is Kind.INTEGER and abs(value) < 1e300:
+        return f"{value:.0f}"
+    return _g(value)
+
+
+def raw_text(value: complex, kind: Kind) -> str:
+    """Return a value with all its digits, for a program to read."""
+    if isinstance(value, complex):
+        return f"[{raw_text(value.real, kind)},{raw_text(value.imag, kind)}]"
+    if value.is_integer() and abs(value) < 1e15:
+        return f"{value:.0f}"
+    return repr(value)
+
+
+def _g(value: float) -> str:
+    return "%g" % value  # noqa: UP031 - C's own format
+
+
+def array_text(values: Values, quantity: Quantity, name: str) -> Iterator[str]:
+    """Yield the lines that show an array, each with its line end."""
+    size = ",".join(map(str, quantity.shape))
+    word = quantity.kind.name
+    yield f"\n{name}[{size}]  : {word} ARRAY (in ROW major sequence)\n"
+    numbers = elements(values, quantity)
+    for first in range(0, quantity.size, _PER_LINE):
+        yield "  ".join(_element_text(v, quantity.kind) for v in numbers[first : first + _PER_LINE]) + "\n"
+
+
+def raw_array_text(values: Values, quantity: Quantity) -> Iterator[str]:
+    """Yield an array's values separated by tabs: vectors in one line, others one line for each row."""
+    row = quantity.shape[-1]
+    numbers = elements(values, quantity)
+    for first in range(0, quantity.size, row):
+        yield "\t".join(raw_text(v, quantity.kind) for v in numbers[first : first + row]) + "\n"
+
+
+def elements(values: Values, quantity: Quantity) -> list[complex]:
+    """Return an array's numbers in row-major order."""
+    flat: list[complex] = values.view(quantity).ravel().tolist()
+    return flat
+
+
+def _element_text(value: complex, kind: Kind) -> str:
+    if isinstance(value, complex):
+        return f"{value.real:12.6e} + j*( {value.imag:12.6e})"
+    return f"{value:12.0f}" if kind is Kind.INTEGER else f"{value:12.6e}"
+
+
+def octal(value: float) -> str:
+    """Return a whole number in octal; negative ones in 16 bits, as they are written."""
+    return f"{_bits(value):o}"
+
+
+def hexadecimal(value: float) -> str:
+    """Return a whole number in hexadecimal; negative ones in 16 bits."""
+    return f"{_bits(value):X}"
+
+
+def _bits(value: float) -> int:
+    whole = int(value)
+    return whole if whole >= 0 else whole & (0xFFFF if whole >= -0x8000 else 0xFFFFFFFFFFFFFFFF)

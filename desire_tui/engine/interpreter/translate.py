@@ -1,0 +1,175 @@
+"""Expressions and conditions become Python syntax trees that read the values directly.
+
+Names are looked up once, when a statement runs for the first time: a name that has a value keeps it until all names
+are cleared, so generated code need not ask again. The place of each node goes along (see `faults`).
+"""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.interpreter import builder as py
+from desire_tui.engine.interpreter.builder import Typed, at
+from desire_tui.engine.interpreter.calls import CallTranslator
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.scope import Local, Reference, Scope
+from desire_tui.engine.interpreter.subscripts import element_slot
+from desire_tui.engine.nodes import (
+    Binary,
+    Call,
+    Element,
+    Logical,
+    Name,
+    Not,
+    Number,
+    Pair,
+    Relation,
+    Unary,
+)
+from desire_tui.engine.values import Kind, Quantity
+
+if TYPE_CHECKING:
+    from desire_tui.engine.interpreter.builder import Builder
+    from desire_tui.engine.interpreter.functions import Functions
+    from desire_tui.engine.nodes import Condition, Expr, Node
+
+_ARITHMETIC: dict[str, ast.operator] = {"+": ast.Add(), "-": ast.Sub(), "*": ast.Mult(), "/": ast.Div()}
+_RELATIONS: dict[str, ast.cmpop] = {
+    "=": ast.Eq(), "<": ast.Lt(), ">": ast.Gt(), "<=": ast.LtE(), ">=": ast.GtE(), "<>": ast.NotEq(),
+}  # fmt: skip
+_WHOLE_POWER_LIMIT = 1 << 31
+
+
+class Translator:
+    """Translates within one scope."""
+
+    def __init__(self, scope: Scope, build: Builder, functions: Functions) -> None:
+        self.scope = scope
+        self.build = build
+        self.calls = CallTranslator(self, build, functions)
+
+    def real(self, node: Expr) -> ast.expr:
+        """Translate an expression that must be real; error 84 for a COMPLEX one."""
+        code, kind = self.expression(node)
+        if kind is Kind.COMPLEX:
+            raise Fault("complex-not-possible", node)
+        return code
+
+    def expression(self, node: Expr) -> Typed:
+        """Translate an expression."""
+        match node:
+            case Number(value):
+                return Typed(py.number(value), Kind.REAL)
+            case Name():
+                return self._name(node)
+            case Element():
+                return self._element(node)
+            case Binary(op="^"):
+                return self._power(node)
+            case Binary(op="&"):
+                raise Fault("matrix-operator", node, operator="&")
+            case Binary(op, left, right):
+                return self._arithmetic(node, op, self.expression(left), self.expression(right))
+            case Unary(op, operand):
+                code, kind = self.expression(operand)
+                return Typed(code if op == "+" else at(ast.UnaryOp(ast.USub(), code), node), kind)
+            case Pair(re, im):
+                return Typed(at(py.call("complex", self.real(re), self.real(im)), node), Kind.COMPLEX)
+            case Call():
+                return self.calls.call(node)
+        raise Fault("not-in-scalar-expression", node)
+
+    def condition(self, node: Condition) -> ast.expr:
+        """Translate a condition; `and` and `or` stop as soon as the answer is known."""
+        match node:
+            case Relation(op, left, right):
+                (a, kind_a), (b, kind_b) = self.expression(left), self.expression(right)
+                if Kind.COMPLEX in {kind_a, kind_b} and op not in {"=", "<>"}:
+                    raise Fault("complex-not-ordered", node, operator=op)
+                return at(ast.Compare(a, [_RELATIONS[op]], [b]), node)
+            case Logical(op, first, second):
+                joint: ast.boolop = ast.And() if op == "and" else ast.Or()
+                return at(ast.BoolOp(joint, [self.condition(first), self.condition(second)]), node)
+            case Not(operand):
+                return at(ast.UnaryOp(ast.Not(), self.condition(operand)), node)
+
+    def _name(self, node: Name) -> Typed:
+        meaning = self.scope.read(node)
+        if isinstance(meaning, Local):
+            return Typed(py.load(meaning.variable), meaning.kind)
+        if isinstance(meaning, Reference):
+            return self._reference(node, meaning)
+        if meaning.shape:
+            raise Fault("array-without-subscripts", node, name=node.name, dimensions=len(meaning.shape))
+        return self.stored(node, py.number(meaning.slot), meaning.kind)
+
+    def _reference(self, node: Name, meaning: Reference) -> Typed:
+        box = py.load(meaning.variable)
+        slot = ast.Subscript(box, py.number(0), ast.Load())
+        flag = ast.Subscript(py.load(meaning.variable), py.number(1), ast.Load())
+        missing = at(py.call("undefined", ast.Constant(node.name)), node)
+        value, kind = self.stored(node, slot, meaning.kind)
+        return Typed(at(ast.IfExp(flag, value, missing), node), kind)
+
+    def _element(self, node: Element) -> Typed:
+        quantity = self.scope.array(node)
+        return self.stored(node, element_slot(self, node, quantity), quantity.kind)
+
+    def stored(self, node: Node, slot: ast.expr, kind: Kind) -> Typed:
+        """Return code that reads a number, or two that make a complex number."""
+        if kind is Kind.COMPLEX:
+            return Typed(at(py.call("complex_at", slot), node), kind)
+        return Typed(at(py.cell(slot), node), kind)
+
+    def _arithmetic(self, node: Node, op: str, left: Typed, right: Typed) -> Typed:
+        kinds = {left.kind, right.kind}
+        kind = Kind.REAL
+        if Kind.COMPLEX in kinds:
+            kind = Kind.COMPLEX
+        elif kinds == {Kind.INTEGER} and op != "/":
+            kind = Kind.INTEGER
+        return Typed(at(ast.BinOp(left.code, _ARITHMETIC[op], right.code), node), kind)
+
+    def _power(self, node: Binary) -> Typed:
+        base, kind = self.expression(node.left)
+        exponent = whole_constant(node.right)
+        if exponent is not None and abs(exponent) < _WHOLE_POWER_LIMIT:
+            if exponent == 1:
+                return Typed(base, kind)
+            if exponent == 2:
+                once = self.build.fresh("v")
+                square = ast.BinOp(ast.NamedExpr(ast.Name(once, ast.Store()), base), ast.Mult(), py.load(once))
+                return Typed(at(square, node), kind)
+            result = kind if exponent > 0 else Kind.COMPLEX if kind is Kind.COMPLEX else Kind.REAL
+            return Typed(at(py.call("integer_power", base, ast.Constant(exponent)), node), result)
+        if kind is Kind.COMPLEX:
+            raise Fault("complex-power", node)
+        return Typed(at(py.call("power", base, self.real(node.right)), node), Kind.REAL)
+
+
+def whole_constant(node: Expr) -> int | None:
+    """Return the value of a whole number literal with or without a sign, None for anything else."""
+    if isinstance(node, Unary):
+        value = whole_constant(node.operand)
+        return value if value is None or node.op == "+" else -value
+    return int(node.value) if isinstance(node, Number) and node.value.is_integer() else None
+
+
+def literal(node: Expr) -> float | None:
+    """Return the value of a number literal with or without a sign, None for anything else."""
+    if isinstance(node, Number):
+        return node.value
+    if isinstance(node, Unary):
+        value = literal(node.operand)
+        return value if value is None or node.op == "+" else -value
+    return None
+
+
+def scalar_quantity(scope: Scope, node: Expr) -> Quantity | None:
+    """Return the real scalar that an expression consists of, None for anything else."""
+    if not isinstance(node, Name):
+        return None
+    meaning = scope.find(node.name)
+    simple = isinstance(meaning, Quantity) and not meaning.shape and meaning.kind is not Kind.COMPLEX
+    return meaning if simple and isinstance(meaning, Quantity) else None

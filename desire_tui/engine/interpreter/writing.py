@@ -1,0 +1,153 @@
+"""`write`, `note`, `dump`: values as text for console, files and notebook."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.text import (
+    array_text,
+    hexadecimal,
+    octal,
+    raw_array_text,
+    raw_text,
+    scalar_text,
+)
+from desire_tui.engine.nodes import Dump, Name, Note, Text, Write
+from desire_tui.engine.values import Kind, Quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.nodes import WriteItem
+    from desire_tui.engine.values import Values
+
+    Piece = Callable[[], Iterator[str]]
+
+_SEPARATORS = {",": "\t", ";": "", "": ""}
+
+
+def write(site: Site) -> Operation:
+    """`write …`, `write #n, …`, `write ##n, …`."""
+    node = site.node
+    assert isinstance(node, Write)
+    line = line_of(site, node.items, raw=node.raw)
+    if node.channel is None:
+        return site.then(lambda: _send(site, line, site.host.write))
+    number, channels = site.whole(node.channel), site.machine.channels
+
+    def action() -> None:
+        channel = number()
+        _send(site, line, lambda text: channels.write(channel, text))
+
+    return site.then(action)
+
+
+def _send(site: Site, line: Piece, sink: Callable[[str], None]) -> None:
+    """Send a statement's text as one piece, or a long array's in several."""
+    pending: list[str] = []
+    for piece in line():
+        pending.append(piece)
+        if len(pending) == 1000:
+            sink("".join(pending))
+            pending.clear()
+            site.machine.check()
+    if pending:
+        sink("".join(pending))
+
+
+def note(site: Site) -> Operation:
+    """`note 'text'; x`: one line of the notebook."""
+    node = site.node
+    assert isinstance(node, Note)
+    line = line_of(site, node.items, raw=False)
+    return site.then(lambda: site.host.note("".join(line())))
+
+
+def line_of(site: Site, items: tuple[WriteItem, ...], *, raw: bool = False) -> Piece:
+    """Return a function that yields the pieces of the text of `write`'s items."""
+    pieces = [(_item(site, item, raw=raw), _SEPARATORS[item.separator]) for item in items]
+    stays_open = bool(items) and items[-1].separator != ""
+
+    def line() -> Iterator[str]:
+        last = ""
+        for piece, separator in pieces:
+            for last in piece():
+                yield last
+            if separator:
+                yield separator
+        if not stays_open and not (last.endswith("\n") and len(last) > 1):
+            yield "\n"
+
+    return line
+
+
+def _item(site: Site, item: WriteItem, *, raw: bool) -> Piece:
+    node, values = item.value, site.values
+    if isinstance(node, Text):
+        return lambda: iter((node.value,))
+    if isinstance(node, Name):
+        meaning = site.scope.find(node.name)
+        if isinstance(meaning, Quantity) and meaning.shape:
+            if raw:
+                return lambda: raw_array_text(values, meaning)
+            return lambda: array_text(values, meaning, node.name)
+    if item.form:
+        return _coded(site, item)
+    value, kind = site.value(node)
+    show = raw_text if raw else scalar_text
+    return lambda: iter((show(value(), kind),))
+
+
+def _coded(site: Site, item: WriteItem) -> Piece:
+    """`$n` one character, `%n` octal, `%%n` hexadecimal."""
+    number, node = site.whole(item.value), item.value
+    if item.form == "$":
+
+        def character() -> Iterator[str]:
+            code = number()
+            if not 0 <= code < 0x110000 or 0xD800 <= code < 0xE000:
+                raise Fault("character-code", node, value=code)
+            yield chr(code)
+
+        return character
+    convert = octal if item.form == "%" else hexadecimal
+    return lambda: iter((convert(number()),))
+
+
+def dump(site: Site) -> Operation:
+    """`dump`, `dump #n`; `dump run` shows the last run's settings and counters."""
+    node = site.node
+    assert isinstance(node, Dump)
+    if node.what == "run":
+        return site.then(lambda: site.host.command("dump", "run"))
+    if node.channel is None:
+        return site.then(lambda: _send(site, lambda: all_text(site.values), site.host.write))
+    number, channels = site.whole(node.channel), site.machine.channels
+
+    def action() -> None:
+        channel = number()
+        _send(site, lambda: all_text(site.values), lambda text: channels.write(channel, text))
+
+    return site.then(action)
+
+
+def all_text(values: Values) -> Iterator[str]:
+    """Yield all quantities with a value: scalars first, one a line, then arrays."""
+    known = [q for q in values if values.is_defined(q)]
+    for quantity in known:
+        if not quantity.shape:
+            yield f"{quantity.name} = {value_text(values, quantity)}\n"
+    for quantity in known:
+        if quantity.shape:
+            yield from array_text(values, quantity, quantity.name)
+
+
+def value_text(values: Values, quantity: Quantity) -> str:
+    """Return a scalar's value as `write` shows it."""
+    slot = quantity.slot
+    if quantity.kind is Kind.COMPLEX:
+        return scalar_text(complex(values.cells[slot], values.cells[slot + 1]), quantity.kind)
+    return scalar_text(values.cells[slot], quantity.kind)
