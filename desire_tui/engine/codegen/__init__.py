@@ -1,1 +1,7 @@
-"""Lowered segment and rule to native code: the only home of llvmlite."""
+"""Lowered segments as native code (the only home of llvmlite)."""
+
+from __future__ import annotations
+
+from desire_tui.engine.codegen.backend import NativeBackend
+
+__all__ = ["NativeBackend"]

@@ -1,0 +1,89 @@
+"""Values of lowered segments as instructions, scalar or several elements abreast."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen import draws
+from desire_tui.engine.codegen.functions import apply, power
+from desire_tui.engine.lowered import Const, Load, Op, Table1, Table2
+from desire_tui.engine.codegen.helpers import table1, table2
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.cells import Cells
+    from desire_tui.engine.codegen.lanes import Lanes
+    from desire_tui.engine.lowered import Value
+
+
+class Expressions:
+    """Evaluates one statement's values; an object met again is the same number (lowered.py)."""
+
+    def __init__(self, lanes: Lanes, cells: Cells) -> None:
+        self.lanes = lanes
+        self.text = lanes.text
+        self.cells = cells
+        self._known: dict[int, str] = {}
+
+    def value(self, node: Value) -> str:
+        """Write what computes `node`, left to right; return its name."""
+        kind = type(node)
+        if kind is Const:
+            return self.lanes.const(node.value)  # type: ignore[union-attr]
+        known = self._known.get(id(node))
+        if known is None:
+            known = self._known[id(node)] = self._write(node)
+        return known
+
+    def forget(self) -> None:
+        """Begin a new statement."""
+        self._known.clear()
+
+    def _write(self, node: Value) -> str:
+        if isinstance(node, Op):
+            if node.name in draws.DRAWS:
+                return self.draw(node.name)
+            if node.name == "ipow":
+                exponent = node.args[1]
+                assert isinstance(exponent, Const)
+                return power(self.lanes, self.value(node.args[0]), int(exponent.value))
+            return apply(self.lanes, node.name, [self.value(a) for a in node.args])
+        if isinstance(node, Load):
+            return self.load(node.slot)
+        if isinstance(node, Table1):
+            return table1(self.lanes, node, self.value(node.x))
+        if isinstance(node, Table2):
+            return table2(self.lanes, node, self.value(node.x), self.value(node.y))
+        return self.operand(node)
+
+    def load(self, slot: int) -> str:
+        """Read a scalar."""
+        return self.cells.load(slot)
+
+    def operand(self, node: Value) -> str:
+        """Read the elements of a vector operand."""
+        raise TypeError(f"{type(node).__name__} in a scalar expression")
+
+    def draw(self, name: str) -> str:
+        """Take the next random number."""
+        raise NotImplementedError
+
+
+class ScalarExpressions(Expressions):
+    """Scalar values; random numbers come one by one from the state at `%random`."""
+
+    def __init__(self, lanes: Lanes, cells: Cells, random: str) -> None:
+        super().__init__(lanes, cells)
+        self._random = random
+
+    def draw(self, name: str) -> str:
+        """Take the next random number."""
+        first = self._next()
+        if name == "ran":
+            return draws.uniform(self.lanes, first)
+        return draws.normal(self.lanes, first, self._next())
+
+    def _next(self) -> str:
+        before = self.text.op(f"load i64, ptr {self._random}")
+        after = draws.advance(self.lanes, before, 1)
+        self.text.do(f"store i64 {after}, ptr {self._random}")
+        return after

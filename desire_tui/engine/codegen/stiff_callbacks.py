@@ -1,0 +1,206 @@
+"""CVODE's callbacks as native functions: right-hand side, error weights, Jacobian.
+
+They know the model only through `integration.problem.Problem`, which CVODE hands to them as user data. An N_Vector is
+`{content, ops, context}`, a serial one's content `{int32 length; int32 own_data; double* data}`.
+"""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from llvmlite import ir
+
+from desire_tui.engine.codegen.stiff_builder import INT, INT32, POINTER, REAL, VOID, Function
+from desire_tui.engine.integration.problem import Matrix
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+GO_BACK = 1
+"""A callback's result for: try a smaller step."""
+
+_LANES = 8
+_DIFFERENCE = 1.4901161193847656e-08  # square root of the machine's epsilon
+_LEAST = 1e-3  # a difference is never made smaller than this part of the largest value so far would give
+
+
+def add_callbacks(module: Any) -> None:
+    """Add `desire_rhs`, `desire_weights` and `desire_jacobian` to a module."""
+    _add_scatter(module)
+    _add_rhs(module)
+    _add_weights(module)
+    _add_jacobian(module)
+
+
+def scatter(f: Function, problem: Any, y: Any) -> None:
+    """Write a state vector to the states' places among the values."""
+    f.outside("desire_scatter", VOID, [problem, y])
+
+
+def _numbers(f: Function, vector: Any) -> Any:
+    """Return the address of a serial N_Vector's numbers."""
+    content = f.build.load(vector, typ=POINTER)
+    return f.build.load(f.at(content, INT(1), INT), typ=POINTER)
+
+
+def _add_scatter(module: Any) -> None:
+    f = Function(module, "desire_scatter", VOID, [POINTER, POINTER])
+    problem, y = f.arguments
+    values, ranges = f.get(problem, "values"), f.get(problem, "ranges")
+    with f.loop(INT(0), f.get(problem, "range_count")) as i:
+        at = f.build.mul(i, INT(3))
+        slot, first, count = (f.load(ranges, f.build.add(at, INT(k)), INT) for k in range(3))
+        to, source = f.at(values, slot), f.at(y, first)
+        one = f.build.icmp_signed("==", count, INT(1))
+        with f.build.if_else(one) as (single, several):
+            with single:
+                f.build.store(f.build.load(source, typ=REAL), to)
+            with several:
+                f.copy(to, source, f.build.mul(count, INT(8)))
+    f.build.ret_void()
+
+
+def _add_rhs(module: Any) -> None:
+    """CVRhsFn. A derivative that is not finite: `suspect` is its state, and CVODE is asked for a smaller step."""
+    f = Function(module, "desire_rhs", INT32, [REAL, POINTER, POINTER, POINTER])
+    t, y, ydot, problem = f.arguments
+    k = _numbers(f, ydot)
+    f.store(f.get(problem, "values"), INT(T), t)
+    scatter(f, problem, _numbers(f, y))
+    f.add(problem, "derivative_calls", INT(1))
+    f.call(f.get(problem, "derivatives"), VOID, [f.get(problem, "memory"), k])
+    n = f.get(problem, "n")
+    with f.build.if_then(_all_finite(f, k, n), likely=True):
+        f.build.ret(INT32(0))
+    with f.loop(INT(0), n) as i:
+        term = f.build.fmul(f.load(k, i), REAL(0.0))
+        with f.build.if_then(f.build.fcmp_unordered("!=", term, REAL(0.0))):
+            f.put(problem, "suspect", i)
+    f.build.ret(INT32(GO_BACK))
+
+
+def _all_finite(f: Function, k: Any, n: Any) -> Any:
+    """Whether all of n numbers are finite: 0·x is 0 for finite x only. Eight at a time: this follows every call."""
+    eight = ir.VectorType(REAL, _LANES)
+    total, single = f.build.alloca(eight), f.build.alloca(REAL)
+    f.build.store(eight([0.0] * _LANES), total)
+    f.build.store(REAL(0.0), single)
+    blocks = f.build.sdiv(n, INT(_LANES))
+    with f.loop(INT(0), blocks) as i:
+        lanes = f.build.load(f.at(k, f.build.mul(i, INT(_LANES))), typ=eight, align=8)
+        term = f.build.fmul(lanes, eight([0.0] * _LANES))
+        f.build.store(f.build.fadd(f.build.load(total, typ=eight), term), total)
+    with f.loop(f.build.mul(blocks, INT(_LANES)), n) as i:
+        term = f.build.fmul(f.load(k, i), REAL(0.0))
+        f.build.store(f.build.fadd(f.build.load(single, typ=REAL), term), single)
+    lanes, sum_ = f.build.load(total, typ=eight), f.build.load(single, typ=REAL)
+    for lane in range(_LANES):
+        sum_ = f.build.fadd(sum_, f.build.extract_element(lanes, INT32(lane)))
+    return f.build.fcmp_ordered("==", sum_, REAL(0.0))
+
+
+def _add_weights(module: Any) -> None:
+    """CVEwtFn: 1 / (ERMAX·max |y| so far), the maximum taken as 1 while it is 0 (language.md 11)."""
+    f = Function(module, "desire_weights", INT32, [POINTER, POINTER, POINTER])
+    y, w, problem = _numbers(f, f.arguments[0]), _numbers(f, f.arguments[1]), f.arguments[2]
+    largest, tolerance = f.get(problem, "largest"), f.get(problem, "tolerance")
+    with f.loop(INT(0), f.get(problem, "n")) as i:
+        scale = _scale(f, largest, y, i)
+        f.store(w, i, f.build.fdiv(REAL(1.0), f.build.fmul(tolerance, scale)))
+    f.build.ret(INT32(0))
+
+
+def _scale(f: Function, largest: Any, y: Any, i: Any) -> Any:
+    """Update and return the largest magnitude of state i, 1 for 0."""
+    size = f.intrinsic("llvm.maxnum", f.intrinsic("llvm.fabs", f.load(y, i)), f.load(largest, i))
+    f.store(largest, i, size)
+    return f.build.select(f.build.fcmp_ordered("==", size, REAL(0.0)), REAL(1.0), size)
+
+
+def _add_jacobian(module: Any) -> None:
+    """CVLsJacFn; CVODE has cleared the matrix."""
+    f = Function(module, "desire_jacobian", INT32, [REAL, *[POINTER] * 7])
+    t, y, fy, matrix, problem, spare, spare2, _ = f.arguments
+    y, fy, spare, spare2 = (_numbers(f, v) for v in (y, fy, spare, spare2))
+    data = f.call(f.get(problem, "data_of"), POINTER, [matrix])
+    f.store(f.get(problem, "values"), INT(T), t)
+    scatter(f, problem, y)
+    with f.build.if_then(f.build.icmp_signed("!=", f.get(problem, "nonzeros"), INT(0))):
+        _write_pattern(f, problem, matrix)
+    method = f.get(problem, "method")
+    with f.build.if_then(f.build.icmp_signed("==", method, INT(Matrix.TANGENT.value))):
+        _fill_by_tangent(f, problem, data, spare)
+    with f.build.if_then(f.build.icmp_signed("==", method, INT(Matrix.DIFFERENCES.value))):
+        _fill_by_differences(f, problem, data, (y, fy), (spare, spare2))
+    with f.build.if_then(f.build.icmp_signed("==", method, INT(Matrix.PROGRAM.value))):
+        _fill_by_program(f, problem, data)
+    f.build.ret(INT32(0))
+
+
+def _write_pattern(f: Function, problem: Any, matrix: Any) -> None:
+    """Give a sparse matrix its rows and column starts, which SUNMatZero cleared."""
+    size = f.build.mul(f.get(problem, "nonzeros"), INT(4))
+    f.copy(f.call(f.get(problem, "indices_of"), POINTER, [matrix]), f.get(problem, "row_indices"), size)
+    size = f.build.mul(f.build.add(f.get(problem, "n"), INT(1)), INT(4))
+    f.copy(f.call(f.get(problem, "starts_of"), POINTER, [matrix]), f.get(problem, "column_starts"), size)
+
+
+@contextmanager
+def _slice(f: Function, problem: Any, table: str, colour: Any) -> Iterator[Any]:
+    """Loop over the positions that belong to a colour."""
+    starts = f.get(problem, table)
+    stop = f.load(starts, f.build.add(colour, INT(1)), INT32)
+    with f.loop(f.load(starts, colour, INT32), stop) as i:
+        yield i
+
+
+def _fill_by_tangent(f: Function, problem: Any, data: Any, column: Any) -> None:
+    seeds, directions = f.get(problem, "seeds"), f.get(problem, "directions")
+    rows, places = f.get(problem, "rows"), f.get(problem, "places")
+    with f.loop(INT(0), f.get(problem, "colours")) as colour:
+        with _slice(f, problem, "seed_starts", colour) as i:
+            f.store(directions, f.load(seeds, i, INT32), REAL(1.0))
+        f.call(f.get(problem, "tangent"), VOID, [f.get(problem, "memory"), column])
+        with _slice(f, problem, "seed_starts", colour) as i:
+            f.store(directions, f.load(seeds, i, INT32), REAL(0.0))
+        with _slice(f, problem, "entry_starts", colour) as i:
+            f.store(data, f.load(places, i, INT32), f.load(column, f.load(rows, i, INT32)))
+
+
+def _fill_by_differences(
+    f: Function, problem: Any, data: Any, base: tuple[Any, Any], spare: tuple[Any, Any]
+) -> None:
+    """Curtis, Powell and Reid (1974): states that share no row are moved together."""
+    (y, fy), (column, moved) = base, spare
+    seeds, columns = f.get(problem, "seeds"), f.get(problem, "columns")
+    rows, places = f.get(problem, "rows"), f.get(problem, "places")
+    largest, change = f.get(problem, "largest"), f.get(problem, "spare")
+    f.copy(moved, y, f.build.mul(f.get(problem, "n"), INT(8)))
+    with f.loop(INT(0), f.get(problem, "colours")) as colour:
+        with _slice(f, problem, "seed_starts", colour) as i:
+            state = f.load(seeds, i, INT32)
+            least = f.build.fmul(_scale(f, largest, y, state), REAL(_LEAST))
+            size = f.intrinsic("llvm.maxnum", f.intrinsic("llvm.fabs", f.load(y, state)), least)
+            to = f.build.fadd(f.load(y, state), f.build.fmul(size, REAL(_DIFFERENCE)))
+            f.store(change, state, f.build.fsub(to, f.load(y, state)))
+            f.store(moved, state, to)
+        scatter(f, problem, moved)
+        f.add(problem, "derivative_calls", INT(1))
+        f.call(f.get(problem, "derivatives"), VOID, [f.get(problem, "memory"), column])
+        with _slice(f, problem, "seed_starts", colour) as i:
+            state = f.load(seeds, i, INT32)
+            f.store(moved, state, f.load(y, state))
+        with _slice(f, problem, "entry_starts", colour) as i:
+            row = f.load(rows, i, INT32)
+            rise = f.build.fsub(f.load(column, row), f.load(fy, row))
+            slope = f.build.fdiv(rise, f.load(change, f.load(columns, i, INT32)))
+            f.store(data, f.load(places, i, INT32), slope)
+
+
+def _fill_by_program(f: Function, problem: Any, data: Any) -> None:
+    f.call(f.get(problem, "jacobian"), VOID, [f.get(problem, "memory")])
+    array, sources, places = (f.get(problem, name) for name in ("array", "sources", "places"))
+    with _slice(f, problem, "entry_starts", INT(0)) as i:
+        f.store(data, f.load(places, i, INT32), f.load(array, f.load(sources, i, INT32)))

@@ -1,0 +1,144 @@
+"""`desire_interval`: one communication interval under a rule 9 … 16, step by step, without Python.
+
+    int32 desire_interval(Problem*, RunMemory*, double t_next, int32 passed)
+
+starts from t and the states in the values and comes back with `Ended.RUNNING` once t is `t_next`; with STOPPED where
+`stop` was set; TERM with the statement's number in `which`; SOLVER with CVODE's flag in `which`. `passed` is 1 if the
+pass at the first step's start has been done (it always is at a communication point), 0 to go on inside an interval.
+
+CVODE keeps a history of the solution. It begins anew where the states in the values are not what it left there: at a
+run's start, where difference-equation code changed one, where the user did.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from desire_tui.engine.codegen.stiff_builder import INT, INT32, POINTER, REAL, VOID, Function
+from desire_tui.engine.codegen.stiff_callbacks import scatter
+from desire_tui.engine.integration.sundials.signatures import ONE_STEP, TSTOP_RETURN
+from desire_tui.engine.runtime.memory import Ended, RunMemory
+from desire_tui.engine.values import DT, T
+
+
+def add_interval(module: Any) -> None:
+    """Add `desire_interval` and `desire_sync` to a module that has the callbacks."""
+    _add_gather(module)
+    _add_sync(module)
+    _add_interval(module)
+
+
+def _add_gather(module: Any) -> None:
+    """The states' values → CVODE's vector (nothing to do where they are the same memory)."""
+    f = Function(module, "desire_gather", VOID, [POINTER])
+    (problem,) = f.arguments
+    values, ranges, states = (f.get(problem, name) for name in ("values", "ranges", "states"))
+    with f.loop(INT(0), f.get(problem, "range_count")) as i:
+        at = f.build.mul(i, INT(3))
+        slot, first, count = (f.load(ranges, f.build.add(at, INT(k)), INT) for k in range(3))
+        f.copy(f.at(states, first), f.at(values, slot), f.build.mul(count, INT(8)))
+    f.build.ret_void()
+
+
+def _add_sync(module: Any) -> None:
+    """Begin anew if t or a state is not what CVODE left; the flag of what it was asked."""
+    f = Function(module, "desire_sync", INT32, [POINTER])
+    (problem,) = f.arguments
+    f.outside("desire_gather", VOID, [problem])
+    states, last = f.get(problem, "states"), f.get(problem, "last")
+    t = f.load(f.get(problem, "values"), INT(T))
+    differ = f.build.alloca(INT)
+    same_t = f.build.fcmp_ordered("==", t, f.get(problem, "t"))
+    going = f.build.icmp_signed("!=", f.get(problem, "started"), INT(0))
+    f.build.store(f.build.select(f.build.and_(same_t, going), INT(0), INT(1)), differ)
+    with f.loop(INT(0), f.get(problem, "n")) as i:
+        other = f.build.fcmp_unordered("!=", f.load(states, i), f.load(last, i))
+        f.build.store(f.build.or_(f.build.load(differ, typ=INT), f.build.zext(other, INT)), differ)
+    with f.build.if_then(f.build.icmp_signed("==", f.build.load(differ, typ=INT), INT(0)), likely=True):
+        f.build.ret(INT32(0))
+    solver = f.get(problem, "solver")
+    _count(f, problem)
+    f.outside("CVodeReInit", INT32, [solver, t, f.get(problem, "vector")])
+    with f.build.if_else(going) as (again, first):
+        with again:  # no step size is left to trust: CVODE looks for one
+            f.outside("CVodeSetInitStep", INT32, [solver, REAL(0.0)])
+            f.add(problem, "restarts", INT(1))
+        with first:
+            f.outside("CVodeSetInitStep", INT32, [solver, f.get(problem, "first_step")])
+    f.put(problem, "started", INT(1))
+    f.put(problem, "t", t)
+    f.build.ret(INT32(0))
+
+
+def _count(f: Function, problem: Any) -> None:
+    """Move CVODE's counts of failed tries and Jacobians, which start at 0 with each restart, to `past_…`."""
+    for name, field in (
+        ("CVodeGetNumErrTestFails", "failed"),
+        ("CVodeGetNumNonlinSolvConvFails", "failed"),
+        ("CVodeGetNumJacEvals", "jacobians"),
+    ):
+        cell = f.build.alloca(INT)
+        f.build.store(INT(0), cell)
+        f.outside(name, INT32, [f.get(problem, "solver"), cell])
+        f.add(problem, field, f.build.load(cell, typ=INT))
+
+
+def _add_interval(module: Any) -> None:
+    f = Function(module, "desire_interval", INT32, [POINTER, POINTER, REAL, INT32])
+    problem, memory, t_next, passed = f.arguments
+    build = f.build
+    values, states, last = (f.get(problem, name) for name in ("values", "states", "last"))
+    solver, vector, step = (f.get(problem, name) for name in ("solver", "vector", "step"))
+    bytes_ = build.mul(f.get(problem, "n"), INT(8))
+    reached, size = build.alloca(REAL), build.alloca(REAL)
+    start, again, go = (f.function.append_basic_block(name) for name in ("start", "again", "go"))
+
+    f.outside("desire_sync", INT32, [problem])
+    f.outside("CVodeSetStopTime", INT32, [solver, t_next])
+    build.cbranch(build.icmp_signed("!=", passed, INT32(0)), go, start)
+
+    build.position_at_end(start)  # pass(-, STEP) at a step's start
+    build.cbranch(build.icmp_unsigned("==", build.ptrtoint(step, INT), INT(0)), go, again)
+    build.position_at_end(again)
+    fired = f.call(step, INT32, [memory])
+    with build.if_then(build.icmp_signed("!=", fired, INT32(0)), likely=False):
+        f.put(memory, "which", build.sext(build.sub(fired, INT32(1)), INT), RunMemory)
+        build.ret(INT32(Ended.TERM.value))
+    f.outside("desire_sync", INT32, [problem])
+    f.outside("CVodeSetStopTime", INT32, [solver, t_next])
+    build.branch(go)
+
+    build.position_at_end(go)
+    f.put(problem, "suspect", INT(-1))
+    flag = f.outside("CVode", INT32, [solver, t_next, vector, reached, INT32(ONE_STEP)])
+    t = build.load(reached, typ=REAL)
+    done = build.or_(
+        build.icmp_signed("==", flag, INT32(TSTOP_RETURN)), build.fcmp_ordered(">=", t, t_next)
+    )
+    t = build.select(done, t_next, t)
+    f.store(values, INT(T), t)
+    f.put(problem, "t", t)
+    scatter(f, problem, states)
+    f.copy(last, states, bytes_)
+    with build.if_then(build.icmp_signed("<", flag, INT32(0)), likely=False):
+        f.put(memory, "which", build.sext(flag, INT), RunMemory)
+        build.ret(INT32(Ended.SOLVER.value))
+    f.outside("CVodeGetLastStep", INT32, [solver, size])
+    dt = build.load(size, typ=REAL)
+    f.store(values, INT(DT), dt)
+    _record_step(f, memory, dt)
+    with build.if_then(done):
+        build.ret(INT32(Ended.RUNNING.value))
+    stop = build.icmp_signed("!=", f.get(memory, "stop", RunMemory), INT32(0))
+    with build.if_then(stop, likely=False):
+        build.ret(INT32(Ended.STOPPED.value))
+    build.branch(start)
+
+
+def _record_step(f: Function, memory: Any, dt: Any) -> None:
+    first = f.build.icmp_signed("==", f.get(memory, "steps", RunMemory), INT(0))
+    f.add(memory, "steps", INT(1), RunMemory)
+    for field, better in (("dt_least", "<"), ("dt_most", ">")):
+        known = f.get(memory, field, RunMemory)
+        other = f.build.fcmp_ordered(better, dt, known)
+        f.put(memory, field, f.build.select(f.build.or_(first, other), dt, known), RunMemory)
