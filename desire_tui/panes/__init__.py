@@ -1,1 +1,1 @@
-"""The other panes of the desktop."""
+"""The panes beside the editor: command line, graph, quantities, problems, help, status."""

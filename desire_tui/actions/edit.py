@@ -1,0 +1,102 @@
+"""Working on the text in front."""
+
+from __future__ import annotations
+
+from desire_tui.actions import Controller
+from desire_tui.dialogs import Line
+from desire_tui.editor.findbar import FindBar
+
+
+class EditActions(Controller):
+    """Part `edit` of the command table."""
+
+    def _open_bar(self, wanted: str, *, replace: bool) -> None:
+        area = self.app.editor.front
+        selected = area.selected_text
+        if not wanted and selected and "\n" not in selected:
+            wanted = selected
+        self.app.editor.query_one(FindBar).open(area, wanted, replace=replace)
+
+    def find(self, argument: str = "") -> None:
+        """Open the find bar."""
+        self._open_bar(argument, replace=False)
+
+    def replace(self, argument: str = "") -> None:
+        """Open the find bar with a field to replace by; in the command line, search the history."""
+        prompt = self.app.command.prompt
+        if prompt.has_focus:
+            prompt.search()
+            return
+        self._open_bar(argument, replace=True)
+
+    def find_next(self, argument: str = "") -> None:
+        """Go to the next occurrence."""
+        del argument
+        bar = self.app.editor.query_one(FindBar)
+        bar.area = self.app.editor.front
+        bar.action_step(1)
+
+    def find_previous(self, argument: str = "") -> None:
+        """Go to the occurrence before."""
+        del argument
+        bar = self.app.editor.query_one(FindBar)
+        bar.area = self.app.editor.front
+        bar.action_step(-1)
+
+    async def goto(self, argument: str = "") -> None:
+        """Go to a row, or `row:column`."""
+        area = self.app.editor.front
+        count = area.document.line_count
+        text = argument or await self.app.push_screen_wait(Line("Go to line", hint=f"1 … {count}, or line:column"))
+        if not text:
+            return
+        row, _, column = text.partition(":")
+        if not row.strip().isdecimal():
+            self.app.notify(f"'{text}' is no line number.", severity="error", markup=False)
+            return
+        area.go_to(int(row) - 1, int(column) - 1 if column.strip().isdecimal() else 0)
+        area.focus()
+
+    def comment(self, argument: str = "") -> None:
+        """Turn the selected rows into comments, or back."""
+        del argument
+        self.app.editor.front.toggle_comment()
+
+    def complete(self, argument: str = "") -> None:
+        """Open the list of completions."""
+        del argument
+        self.app.completer.open(forced=True)
+
+    def _go_to_problem(self, step: int) -> None:
+        area = self.app.editor.front
+        mark = area.marks.next_problem(area.cursor_location[0], step)
+        if mark is None:
+            self.app.notify("No problems in this program.", timeout=2)
+            return
+        area.focus()
+        area.go_to(mark.row, mark.start)
+
+    def next_problem(self, argument: str = "") -> None:
+        """Go to the next problem."""
+        del argument
+        self._go_to_problem(1)
+
+    def previous_problem(self, argument: str = "") -> None:
+        """Go to the problem before."""
+        del argument
+        self._go_to_problem(-1)
+
+    def undo(self, argument: str = "") -> None:
+        """Undo."""
+        del argument
+        self.app.editor.front.action_undo()
+
+    def redo(self, argument: str = "") -> None:
+        """Redo."""
+        del argument
+        self.app.editor.front.action_redo()
+
+    def select_all(self, argument: str = "") -> None:
+        """Select the whole text; in a field, go to its start as usual there."""
+        del argument
+        self.app.editor.front.select_all()

@@ -1,0 +1,133 @@
+"""The graph pane's actions, and files made from graphs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from desire_tui.actions import Controller
+from desire_tui.dialogs import Line
+from desire_tui.engine.diagnostics import DesireError
+
+
+class GraphActions(Controller):
+    """Part `graph` of the command table."""
+
+    def full(self, argument: str = "") -> None:
+        """Show the graph alone, or all panes."""
+        del argument
+        self.app.toggle_maximized(self.app.graph)
+
+    def zoom_in(self, argument: str = "") -> None:
+        """Magnify."""
+        del argument
+        self.app.graph.zoom(0.5)
+
+    def zoom_out(self, argument: str = "") -> None:
+        """Show more."""
+        del argument
+        self.app.graph.zoom(2.0)
+
+    def left(self, argument: str = "") -> None:
+        """Pan."""
+        del argument
+        self.app.graph.pan(-0.2, 0.0)
+
+    def right(self, argument: str = "") -> None:
+        """Pan."""
+        del argument
+        self.app.graph.pan(0.2, 0.0)
+
+    def up(self, argument: str = "") -> None:
+        """Pan."""
+        del argument
+        self.app.graph.pan(0.0, 0.2)
+
+    def down(self, argument: str = "") -> None:
+        """Pan."""
+        del argument
+        self.app.graph.pan(0.0, -0.2)
+
+    def reset(self, argument: str = "") -> None:
+        """Back to the program's scale."""
+        del argument
+        self.app.graph.reset_window()
+
+    def read(self, argument: str = "") -> None:
+        """Show or hide the cursor with the values of all curves."""
+        del argument
+        self.app.graph.toggle_readout()
+
+    def legend(self, argument: str = "") -> None:
+        """Show or hide the colour keys."""
+        del argument
+        self.app.graph.toggle_keys()
+
+    def older(self, argument: str = "") -> None:
+        """Page back."""
+        del argument
+        self._turn(-1)
+
+    def newer(self, argument: str = "") -> None:
+        """Page forward."""
+        del argument
+        self._turn(1)
+
+    def _turn(self, step: int) -> None:
+        if not self.app.graph.turn(step):
+            self.app.notify("No further graph." if len(self.app.session.graphs) else "No graph yet.", timeout=2)
+
+    async def snapshot(self, argument: str = "") -> None:
+        """Save the graph shown as PNG, SVG or PDF."""
+        app = self.app
+        if app.graph.page is None:
+            app.notify("No graph yet: press F5.", timeout=2)
+            return
+        name = argument
+        if not name:
+            stem = Path((app.editor.active or app.editor.front).buffer.name).stem
+            typed = await app.push_screen_wait(
+                Line("Save the graph as", f"{stem}.png", "the ending .png, .svg or .pdf chooses the kind")
+            )
+            if not typed:
+                return
+            name = typed
+        path = Path(name).expanduser()
+        path = path if path.suffix else path.with_suffix(".png")
+        path = path if path.is_absolute() else app.session.folder / path
+        page = app.graph.page
+
+        def write() -> None:
+            try:
+                written = app.session.snapshot(path, page)
+            except DesireError as error:
+                app.call_from_thread(app.show_problems, error.diagnostics)
+            else:
+                app.call_from_thread(app.snapshot_written, written)
+
+        app.in_background(write)
+
+    async def export(self, argument: str = "") -> None:
+        """Save the samples of the last run as CSV."""
+        app = self.app
+        if not app.session.runs:
+            app.notify("No run yet: press F5.", timeout=2)
+            return
+        name = argument or await app.push_screen_wait(Line("Save the samples as", "samples.csv"))
+        if not name:
+            return
+        path = Path(name).expanduser()
+        path = path if path.suffix else path.with_suffix(".csv")
+        path = path if path.is_absolute() else app.session.folder / path
+        from desire_tui.places import write_safely
+
+        try:
+            write_safely(path, app.samples(","))
+        except OSError as error:
+            app.complain(f"cannot write {path}: {error.strerror}", code=106)
+            return
+        app.notify(f"Saved {path}", markup=False, timeout=3)
+
+    def overlay(self, argument: str = "") -> None:
+        """Overlay an older graph (its number, default: the one before) on the one shown."""
+        if not self.app.graph.overlay(int(argument) if argument.isdecimal() else None):
+            self.app.notify("There is no such graph to overlay.", timeout=2)

@@ -1,0 +1,43 @@
+"""Help pages, keys, configuration, notebook."""
+
+from __future__ import annotations
+
+from desire_tui import config
+from desire_tui.actions import Controller
+from desire_tui.editor.buffer import Buffer
+from desire_tui.places import config_file
+
+
+class HelpActions(Controller):
+    """Part `help` of the command table."""
+
+    def word(self, argument: str = "") -> None:
+        """Show the page of a topic: the one named, or the word at the cursor."""
+        app = self.app
+        focused = app.focused
+        if not argument and focused is app.editor.front:
+            argument = app.editor.front.word_at_cursor()
+            row = app.editor.front.cursor_location[0]
+            if not argument and (marks := app.editor.front.marks.problems.get(row)):
+                argument = str(marks[0].code)
+        elif not argument and focused is app.command.prompt:
+            argument = app.command.prompt.value.split(" ")[0]
+        app.open_side("help")
+        app.help_pane.show_topic(argument)
+
+    def keys(self, argument: str = "") -> None:
+        """Show all keys."""
+        del argument
+        self.app.open_side("help")
+        self.app.help_pane.show_topic("keys")
+
+    async def config(self, argument: str = "") -> None:
+        """Open the configuration in a tab, filled with the defaults if there is none."""
+        del argument
+        path = config_file()
+        if path.exists():
+            await self.app.file.open_path(path)
+            return
+        buffer = Buffer(path=path, saved_text="")
+        area = await self.app.editor.add(buffer, config.defaults_text())
+        area.focus()

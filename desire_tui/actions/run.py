@@ -1,0 +1,149 @@
+"""Running programs: accept, run, pause, go on, trace, breakpoints, live mode."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.actions import Controller
+from desire_tui.engine.session import State
+from desire_tui.engine.source import Source
+
+if TYPE_CHECKING:
+    from desire_tui.editor.area import CodeArea
+
+
+def source_of(area: CodeArea) -> Source:
+    """Return a tab's text under its file's name."""
+    return Source(area.text, area.buffer.name, area.buffer.path)
+
+
+class RunActions(Controller):
+    """Part `run` of the command table."""
+
+    def start(self, argument: str = "") -> None:
+        """`zz`: accept the front tab and run it; a run that goes on is ended first."""
+        del argument
+        app = self.app
+        self._accept_front()
+        source = source_of(app.editor.front)
+        app.listener.front = source
+        self.end_now()
+        app.engine.submit(lambda: app.session.erun(source))
+
+    def accept(self, argument: str = "") -> None:
+        """OK: the front tab becomes the active program."""
+        del argument
+        app = self.app
+        self._accept_front()
+        source = source_of(app.editor.front)
+        name = app.editor.front.buffer.name
+
+        def accept() -> None:
+            problems = app.session.accept(source)
+            if not problems:
+                app.call_from_thread(app.notify, f"{name} is the active program.", timeout=2, markup=False)
+
+        app.engine.submit(accept)
+
+    def _accept_front(self) -> None:
+        editor = self.app.editor
+        editor.active = editor.front
+        editor.front.marks.traced = None
+        editor.refresh_tabs()
+
+    def again(self, argument: str = "") -> None:
+        """`run`: the active program from the top."""
+        del argument
+        app = self.app
+        if app.editor.active is None:
+            self.start()
+            return
+        self.end_now()
+        app.engine.submit(app.session.run)
+
+    def proceed(self, argument: str = "") -> None:
+        """`go`; a paused run is resumed."""
+        del argument
+        if self.app.session.status.state is State.PAUSED:
+            self.resume()
+            return
+        self.app.engine.submit(self.app.session.go)
+
+    def pause(self, argument: str = "") -> None:
+        """Ctrl-C: pause what goes on, resume what is paused; without either, copy the selection."""
+        del argument
+        app = self.app
+        state = app.session.status.state
+        if app.command.is_asking:
+            app.command.stop_asking()
+            app.listener.answer(None)
+        elif state is State.PAUSED:
+            self.resume()
+        elif app.engine.is_busy:
+            app.session.pause()
+            app.command.prompt.focus()
+            app.show_status()
+        else:
+            app.actions_view.copy_selection()
+
+    def resume(self) -> None:
+        """Go on after a pause."""
+        self.app.session.resume()
+        self.app.show_status()
+
+    def end(self, argument: str = "") -> None:
+        """End what goes on or is paused."""
+        del argument
+        if self.app.engine.is_busy:
+            self.end_now()
+            self.app.show_status()
+        else:
+            self.app.notify("Nothing is running.", timeout=2)
+
+    def end_now(self) -> None:
+        """End what goes on, if anything does, and forget what waits."""
+        app = self.app
+        if app.engine.is_busy:
+            app.engine.forget_waiting()
+            app.session.end()
+        if app.command.is_asking:
+            app.command.stop_asking()
+            app.listener.answer(None)
+
+    # ----------------------------------------------------------------------------------------- trace, breakpoints
+
+    def trace(self, argument: str = "") -> None:
+        """Single-step: the script of the front tab stops before its next statement."""
+        del argument
+        app = self.app
+        app.engine.submit(lambda: app.session.execute("trace"))
+
+    def breakpoint(self, argument: str = "") -> None:
+        """Set or remove a breakpoint on the cursor's row."""
+        del argument
+        area = self.app.editor.front
+        row = area.cursor_location[0]
+        area.marks.breakpoints ^= {row}
+        area.marks_changed()
+        self.app.send_breakpoints()
+
+    def clear_breakpoints(self, argument: str = "") -> None:
+        """Remove all breakpoints."""
+        del argument
+        for area in self.app.editor.areas:
+            area.marks.breakpoints.clear()
+            area.marks_changed()
+        self.app.send_breakpoints()
+
+    # --------------------------------------------------------------------------------------------- live mode
+
+    def live(self, argument: str = "") -> None:
+        """Give a parameter a slider: the named one, or the one chosen in the quantities pane."""
+        self.app.open_side("quantities")
+        self.app.quantities.add_slider(argument or self.app.editor.front.word_at_cursor())
+
+    def live_overlay(self, argument: str = "") -> None:
+        """Turn overlaying of live runs on or off."""
+        del argument
+        on = self.app.quantities.toggle_overlay()
+        self.app.notify(f"Live runs {'overlay' if on else 'replace'} their curves.", timeout=2)

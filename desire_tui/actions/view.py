@@ -1,0 +1,128 @@
+"""What is shown, and where the keys go."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from textual.widgets import Input, TextArea
+
+from desire_tui import themes
+from desire_tui.actions import Controller
+
+if TYPE_CHECKING:
+    from textual.widget import Widget
+
+
+class ViewActions(Controller):
+    """Part `view` of the command table."""
+
+    def _panes(self) -> list[Widget]:
+        app = self.app
+        panes: list[Widget] = [app.editor.front, app.command.prompt, app.graph]
+        if (side := app.side_focus()) is not None:
+            panes.append(side)
+        return panes
+
+    def _step(self, by: int) -> None:
+        panes = self._panes()
+        focused = self.app.focused
+        here = next((n for n, pane in enumerate(panes) if focused is pane or (focused and pane in focused.ancestors)), 0)
+        for distance in range(1, len(panes) + 1):
+            pane = panes[(here + by * distance) % len(panes)]
+            if self.app.bring(pane):
+                return
+
+    def next_pane(self, argument: str = "") -> None:
+        """Move the keys to the next pane."""
+        del argument
+        self._step(1)
+
+    def previous_pane(self, argument: str = "") -> None:
+        """Move the keys to the pane before."""
+        del argument
+        self._step(-1)
+
+    def command_line(self, argument: str = "") -> None:
+        """Move the keys to the command line."""
+        del argument
+        self.app.bring(self.app.command.prompt)
+
+    def editor(self, argument: str = "") -> None:
+        """Move the keys to the editor."""
+        del argument
+        self.app.bring(self.app.editor.front)
+
+    def maximize(self, argument: str = "") -> None:
+        """Show the focused pane alone, or all panes."""
+        del argument
+        self.app.toggle_maximized(None)
+
+    def quantities(self, argument: str = "") -> None:
+        """Show the quantities; pressed again, hide them."""
+        del argument
+        self.app.open_side("quantities", toggle=True)
+
+    def problems(self, argument: str = "") -> None:
+        """Show the problems; pressed again, hide them."""
+        del argument
+        self.app.open_side("problems", toggle=True)
+
+    def hide(self, argument: str = "") -> None:
+        """Hide the side pane."""
+        del argument
+        self.app.close_side()
+
+    def theme(self, argument: str = "") -> None:
+        """Change to the named theme, or to the next of ours."""
+        app = self.app
+        if argument and argument not in app.available_themes:
+            app.notify(f"No theme '{argument}'. There are: {', '.join(app.available_themes)}", markup=False)
+            return
+        names = themes.NAMES
+        at = names.index(app.theme) if app.theme in names else -1
+        app.theme = argument or names[(at + 1) % len(names)]
+        app.notify(f"Theme: {app.theme}", timeout=1.5, markup=False)
+
+    def search_output(self, argument: str = "") -> None:
+        """Search the command pane's output."""
+        del argument
+        self.app.bring(self.app.command.prompt)
+        self.app.command.open_search()
+
+    def copy_selection(self) -> None:
+        """Copy what is selected with mouse or keys."""
+        app = self.app
+        focused = app.focused
+        text = app.screen.get_selected_text() or ""
+        if not text and isinstance(focused, (TextArea, Input)):
+            text = focused.selected_text
+        if text:
+            self.copy(text)
+        else:
+            app.notify("Nothing is running. Ctrl+Q leaves Desire.", timeout=2)
+
+    def copy(self, text: str) -> None:
+        """Put text on the clipboard by OSC 52, and say what the terminal may do with it."""
+        self.app.copy_to_clipboard(text)
+        lines = text.count("\n") + 1
+        self.app.notify(
+            f"Copied {lines} line{'s' if lines > 1 else ''}. {self.app.clipboard_hint}".strip(), timeout=2.5, markup=False
+        )
+
+    def copy_output(self, argument: str = "") -> None:
+        """Copy the whole output."""
+        del argument
+        self.copy(self.app.command.console.text)
+
+    def copy_graph(self, argument: str = "") -> None:
+        """Copy the last run's samples, tab-separated."""
+        del argument
+        if self.app.session.runs:
+            self.copy(self.app.samples("\t"))
+        else:
+            self.app.notify("No run yet: press F5.", timeout=2)
+
+    def palette(self, argument: str = "") -> None:
+        """Open the command palette."""
+        del argument
+        self.app.action_command_palette()

@@ -1,0 +1,99 @@
+"""Questions to the user: a choice, a line of text. Esc always means no."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.screen import ModalScreen
+from textual.widgets import Button, Input, Label
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from textual import events
+    from textual.app import ComposeResult
+
+_CSS = """
+    align: center middle;
+    background: $background 60%;
+"""
+_BOX = """
+    width: 62; max-width: 96%; height: auto; max-height: 90%; padding: 1 2; background: $panel;
+    border: round $primary; border-title-color: $accent;
+"""
+
+
+class Choice(ModalScreen[str | None]):
+    """A sentence and buttons; each answers to its first letter. Dismissed with the button's word, Esc: None."""
+
+    DEFAULT_CSS = f"""
+    Choice {{ {_CSS} }}
+    Choice > Vertical {{ {_BOX} }}
+    Choice Label {{ width: 1fr; height: auto; margin-bottom: 1; }}
+    Choice Horizontal {{ height: auto; align-horizontal: right; }}
+    Choice Button {{ margin-left: 1; min-width: 10; height: 1; border: none; background: $surface; }}
+    Choice Button:focus {{ background: $primary; color: $background; text-style: bold; }}
+    """
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "dismiss(None)", "Cancel"),
+        Binding("left", "app.focus_previous", show=False),
+        Binding("right", "app.focus_next", show=False),
+    ]
+
+    def __init__(self, title: str, sentence: str, choices: Sequence[str]) -> None:
+        super().__init__()
+        self._title, self._sentence, self._choices = title, sentence, choices
+
+    def compose(self) -> ComposeResult:
+        """The sentence above its answers."""
+        box = Vertical()
+        box.border_title = self._title
+        with box:
+            yield Label(self._sentence, markup=False)
+            with Horizontal():
+                for number, choice in enumerate(self._choices):
+                    yield Button(f"{choice} ({choice[0].lower()})", id=f"choice-{number}")
+
+    def on_button_pressed(self, event: Button.Pressed) -> None:
+        """Answer."""
+        self.dismiss(self._choices[int((event.button.id or "-0").rpartition("-")[2])])
+
+    def on_key(self, event: events.Key) -> None:
+        """Answer by first letter."""
+        for choice in self._choices:
+            if event.character and choice[0].lower() == event.character.lower():
+                event.stop()
+                self.dismiss(choice)
+                return
+
+
+class Line(ModalScreen[str | None]):
+    """Asks for a line of text."""
+
+    DEFAULT_CSS = f"""
+    Line {{ {_CSS} }}
+    Line > Vertical {{ {_BOX} }}
+    Line Input {{ border: none; height: 1; padding: 0 1; background: $surface; }}
+    Line Input:focus {{ border: none; }}
+    Line Label {{ width: 1fr; color: $text-muted; margin-top: 1; }}
+    """
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "dismiss(None)", "Cancel")]
+
+    def __init__(self, title: str, value: str = "", hint: str = "") -> None:
+        super().__init__()
+        self._title, self._value, self._hint = title, value, hint
+
+    def compose(self) -> ComposeResult:
+        """One field and a hint."""
+        box = Vertical()
+        box.border_title = self._title
+        with box:
+            yield Input(self._value, select_on_focus=True)
+            if self._hint:
+                yield Label(self._hint, markup=False)
+
+    def on_input_submitted(self, event: Input.Submitted) -> None:
+        """Answer."""
+        self.dismiss(event.value)

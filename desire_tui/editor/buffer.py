@@ -1,0 +1,67 @@
+"""What a tab knows about its file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import count
+from pathlib import Path
+
+_numbers = count(1)
+
+SIZE_MAX = 64 << 20
+"""Files larger than this (bytes) are not opened: nobody edits them, and a wrong file must not fill the memory."""
+
+
+class NotText(ValueError):  # noqa: N818 - a statement about a file
+    """The file is no text."""
+
+
+@dataclass(eq=False)
+class Buffer:
+    """A tab's file: where it is, what was last saved there, and the time stamp it then had."""
+
+    path: Path | None = None
+    saved_text: str = ""
+    stamp: float | None = None
+    label: str = ""
+    crlf: bool = False
+    number: int = field(default_factory=lambda: next(_numbers))
+
+    @property
+    def name(self) -> str:
+        """What the tab shows."""
+        return self.path.name if self.path else self.label or f"untitled-{self.number}"
+
+    @classmethod
+    def from_file(cls, path: Path) -> Buffer:
+        """Read a file. Raises OSError, or NotText if it holds binary data or is too large."""
+        path = path.expanduser().resolve()
+        if path.stat().st_size > SIZE_MAX:
+            raise NotText(f"{path.name} is larger than {SIZE_MAX >> 20} MB")
+        data = path.read_bytes()
+        if b"\0" in data:
+            raise NotText(f"{path.name} is not a text file")
+        try:
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = data.decode("latin-1")
+        crlf = "\r\n" in text
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+        return cls(path, text, path.stat().st_mtime, crlf=crlf)
+
+    def changed_on_disk(self) -> bool:
+        """Whether the file was changed, or removed, by somebody else since it was read or saved."""
+        if self.path is None or self.stamp is None:
+            return False
+        try:
+            return self.path.stat().st_mtime != self.stamp
+        except OSError:
+            return True
+
+    def saved(self, path: Path, text: str) -> None:
+        """Note that `text` now stands in `path`."""
+        self.path, self.saved_text = path, text
+        try:
+            self.stamp = path.stat().st_mtime
+        except OSError:
+            self.stamp = None

@@ -1,0 +1,54 @@
+"""The editor's colours, line by line, from the engine's own tokens.
+
+TextArea asks `_highlights[row]` for byte ranges of a row it is about to draw. This mapping makes them when asked,
+so an edit costs nothing for the lines nobody sees. Ranges are kept by the line's text: scrolling and undo reuse them.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.syntax import highlight
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from textual.document._document import DocumentBase
+
+    from desire_tui.editor.marks import Mark
+
+Range = tuple[int, int | None, str]
+LINE_MAX = 2000
+"""Longer lines are not coloured (characters)."""
+
+
+class LineHighlights(dict[int, "list[Range]"]):
+    """Row → ranges of bytes with the name of their style; later ones are drawn over earlier ones."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.document: DocumentBase | None = None
+        self.marks: Mapping[int, Sequence[Mark]] = {}
+
+    def __bool__(self) -> bool:
+        return self.document is not None
+
+    def __missing__(self, row: int) -> list[Range]:
+        assert self.document is not None
+        line = self.document.get_line(row)
+        ranges = list(_colours(line)) if len(line) <= LINE_MAX else []
+        for mark in self.marks.get(row, ()):
+            start = min(mark.start, max(len(line) - 1, 0))
+            end = max(mark.end, start + 1)
+            ranges.append((_bytes(line, start), _bytes(line, end), mark.style))
+        return ranges
+
+
+@lru_cache(maxsize=4096)
+def _colours(line: str) -> tuple[Range, ...]:
+    return tuple((_bytes(line, start), _bytes(line, end), name) for start, end, name in highlight(line))
+
+
+def _bytes(line: str, column: int) -> int:
+    return column if line.isascii() else len(line[:column].encode("utf-8", "surrogatepass"))

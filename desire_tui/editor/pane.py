@@ -1,0 +1,235 @@
+"""The editor pane: tabs, one or two texts, the find bar, and a row that says what is wrong at the cursor."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from textual import on
+from textual.containers import Horizontal, Vertical
+from textual.message import Message
+from textual.widgets import Label, TextArea
+
+from desire_tui.editor.area import CodeArea
+from desire_tui.editor.buffer import Buffer
+from desire_tui.editor.findbar import FindBar
+from desire_tui.editor.tabstrip import NEW, TabLabel, TabStrip
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from textual.app import ComposeResult
+    from textual.timer import Timer
+
+    from desire_tui.engine.diagnostics import Diagnostic
+
+CHECK_AFTER_S = 0.25
+"""A text is checked when nobody typed for so long."""
+
+
+class EditorPane(Vertical):
+    """Any number of programs, one of them in front, perhaps another beside it."""
+
+    DEFAULT_CSS = """
+    EditorPane #areas { height: 1fr; }
+    EditorPane #areas.-split CodeArea { border-right: solid $panel; }
+    EditorPane #under { height: 1; background: $panel; }
+    EditorPane #problem { width: 1fr; height: 1; color: $text-muted; text-overflow: ellipsis; text-wrap: nowrap; }
+    EditorPane #problem.-error { color: $text-error; }
+    EditorPane #place { width: auto; padding: 0 1; color: $text-muted; }
+    EditorPane #ok { width: auto; background: $primary; color: $background; text-style: bold; }
+    EditorPane #ok:hover { background: $accent; }
+    """
+
+    class Wanted(Message):
+        """The pane wants an action carried out (`id` of the command table)."""
+
+        def __init__(self, command_id: str) -> None:
+            super().__init__()
+            self.command_id = command_id
+
+    class CheckWanted(Message):
+        """A text came to rest and should be checked."""
+
+        def __init__(self, area: CodeArea) -> None:
+            super().__init__()
+            self.area = area
+
+    class Typed(Message):
+        """The text in front changed."""
+
+    def __init__(self) -> None:
+        super().__init__(id="editor")
+        self.areas: list[CodeArea] = []
+        self._second: CodeArea | None = None
+        self._front: CodeArea | None = None
+        self.active: CodeArea | None = None
+        self.versions: dict[int, int] = {}
+        self._check_timer: Timer | None = None
+
+    def compose(self) -> ComposeResult:
+        """Tabs above, texts, find bar and message row below."""
+        yield TabStrip()
+        yield Horizontal(id="areas")
+        yield FindBar()
+        with Horizontal(id="under"):
+            yield Label("", id="problem", markup=False)
+            yield Label("", id="place")
+            yield Label(" OK ", id="ok")
+
+    # ------------------------------------------------------------------------------------------------- tabs
+
+    @property
+    def front(self) -> CodeArea:
+        """The text the user works on."""
+        assert self._front is not None
+        return self._front
+
+    async def add(self, buffer: Buffer, text: str | None = None, *, front: bool = True) -> CodeArea:
+        """Open a tab; an untouched empty one is replaced."""
+        area = CodeArea(buffer, buffer.saved_text if text is None else text, self.app.current_theme.name)
+        blank = self._front if self._front and not self._front.text and self._front.buffer.path is None else None
+        self.areas.append(area)
+        await self.query_one("#areas", Horizontal).mount(area)
+        if front or self._front is None:
+            self.show(area)
+        else:
+            area.display = False
+            self.refresh_tabs()
+        if blank is not None and text is None and blank is not self.active and buffer.path:
+            await self.remove(blank)
+        self._ask_check(area)
+        return area
+
+    def show(self, area: CodeArea, *, focus: bool = False) -> None:
+        """Bring a tab to the front."""
+        if area is self._second:
+            self._second = self._front
+        self._front = area
+        if self._second is area or self._second not in self.areas:
+            self._second = None
+        for other in self.areas:
+            other.display = other in (area, self._second)
+        self.query_one("#areas").set_class(self._second is not None, "-split")
+        if focus:
+            area.focus()
+        self.refresh_tabs()
+        self._tell_place()
+
+    async def remove(self, area: CodeArea) -> None:
+        """Close a tab without asking; the last one leaves an empty one."""
+        at = self.areas.index(area)
+        had_focus = area.has_focus
+        self.areas.remove(area)
+        if area is self._second:
+            self._second = None
+        if area is self.active:
+            self.active = None
+        if not self.areas:
+            self._front = None
+            await self.add(Buffer())
+        elif area is self._front:
+            self.show(self.areas[min(at, len(self.areas) - 1)], focus=had_focus)
+        await area.remove()
+        self.show(self.front, focus=had_focus)
+
+    def step(self, by: int) -> None:
+        """Show the next tab or the one before."""
+        at = self.areas.index(self.front)
+        self.show(self.areas[(at + by) % len(self.areas)], focus=True)
+
+    def split(self) -> bool:
+        """Show two tabs side by side, or one again. Returns False if there is no second tab."""
+        if self._second is not None:
+            self._second = None
+        elif len(self.areas) > 1:
+            at = self.areas.index(self.front)
+            self._second = self.areas[(at + 1) % len(self.areas)]
+        else:
+            return False
+        self.show(self.front, focus=True)
+        return True
+
+    def find(self, number: int) -> CodeArea | None:
+        """Return the tab with that buffer number."""
+        return next((area for area in self.areas if area.buffer.number == number), None)
+
+    def refresh_tabs(self) -> None:
+        """Draw names and marks again."""
+        strip = self.query_one(TabStrip)
+        strip.front = self.front.buffer.number
+        strip.second = self._second.buffer.number if self._second else None
+        strip.tabs = tuple(
+            TabLabel(a.buffer.number, a.buffer.name, a.is_dirty, a is self.active) for a in self.areas
+        )
+
+    @on(TabStrip.Chosen)
+    async def _tab_chosen(self, event: TabStrip.Chosen) -> None:
+        event.stop()
+        area = self.find(event.key)
+        if event.key == NEW:
+            self.post_message(self.Wanted("file.new"))
+        elif area is not None:
+            self.show(area, focus=True)
+            if event.close:
+                self.post_message(self.Wanted("file.close"))
+
+    # --------------------------------------------------------------------------------------------- problems
+
+    def set_problems(self, area: CodeArea, diagnostics: Iterable[Diagnostic]) -> None:
+        """Show a text's problems in it."""
+        area.marks.set_problems(diagnostics)
+        area.marks_changed()
+        self._tell_place()
+
+    @on(TextArea.Changed)
+    def _changed(self, event: TextArea.Changed) -> None:
+        event.stop()
+        area = event.text_area
+        assert isinstance(area, CodeArea)
+        self.versions[area.buffer.number] = self.versions.get(area.buffer.number, 0) + 1
+        self.refresh_tabs()
+        if area.has_focus:
+            self.post_message(self.Typed())
+        self._ask_check(area)
+
+    def _ask_check(self, area: CodeArea) -> None:
+        if self._check_timer is not None:
+            self._check_timer.stop()
+        self._check_timer = self.set_timer(CHECK_AFTER_S, lambda: self.post_message(self.CheckWanted(area)) and None)
+
+    @on(TextArea.SelectionChanged)
+    def _moved(self, event: TextArea.SelectionChanged) -> None:
+        event.stop()
+        self._tell_place()
+
+    def _tell_place(self) -> None:
+        row, column = self.front.cursor_location
+        self.query_one("#place", Label).update(f"{row + 1}:{column + 1}")
+        label = self.query_one("#problem", Label)
+        marks = self.front.marks.problems.get(row, [])
+        mark = next((m for m in marks if m.start <= column <= m.end), marks[0] if marks else None)
+        if mark is not None:
+            label.update(f" {mark.text}")
+        elif count := sum(map(len, self.front.marks.problems.values())):
+            label.update(f" {count} problem{'s' if count > 1 else ''} · F8")
+        else:
+            label.update("")
+        label.set_class(mark is not None and mark.style == "error", "-error")
+        label.tooltip = mark.text if mark else None
+
+    def on_click(self, event: object) -> None:
+        """Press the OK button, or bring the text that was clicked to the front."""
+        widget = getattr(event, "widget", None)
+        if widget is not None and widget.id == "ok":
+            self.post_message(self.Wanted("run.accept"))
+
+    def on_descendant_focus(self) -> None:
+        """The text that has the focus is the one in front."""
+        focused = self.screen.focused
+        if isinstance(focused, CodeArea) and focused is not self._front and focused in self.areas:
+            self.show(focused)
+
+    @on(FindBar.Closed)
+    def _find_closed(self, event: FindBar.Closed) -> None:
+        event.stop()
+        self.front.focus()

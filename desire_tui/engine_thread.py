@@ -1,0 +1,182 @@
+"""The one thread on which the engine works, and the listener that turns its calls into messages.
+
+A daemon thread: a run in native code never holds up the app's exit.
+"""
+
+from __future__ import annotations
+
+import queue
+import threading
+import traceback
+from typing import TYPE_CHECKING
+
+from desire_tui import messages
+from desire_tui.commands import BY_WORD
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.session import Listener, PermissionRequest, StoppedAt
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.nodes import Program
+    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.source import Source
+
+    Post = Callable[[messages.EngineMessage], object]
+
+WAITING_CHARS_MAX = 200_000
+"""Console output the screen has not taken yet; above it the program waits, so that a flood cannot fill the memory."""
+STOPPED_BY_USER = 301
+
+
+class ScreenListener(Listener):
+    """Runs on the engine's thread; posts messages."""
+
+    def __init__(self, post: Post) -> None:
+        self._post = post
+        self._text: list[str] = []
+        self._waiting = 0
+        self._lock = threading.Lock()
+        self._taken = threading.Event()
+        self._lines: queue.Queue[str | None] = queue.Queue()
+        self.front: Source | None = None
+        """What `erun` takes; set by the screen before it starts one."""
+
+    def console_text(self, text: str) -> None:
+        """Keep the text for the screen to take."""
+        with self._lock:
+            first = not self._text
+            self._text.append(text)
+            self._waiting += len(text)
+            full = self._waiting > WAITING_CHARS_MAX
+            if full:
+                self._taken.clear()
+        if first:
+            self._post(messages.ConsoleText())
+        if full:
+            self._taken.wait(0.25)
+
+    def take_text(self) -> str:
+        """Return the output since the last call (on the screen's thread)."""
+        with self._lock:
+            text = "".join(self._text)
+            self._text.clear()
+            self._waiting = 0
+            self._taken.set()
+        return text
+
+    def ask(self, prompt: str) -> str:
+        """Wait for a line from the command pane."""
+        while not self._lines.empty():
+            self._lines.get_nowait()
+        self._post(messages.InputWanted(prompt))
+        line = self._lines.get()
+        if line is None:
+            raise Interrupted
+        return line
+
+    def answer(self, line: str | None) -> None:
+        """Give the line that `ask` waits for; None breaks off."""
+        self._lines.put(line)
+
+    def permit(self, request: PermissionRequest) -> bool:
+        """Wait for the user's yes or no."""
+        answer = messages.Answer(threading.Event())
+        self._post(messages.PermissionWanted(request, answer))
+        answer.done.wait()
+        return answer.yes
+
+    def program_accepted(self, program: Program, problems: Sequence[Diagnostic]) -> None:
+        """Tell the screen."""
+        del program
+        self._post(messages.ProgramAccepted(problems))
+
+    def run_started(self, record: RunRecord) -> None:
+        """Tell the screen."""
+        self._post(messages.RunStarted(record))
+
+    def run_ended(self, record: RunRecord) -> None:
+        """Tell the screen."""
+        self._post(messages.RunEnded(record))
+
+    def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
+        """Tell the screen."""
+        self._post(messages.ProblemsFound(diagnostics, stops=False))
+
+    def stopped_at(self, place: StoppedAt) -> None:
+        """Tell the screen."""
+        self._post(messages.Stopped(place))
+
+    def graph_changed(self, graph: Graph) -> None:
+        """Tell the screen; the graph itself is read there."""
+        del graph
+        self._post(messages.GraphChanged())
+
+    def quantities_cleared(self) -> None:
+        """Tell the screen."""
+        self._post(messages.QuantitiesCleared())
+
+    def noted(self, text: str) -> None:
+        """Tell the screen."""
+        self._post(messages.Noted(text))
+
+    def front_source(self) -> Source | None:
+        """Return the front tab's text."""
+        return self.front
+
+    def command(self, word: str, argument: str | None) -> bool:
+        """Hand a command about editors and files to the screen."""
+        if word not in BY_WORD:
+            return False
+        self._post(messages.AppCommand(word, argument or ""))
+        return True
+
+
+class EngineThread:
+    """Does one job after the other. What a job raises becomes a message."""
+
+    def __init__(self, post: Post) -> None:
+        self._post = post
+        self._jobs: queue.Queue[Callable[[], object]] = queue.Queue()
+        self._pending = 0
+        self._thread = threading.Thread(target=self._work, daemon=True, name="desire-engine")
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a job is going on or waits."""
+        return self._pending > 0
+
+    def start(self) -> None:
+        """Begin to work."""
+        self._thread.start()
+
+    def submit(self, job: Callable[[], object]) -> None:
+        """Do a job after those that wait. Called on the screen's thread only."""
+        self._pending += 1
+        self._jobs.put(job)
+
+    def forget_waiting(self) -> None:
+        """Drop the jobs that were not begun."""
+        while not self._jobs.empty():
+            self._jobs.get_nowait()
+            self._pending -= 1
+
+    def _work(self) -> None:
+        while True:
+            job = self._jobs.get()
+            failed = True
+            try:
+                job()
+                failed = False
+            except DesireError as error:
+                self._post(messages.ProblemsFound(error.diagnostics, stops=True))
+            except Interrupted:
+                pass
+            except Exception as error:  # noqa: BLE001 - the last line: a fault of ours must not take the work down
+                self._post(messages.EngineFault(f"{type(error).__name__}: {error}", traceback.format_exc()))
+            finally:
+                self._pending -= 1
+                self._post(messages.EngineIdle(failed=failed))

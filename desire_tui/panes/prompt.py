@@ -1,0 +1,154 @@
+"""The line where commands are typed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from textual.binding import Binding, BindingType
+from textual.message import Message
+from textual.widgets import Input
+
+if TYPE_CHECKING:
+    from textual import events
+
+    from desire_tui.panes.history import History
+
+
+class Prompt(Input):
+    """History with the arrow keys (only lines that begin as what was typed), Ctrl+R searches, Tab completes."""
+
+    DEFAULT_CSS = """
+    Prompt { border: none; height: 1; padding: 0; width: 1fr; background: $surface; }
+    Prompt:focus { border: none; background: $surface; }
+    """
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("up", "older", "Older", show=False),
+        Binding("down", "newer", "Newer", show=False),
+        Binding("escape", "clear", "Clear", show=False),
+    ]
+
+    class Entered(Message):
+        """A line, or several pasted ones."""
+
+        def __init__(self, lines: list[str]) -> None:
+            super().__init__()
+            self.lines = lines
+
+    class CompletionWanted(Message):
+        """Tab was pressed."""
+
+    class PopupKey(Message):
+        """A key for the completion list, while one is open."""
+
+        def __init__(self, key: str) -> None:
+            super().__init__()
+            self.key = key
+
+    class Searching(Message):
+        """The history search began, went on, or ended (`pattern` None)."""
+
+        def __init__(self, pattern: str | None) -> None:
+            super().__init__()
+            self.pattern = pattern
+
+    def __init__(self, history: History) -> None:
+        super().__init__(id="prompt", select_on_focus=False)
+        self.history = history
+        self.popup_open = False
+        self._pattern: str | None = None
+        self._hit: int | None = None
+
+    # --------------------------------------------------------------------------------------------- history
+
+    def action_older(self) -> None:
+        """Show the line before."""
+        self._show(self.history.previous(self.value))
+
+    def action_newer(self) -> None:
+        """Show the line after."""
+        self._show(self.history.next())
+
+    def action_clear(self) -> None:
+        """Empty the line."""
+        self.value = ""
+        self.history.forget_place()
+
+    def _show(self, line: str | None) -> None:
+        if line is not None:
+            self.value = line
+            self.cursor_position = len(line)
+
+    def search(self) -> None:
+        """Begin to search the history, or go to the hit before."""
+        if self._pattern is None:
+            self._pattern, self._hit = self.value, None
+        else:
+            self._find(older_than=self._hit)
+        self.post_message(self.Searching(self._pattern))
+
+    @property
+    def is_searching(self) -> bool:
+        """Whether typed letters go into a history search."""
+        return self._pattern is not None
+
+    def _find(self, older_than: int | None = None) -> None:
+        assert self._pattern is not None
+        hit = self.history.search(self._pattern, older_than=older_than)
+        if hit is not None:
+            self._hit = hit[0]
+            self._show(hit[1])
+
+    def _end_search(self) -> None:
+        self._pattern = None
+        self.post_message(self.Searching(None))
+
+    # ------------------------------------------------------------------------------------------------ keys
+
+    async def _on_key(self, event: events.Key) -> None:
+        if self.popup_open and event.key in {"up", "down", "enter", "tab", "escape", "pageup", "pagedown"}:
+            self.post_message(self.PopupKey(event.key))
+        elif self._pattern is not None and self._search_key(event):
+            pass
+        elif event.key == "tab":
+            self.post_message(self.CompletionWanted())
+        elif event.key == "enter":
+            self._enter()
+        else:
+            await super()._on_key(event)
+            return
+        event.stop()
+        event.prevent_default()
+
+    def _search_key(self, event: events.Key) -> bool:
+        """Handle a key of the history search; False if it ends the search and counts as usual."""
+        assert self._pattern is not None
+        if event.key == "backspace":
+            self._pattern = self._pattern[:-1]
+        elif event.is_printable and event.character:
+            self._pattern += event.character
+        else:
+            if event.key == "escape":
+                self.value = ""
+            self._end_search()
+            return event.key == "escape"
+        self._find()
+        self.post_message(self.Searching(self._pattern))
+        return True
+
+    def _enter(self) -> None:
+        line, self.value = self.value, ""
+        self.history.forget_place()
+        self.post_message(self.Entered([line]))
+
+    def _on_paste(self, event: events.Paste) -> None:
+        """Carry out several pasted lines one after the other; a last one without its end stays to be edited."""
+        event.stop()
+        event.prevent_default()
+        lines = event.text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        if len(lines) == 1:
+            self.insert_text_at_cursor(lines[0])
+            return
+        lines[0] = self.value[: self.cursor_position] + lines[0]
+        self.value = lines.pop()
+        self.cursor_position = len(self.value)
+        self.post_message(self.Entered([line for line in lines if line.strip()]))

@@ -1,0 +1,219 @@
+"""All quantities of the session with their values; edit in place; sliders for live mode."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from textual import on
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical, VerticalScroll
+from textual.message import Message
+from textual.widgets import DataTable, Input
+
+from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity, Values
+from desire_tui.panes.slider import Slider
+
+if TYPE_CHECKING:
+    from textual.app import ComposeResult
+
+ROWS_MAX = 400
+"""More rows are not shown; the filter finds the others."""
+ELEMENTS_SHOWN = 4
+
+
+def shape_text(quantity: Quantity) -> str:
+    """Return what kind of thing a quantity is, in a word."""
+    kind = {Kind.REAL: "", Kind.INTEGER: "INTEGER ", Kind.COMPLEX: "COMPLEX "}[quantity.kind]
+    shape = f"[{','.join(map(str, quantity.shape))}]" if quantity.shape else ""
+    state = "state" if quantity.is_state else ""
+    return f"{kind}{shape}{' ' if shape and state else ''}{state}".strip()
+
+
+def value_text(values: Values, quantity: Quantity) -> str:
+    """Return a quantity's value, arrays by their first elements."""
+    if not values.is_defined(quantity):
+        return "undefined"
+    if quantity.kind is Kind.COMPLEX and not quantity.shape:
+        real, imaginary = values.cells[quantity.slot], values.cells[quantity.slot + 1]
+        return f"{real:g} + j*({imaginary:g})"
+    if not quantity.shape:
+        return f"{values.cells[quantity.slot]:g}"
+    flat = values.view(quantity).reshape(-1)[:ELEMENTS_SHOWN]
+    more = " …" if quantity.size > ELEMENTS_SHOWN else ""
+    return " ".join(f"{value:.4g}" for value in flat.tolist()) + more
+
+
+class QuantitiesPane(Vertical):
+    """A table with a filter; Enter edits a value, `l` makes a slider."""
+
+    DEFAULT_CSS = """
+    QuantitiesPane Input { height: 1; border: none; padding: 0 1; background: $panel; }
+    QuantitiesPane Input:focus { border: none; background: $boost; }
+    QuantitiesPane #edit { display: none; background: $panel; color: $accent; }
+    QuantitiesPane DataTable { height: 1fr; background: $surface; scrollbar-size-vertical: 1;
+                               scrollbar-size-horizontal: 0; }
+    QuantitiesPane #sliders { height: auto; max-height: 40%; background: $surface; }
+    """
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("l", "slider", "Live slider", show=False),
+        Binding("slash", "filter", "Filter", show=False),
+        Binding("delete", "remove_slider", "Remove slider", show=False),
+        Binding("escape", "done", "Done", show=False),
+    ]
+
+    class Edited(Message):
+        """A value was typed: carry out `text` as a command."""
+
+        def __init__(self, text: str) -> None:
+            super().__init__()
+            self.text = text
+
+    class SliderMoved(Message):
+        """Parameters of live mode changed: re-run with these values."""
+
+        def __init__(self, values: dict[str, float], *, overlay: bool) -> None:
+            super().__init__()
+            self.values = values
+            self.overlay = overlay
+
+    def __init__(self) -> None:
+        super().__init__(id="quantities")
+        self._values: Values | None = None
+        self._shown: dict[str, tuple[str, str]] = {}
+        self._editing = ""
+        self._overlay = False
+
+    def compose(self) -> ComposeResult:
+        """Filter, table, field to edit in, sliders."""
+        yield Input(placeholder="filter · Enter edits · l live slider", id="filter")
+        table: DataTable[str] = DataTable(cursor_type="row", show_header=False, cell_padding=1)
+        table.add_column("name", key="name")
+        table.add_column("value", key="value")
+        table.add_column("shape", key="shape")
+        yield table
+        yield Input(id="edit")
+        yield VerticalScroll(id="sliders")
+
+    @property
+    def table(self) -> DataTable[str]:
+        """The table."""
+        return self.query_one(DataTable)
+
+    def show(self, values: Values) -> None:
+        """Bring the table up to date; only what changed is drawn."""
+        self._values = values
+        if not self.is_on_screen:
+            return
+        wanted = self.query_one("#filter", Input).value.casefold()
+        rows: dict[str, tuple[str, str]] = {}
+        own = [q for q in values if q.name not in SYSTEM_VARIABLES]
+        system = [q for q in values if q.name in SYSTEM_VARIABLES and values.is_defined(q) and q.name != "PI"]
+        for quantity in (*own, *system):
+            if wanted in quantity.name.casefold():
+                rows[quantity.name] = (value_text(values, quantity), shape_text(quantity))
+            if len(rows) >= ROWS_MAX:
+                break
+        table = self.table
+        if list(rows) != list(self._shown):
+            table.clear()
+            for name, (value, shape) in rows.items():
+                table.add_row(name, value, shape, key=name)
+        else:
+            for name, cells in rows.items():
+                if cells[0] != self._shown[name][0]:
+                    table.update_cell(name, "value", cells[0], update_width=True)
+        self._shown = rows
+
+    @on(Input.Changed, "#filter")
+    def _filter(self, event: Input.Changed) -> None:
+        event.stop()
+        if self._values is not None:
+            self.show(self._values)
+
+    def action_filter(self) -> None:
+        """Move to the filter."""
+        self.query_one("#filter", Input).focus()
+
+    def action_done(self) -> None:
+        """Leave the field."""
+        self.query_one("#edit", Input).display = False
+        self.table.focus()
+
+    # ---------------------------------------------------------------------------------------------- editing
+
+    @property
+    def chosen(self) -> Quantity | None:
+        """The quantity under the table's cursor."""
+        if self._values is None or not self.table.row_count:
+            return None
+        names = list(self._shown)
+        row = self.table.cursor_row
+        return self._values.find(names[row]) if 0 <= row < len(names) else None
+
+    @on(DataTable.RowSelected)
+    def _edit(self, event: DataTable.RowSelected) -> None:
+        event.stop()
+        quantity = self.chosen
+        if quantity is None or self._values is None:
+            return
+        self._editing = quantity.name
+        field = self.query_one("#edit", Input)
+        if quantity.shape:
+            field.value = f"{quantity.name}[{','.join('1' for _ in quantity.shape)}] = "
+        else:
+            field.value = f"{quantity.name} = {value_text(self._values, quantity).replace('undefined', '')}"
+        field.display = True
+        field.focus()
+        field.cursor_position = len(field.value)
+
+    @on(Input.Submitted, "#edit")
+    def _edited(self, event: Input.Submitted) -> None:
+        event.stop()
+        self.action_done()
+        if event.value.strip() and not event.value.rstrip().endswith("="):
+            self.post_message(self.Edited(event.value))
+
+    # ---------------------------------------------------------------------------------------------- sliders
+
+    def action_slider(self) -> None:
+        """Make a slider for the chosen quantity."""
+        if (quantity := self.chosen) is not None:
+            self.add_slider(quantity.name)
+
+    def add_slider(self, name: str) -> None:
+        """Give a scalar a slider, or move to the one it has."""
+        quantity = self._values.find(name) if self._values is not None and name else None
+        if quantity is None or quantity.shape or self._values is None or not self._values.is_defined(quantity):
+            self.table.focus()
+            if name:
+                self.notify(f"'{name}' has no value yet: run the program, then choose a parameter.", markup=False)
+            return
+        for slider in self.query(Slider):
+            if slider.quantity == name:
+                slider.focus()
+                return
+        slider = Slider(name, self._values.cells[quantity.slot])
+        self.query_one("#sliders").mount(slider)
+        slider.focus()
+
+    def action_remove_slider(self) -> None:
+        """Take away the slider that has the focus."""
+        focused = self.screen.focused
+        if isinstance(focused, Slider):
+            focused.remove()
+            self.table.focus()
+
+    def toggle_overlay(self) -> bool:
+        """Overlay live runs, or replace them; returns which."""
+        self._overlay = not self._overlay
+        return self._overlay
+
+    @property
+    def slider_values(self) -> dict[str, float]:
+        """Values of all sliders."""
+        return {slider.quantity: slider.value for slider in self.query(Slider)}
+
+    @on(Slider.Moved)
+    def _moved(self, event: Slider.Moved) -> None:
+        event.stop()
+        self.post_message(self.SliderMoved(self.slider_values, overlay=self._overlay))

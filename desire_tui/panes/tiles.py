@@ -1,0 +1,136 @@
+"""The pieces of the graph on screen: the frame behind, tiles of 8 columns with the curves, the row of colour keys.
+
+A widget's partial refresh sends a row again from the widget's left edge: tiles keep a frame at a few kilobytes.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from rich.color import Color
+from rich.segment import Segment
+from rich.style import Style
+from textual.strip import Strip
+from textual.widget import Widget
+
+from desire_tui.engine.graph import rgb
+from desire_tui.engine.outputs.canvas import NO_COLOR, TILE_COLUMNS
+
+if TYPE_CHECKING:
+    from desire_tui.panes.graph import GraphPane
+
+WHITE_STYLE = Style(color="#202020", bgcolor="#ffffff")
+
+
+@lru_cache(maxsize=256)
+def curve_style(color: int, *, white: bool) -> Style:
+    """Return the style of a colour number on a black or white background."""
+    return Style(color=Color.from_rgb(*rgb(color, white=white)))
+
+
+class GraphPiece(Widget):
+    """Anything drawn inside a graph pane."""
+
+    can_focus = False
+
+    @property
+    def pane(self) -> GraphPane:
+        """The graph pane."""
+        from desire_tui.panes.graph import GraphPane
+
+        pane = next(ancestor for ancestor in self.ancestors if isinstance(ancestor, GraphPane))
+        assert isinstance(pane, GraphPane)
+        return pane
+
+    @property
+    def ground(self) -> Style:
+        """Paper: white where the program or the theme asks for it."""
+        return WHITE_STYLE if self.pane.is_white else self.rich_style
+
+
+class FrameLayer(GraphPiece):
+    """Axes, ticks, labels, title and caption."""
+
+    DEFAULT_CSS = "FrameLayer { width: 1fr; height: 1fr; layer: frame; }"
+
+    def render_line(self, y: int) -> Strip:
+        """Draw a row."""
+        pane, ground = self.pane, self.ground
+        frame, page = pane.frame, pane.page
+        width = self.size.width
+        if frame is None or page is None:
+            text = "No graph yet · F5 runs the program" if y == self.size.height // 2 and width > 30 else ""
+            return Strip([Segment(text.center(width), ground + Style(dim=True))], width)
+        line = frame.lines[y] if y < len(frame.lines) else ""
+        net = ground if page.net is None else ground + curve_style(page.net, white=pane.is_white)
+        style = net if frame.top - 1 <= y <= frame.top + frame.rows else ground
+        head = ""
+        if y == 0:
+            style, head = ground + Style(bold=True), pane.page_mark
+            line = line[: width - len(head)] if head else line
+        return Strip([Segment(line + head, style)], len(line) + len(head)).adjust_cell_length(width, ground)
+
+
+class CanvasTile(GraphPiece):
+    """Columns `number * 8 …` of the canvas."""
+
+    DEFAULT_CSS = "CanvasTile { layer: curves; position: absolute; }"
+
+    def __init__(self, number: int) -> None:
+        super().__init__()
+        self.number = number
+
+    def render_line(self, y: int) -> Strip:
+        """Draw a row of cells."""
+        pane, ground = self.pane, self.ground
+        canvas = pane.canvas
+        start = self.number * TILE_COLUMNS
+        stop = start + self.size.width
+        if canvas is None or y >= canvas.rows or stop > canvas.columns:
+            return Strip.blank(self.size.width, ground)
+        white = pane.is_white
+        segments = [
+            Segment(text, ground if color == NO_COLOR else ground + curve_style(color, white=white))
+            for text, color in canvas.runs(y, start, stop)
+        ]
+        strip = Strip(segments, stop - start)
+        if (column := pane.cursor_column) is not None and start <= column < stop:
+            at = column - start
+            cell = strip.crop(at, at + 1)
+            mark = cell.text if cell.text.strip() else "│"
+            line = Strip([Segment(mark, ground + Style(color=pane.cursor_colour, bold=True))], 1)
+            strip = Strip.join([strip.crop(0, at), line, strip.crop(at + 1)])
+        if (box := pane.rubber) is not None and box.y <= y < box.bottom:
+            first, last = max(box.x, start) - start, min(box.right, stop) - start
+            if first < last:
+                chosen = strip.crop(first, last).apply_style(Style(bgcolor="#4a5a70"))
+                strip = Strip.join([strip.crop(0, first), chosen, strip.crop(last)])
+        return strip
+
+
+class KeyRow(GraphPiece):
+    """Colour keys, or what the cursor reads."""
+
+    DEFAULT_CSS = "KeyRow { height: 1; width: 1fr; layer: frame; dock: bottom; }"
+
+    def render_line(self, y: int) -> Strip:
+        """Draw the row."""
+        pane, ground = self.pane, self.ground
+        width = self.size.width
+        reading = pane.reading
+        segments: list[Segment] = []
+        if reading is not None:
+            segments.append(Segment(f" {reading.head} ", ground + Style(bold=True)))
+            for name, color, value in reading.values:
+                segments.append(Segment(f" {name} = {value}", ground + curve_style(color, white=pane.is_white)))
+        elif pane.page is not None and pane.keys_shown:
+            for name, color in pane.page.keys:
+                segments.append(Segment(" ■ ", ground + curve_style(color, white=pane.is_white)))
+                segments.append(Segment(name, ground))
+        used = sum(segment.cell_length for segment in segments)
+        pad = max((width - used) // 2, 0) if reading is None else 0
+        strip = Strip([Segment(" " * pad, ground), *segments])
+        if strip.cell_length > width:
+            strip = Strip.join([strip.crop(0, width - 1), Strip([Segment("…", ground)], 1)])
+        return strip.adjust_cell_length(width, ground)

@@ -1,0 +1,48 @@
+"""Colours: the desktop's themes, and the editor's colours that go with each."""
+
+from __future__ import annotations
+
+from rich.style import Style
+from textual.theme import Theme
+from textual.widgets.text_area import TextAreaTheme
+
+DARK = Theme(
+    "dark", primary="#4fa3d9", secondary="#3d7ea6", accent="#e5c07b", foreground="#d7dae0", background="#15181e",
+    surface="#1a1e25", panel="#262c36", success="#7fc97f", warning="#e5c07b", error="#f4737b", dark=True,
+)  # fmt: skip
+LIGHT = Theme(
+    "light", primary="#1f6fa8", secondary="#4a86ad", accent="#8a5a00", foreground="#23272e", background="#f4f4f0",
+    surface="#fbfbf8", panel="#dfe2e6", success="#1f7a33", warning="#8a5a00", error="#b3202c", dark=False,
+)  # fmt: skip
+CONTRAST = Theme(
+    "contrast", primary="#00d7ff", secondary="#00afff", accent="#ffff00", foreground="#ffffff", background="#000000",
+    surface="#000000", panel="#303030", success="#00ff00", warning="#ffff00", error="#ff6060", dark=True,
+)  # fmt: skip
+PUBLICATION = Theme(
+    "publication", primary="#303030", secondary="#505050", accent="#000000", foreground="#000000",
+    background="#ffffff", surface="#ffffff", panel="#e4e4e4", success="#000000", warning="#303030", error="#900000",
+    dark=False,
+)  # fmt: skip
+
+THEMES = (DARK, LIGHT, CONTRAST, PUBLICATION)
+NAMES = tuple(theme.name for theme in THEMES)
+
+_WORDS = ("keyword", "function", "system", "string", "comment", "number", "operator", "name")
+_COLOURS = {
+    "dark": ("#82aaff", "#7fd1b9", "#e5a86b", "#a8cc8c", "#7d8799", "#d9a0e0", "#b4bac6", "#d7dae0"),
+    "light": ("#0b4fa0", "#00695c", "#8a4b00", "#2f6b1f", "#6a717c", "#7a2f8f", "#444a52", "#23272e"),
+    "contrast": ("#5fd7ff", "#5fffaf", "#ffaf5f", "#afff87", "#bcbcbc", "#ff87ff", "#ffffff", "#ffffff"),
+    "publication": ("#000000", "#000000", "#000000", "#404040", "#6a6a6a", "#000000", "#000000", "#000000"),
+}
+
+
+def editor_theme(theme: Theme) -> TextAreaTheme:
+    """Return the editor's colours for a theme; for a theme that is not ours, those of our light or dark one."""
+    name = theme.name if theme.name in _COLOURS else ("dark" if theme.dark else "light")
+    styles = {word: Style(color=colour) for word, colour in zip(_WORDS, _COLOURS[name], strict=True)}
+    styles["keyword"] += Style(bold=True)
+    styles["comment"] += Style(italic=True)
+    styles["error"] = Style(underline=True, color=str(theme.error))
+    styles["warning"] = Style(underline=True)
+    styles["found"] = Style(reverse=True)
+    return TextAreaTheme(name=f"desire-{theme.name}", syntax_styles=styles)

@@ -1,0 +1,39 @@
+"""The first start: a few sentences at the right moments, then never again."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from desire_tui.app import DesireApp
+
+WELCOME = """\
+Welcome to Desire. A program is loaded.
+Press F5 (or type zz and Enter) to run it."""
+NEXT = (
+    "That was a run. Change a number in the program, press F5 again.",
+    "Ctrl+C pauses a run, Enter goes on, Space Enter ends it. F7 shows the graph alone.",
+    "F1 explains the word at the cursor, Ctrl+P lists all actions, F11 the examples. Have fun.",
+)
+
+
+class Tour:
+    """Speaks in the command pane."""
+
+    def __init__(self, app: DesireApp) -> None:
+        self._app = app
+        self._next: list[str] = []
+
+    def begin(self) -> None:
+        """Start the tour."""
+        self._next = list(NEXT)
+        self._app.command.console.add(WELCOME, "notice")
+
+    def run_ended(self) -> None:
+        """Say the next sentence once the runs of the program are over."""
+        if self._next:
+            self._app.set_timer(0.5, self._say)
+
+    def _say(self) -> None:
+        if self._next and not self._app.engine.is_busy:
+            self._app.command.console.add(self._next.pop(0), "notice")
