@@ -2,30 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.analysis.context import DEPTH_MAX, Frame
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.nodes import Bare, Call, Invoke, Name, Placed
+from desire_tui.engine.nodes import Bare, Call, Invoke, Name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from desire_tui.engine.analysis.context import Context
-    from desire_tui.engine.nodes import Expr, Statement
+    from desire_tui.engine.analysis.structure import SubmodelText
+    from desire_tui.engine.nodes import Expr, Placed, Statement
 
 Line = tuple["Statement", Frame]
-
-
-@dataclass(frozen=True)
-class SubmodelText:
-    """A SUBMODEL with its body."""
-
-    name: str
-    dummies: tuple[str, ...]
-    body: tuple[Placed, ...]
 
 
 def expand(

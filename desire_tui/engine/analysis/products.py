@@ -120,7 +120,7 @@ def nonconformable(
 ) -> Value:
     """Report error 74."""
     return context.report(
-        "nonconformable", node, name=name, shape=_shown(shape), wanted=_shown(extent)
+        "shapes-disagree", node, name=name, shape=_shown(shape), wanted=_shown(extent)
     )
 
 

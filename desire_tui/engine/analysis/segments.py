@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine import nodes
 from desire_tui.engine.analysis import arrays, learning, requests, statements, targets
 from desire_tui.engine.analysis.builder import Builder
-from desire_tui.engine.analysis.context import Context, FunctionText
-from desire_tui.engine.analysis.expansion import SubmodelText, expand
+from desire_tui.engine.analysis.context import Context
+from desire_tui.engine.analysis.expansion import expand
 from desire_tui.engine.analysis.jacobian import lower_jacobian
-from desire_tui.engine.analysis.scope import UNKNOWN, Scope
+from desire_tui.engine.analysis.scope import UNKNOWN
 from desire_tui.engine.analysis.states import StateLine, StateTable
 from desire_tui.engine.lowered import Load, Segment
 from desire_tui.engine.nodes import Derivative, Element, Name, VectorDerivative
@@ -23,7 +23,10 @@ from desire_tui.engine.values import T
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from desire_tui.engine.analysis.context import FunctionText
     from desire_tui.engine.analysis.expansion import Line
+    from desire_tui.engine.analysis.scope import Scope
+    from desire_tui.engine.analysis.structure import SubmodelText
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.nodes import SegmentText, Target
     from desire_tui.engine.source import Source

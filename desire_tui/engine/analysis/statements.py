@@ -57,7 +57,7 @@ def condition(builder: Builder, node: nodes.If) -> None:
     """`if e`; a script's `if C then` is error 219."""
     context = builder.context
     if node.value is None:
-        context.report("script-if", node)
+        context.report("then-in-segment", node)
         return
     value = lower(context, node.value)
     builder.open("if", context.where(node), value)
@@ -72,10 +72,10 @@ def simple(builder: Builder, node: nodes.Simple) -> None:
         builder.open("step", context.where(node))
     elif node.word == "else":
         if not builder.otherwise():
-            context.report("else-without-if", node)
-    elif node.word == "end if":
+            context.report("stray-else", node, word=node.word)
+    elif node.word in {"end if", "proceed"}:
         if not builder.end_if():
-            context.report("end-if-without-if", node)
+            context.report("stray-else", node, word=node.word)
     else:
         context.report("illegal-in-dynamic", node, word=node.word)
 
