@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.analysis.structure import Structure, script_structure
 from desire_tui.engine.diagnostics import DesireError
@@ -69,6 +69,10 @@ class Interpreter:
             self._machine.resume()
         finally:
             self.channels.flush()
+
+    def stop_here(self) -> NoReturn:
+        """Stop before the present statement as at a STOP; for `Host.before` while tracing."""
+        self._machine.stop(self._machine.frames[-1].place)
 
     def forget_position(self) -> None:
         """Make `go` impossible: the program was edited, or the values were cleared."""
