@@ -12,6 +12,7 @@ from desire_tui.engine.codegen.combine import scaled, weighted
 from desire_tui.engine.codegen.context import context_fields, memory_fields
 from desire_tui.engine.codegen.lanes import Lanes
 from desire_tui.engine.codegen.loops import elementwise, fetch, loop, put
+from desire_tui.engine.codegen.natives import call_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -61,21 +62,7 @@ class ArrayStorage:
 
     def run_pass(self, kind: str, stage: int) -> None:
         """Call the pieces of a pass one after the other."""
-        text = self.text
-        stem = text.fresh()
-        text.do(f"%{stem}.table = load ptr, ptr {self.context.at(kind)}")
-        text.jump(f"{stem}.pre")
-        text.begin(f"{stem}.pre")
-        text.jump(f"{stem}.head")
-        text.begin(f"{stem}.head")
-        text.do(f"%{stem}.at = phi ptr [ %{stem}.table, %{stem}.pre ], [ %{stem}.next, %{stem}.call ]")
-        text.do(f"%{stem}.piece = load ptr, ptr %{stem}.at")
-        text.branch(text.op(f"icmp eq ptr %{stem}.piece, null"), f"{stem}.done", f"{stem}.call")
-        text.begin(f"{stem}.call")
-        text.do(f"call void %{stem}.piece(ptr %v, ptr %k{stage}, ptr %c)")
-        text.do(f"%{stem}.next = getelementptr i8, ptr %{stem}.at, i64 8")
-        text.jump(f"{stem}.head")
-        text.begin(f"{stem}.done")
+        call_table(self.text, self.context.load(kind), f"%k{stage}")
 
     def _states(self, body: Callable[[Lanes, str, str, str], None]) -> None:
         """Write a loop over the states: `body(lanes, number, base, index)`, the state at base[index]."""

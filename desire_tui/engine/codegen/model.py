@@ -10,15 +10,14 @@ import numpy as np
 from desire_tui.engine.analysis.slices import derivative_slice, full_pass, step_slice, tail_pass
 from desire_tui.engine.codegen.context import PASSES, Context
 from desire_tui.engine.codegen.loopcode import register_loop
-from desire_tui.engine.codegen.pieces import cut, write
 from desire_tui.engine.codegen.scope import survey
+from desire_tui.engine.codegen.tables import Tables
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from desire_tui.engine.codegen.backend import NativeBackend
-    from desire_tui.engine.codegen.pieces import Piece
     from desire_tui.engine.codegen.store import Compiled
     from desire_tui.engine.lowered import Action, Segment
     from desire_tui.engine.values import Values
@@ -42,9 +41,8 @@ class NativeModel:
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
         self.context = Context(values=values.address)
         self._kept: list[object] = []
-        self._pieces: list[Piece] = []
-        self._tables: dict[str, list[str]] = {}
-        passes = _passes(segment)
+        self._tables: Tables | None = None
+        passes = passes_of(segment)
         scope = survey(passes.values())
         self._small = scope.only_scalars and scope.statements <= SMALL and segment.order <= SMALL
         self._stage_memory(4 if not self._small else 1)
@@ -52,7 +50,11 @@ class NativeModel:
             self._loop = register_loop(passes, rule, self._states.tolist(), self._columns.tolist())
             self._use(self._store.quick([self._loop])[self._loop.name])
         else:
-            self._make_tables(passes)
+            self._tables = Tables(self._store, passes)
+            for kind in PASSES:
+                setattr(self.context, kind, self._tables.addresses[kind])
+            self._temps = np.zeros(self._tables.temps)
+            self.context.temps = self._temps.ctypes.data
             self._use(backend.loops.get(rule, contiguous=self._contiguous))
         self._better: Compiled | None = None
         backend.improver.add(self)
@@ -77,23 +79,6 @@ class NativeModel:
             setattr(context, name, array.ctypes.data)
         self._kept.append(arrays)
 
-    def _make_tables(self, passes: dict[str, tuple[Action, ...]]) -> None:
-        """Compile all pieces quickly and point the context's tables at them."""
-        for kind in PASSES:
-            pieces = [write(group) for group in cut(passes[kind])]
-            self._pieces += pieces
-            self._tables[kind] = [piece.name for piece in pieces]
-        found = self._store.quick(self._pieces)
-        self._addresses: dict[str, list[ctypes.c_uint64]] = {}
-        for kind, names in self._tables.items():
-            table = (ctypes.c_uint64 * (len(names) + 1))(*(found[name].address for name in names), 0)
-            setattr(self.context, kind, ctypes.addressof(table))
-            self._kept.append(table)
-            for place, name in enumerate(names):
-                entry = ctypes.c_uint64.from_buffer(table, 8 * place)
-                self._addresses.setdefault(name, []).append(entry)
-        self._kept.extend(found.values())
-
     def _use(self, compiled: Compiled) -> None:
         self._kept.append(compiled)
         self._run = _RUN(compiled.address)
@@ -105,12 +90,8 @@ class NativeModel:
             self.context.hurry = 1
             yield
             return
-        for piece in {p.name: p for p in self._pieces}.values():
-            better = self._store.fast(piece)
-            self._kept.append(better)
-            for entry in self._addresses[piece.name]:
-                entry.value = better.address  # one aligned store: the running loop sees the old or the new
-            yield
+        assert self._tables is not None
+        yield from self._tables.improve()
 
     # ------------------------------------------------------------------ running
 
@@ -140,7 +121,8 @@ class NativeModel:
         return 0
 
 
-def _passes(segment: Segment) -> dict[str, tuple[Action, ...]]:
+def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:
+    """Return the statements of each of the four passes."""
     return {
         "derivative": derivative_slice(segment),
         "step": step_slice(segment),

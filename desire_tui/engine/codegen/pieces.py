@@ -23,11 +23,15 @@ STATEMENTS_MOST = 100
 
 
 class Piece(NamedTuple):
-    """A function `void NAME(ptr values, ptr derivatives, ptr context)`; its name comes from its text."""
+    """A function `void NAME(ptr values, ptr derivatives, ptr context)`; its name comes from its text.
+
+    `temps`: doubles of scratch memory it wants at `Context.temps`.
+    """
 
     name: str
     text: str
     needs: frozenset[str]
+    temps: int = 0
 
 
 def cut(actions: Iterable[Action]) -> Iterator[list[Action]]:
