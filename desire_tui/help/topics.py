@@ -124,9 +124,12 @@ def _written() -> list[Topic]:
     """Read the pages of `pages/*.toml`."""
     pages = []
     for name in ("script", "runs", "dynamic", "vectors", "display", "files", "commands"):
-        text = files(__package__).joinpath("pages", f"{name}.toml").read_text(encoding="utf-8")
-        pages += [_page(entry) for entry in tomllib.loads(text)["page"]]
+        pages += [_page(entry) for entry in tomllib.loads(_text_of(name))["page"]]
     return pages
+
+
+def _text_of(name: str) -> str:
+    return files(__package__).joinpath("pages", f"{name}.toml").read_text(encoding="utf-8")
 
 
 def _page(entry: dict[str, Any]) -> Topic:
@@ -145,8 +148,33 @@ def _page(entry: dict[str, Any]) -> Topic:
 
 
 def _functions() -> list[Topic]:
-    """One page for each function of the library."""
-    return []
+    """Make a page for each function of the library, and one that lists them all."""
+    from desire_tui.engine.library import LIBRARY
+
+    written: dict[str, dict[str, Any]] = tomllib.loads(_text_of("functions"))
+    pages = []
+    for entry in LIBRARY.values():
+        more = written.get(entry.name, {})
+        shows: list[tuple[str, str]] = more.get("shows", [])
+        first = ["COMPLEX z"] if more.get("complex") else []
+        pages.append(Topic(
+            name=entry.name,
+            kind="function",
+            summary=entry.help,
+            words=(entry.name, f"{entry.name}()"),
+            syntax=(f"{entry.name}({entry.parameters})",),
+            text=more.get("text", "").strip(),
+            example="\n".join([*first, *(f"write {expression}" for expression, _ in shows)]) if shows else "",
+            prints="\n".join(value for _, value in shows),
+            see=tuple(more.get("see", ())),
+        ))  # fmt: skip
+    rows = [f"| `{page.syntax[0]}` | {page.summary} |" for page in pages]
+    text = "\n".join(("| function | value |", "| --- | --- |", *rows))
+    words = ("functions", "library")
+    overview = Topic(
+        "functions", "function", "all library functions", words, ("y = f(x)",), text, see=("FUNCTION",)
+    )
+    return [*pages, overview]
 
 
 def _errors() -> list[Topic]:

@@ -1,0 +1,158 @@
+"""Holds an outcome to a program's expectations, and two outcomes to each other."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from desire_tui.engine.runtime.record import RunRecord
+    from tests.programs.execution import Outcome
+    from tests.programs.expectations import Check, Expectations
+
+FUNCTIONS = {
+    "first": lambda x: float(x[0]),
+    "last": lambda x: float(x[-1]),
+    "nth": lambda x, k: float(x[k - 1]),
+    "list": lambda *x: np.array(x[0] if len(x) == 1 else x, dtype=float),
+    "changes": lambda x: int(np.count_nonzero(np.diff(x))),
+    "max": np.max, "min": np.min, "sum": np.sum, "mean": np.mean, "argmin": np.argmin, "argmax": np.argmax,
+    "diff": np.diff, "abs": np.abs, "sqrt": np.sqrt, "exp": np.exp, "sin": np.sin, "cos": np.cos, "log": np.log,
+    "pi": math.pi, "PI": math.pi, "values": lambda x: x.data,
+}  # fmt: skip
+
+
+class Elements:
+    """An array with subscripts from 1, as in the language."""
+
+    def __init__(self, data: np.ndarray) -> None:
+        self.data = data
+
+    def __getitem__(self, index: int | tuple[int, ...]) -> float:
+        places = index if isinstance(index, tuple) else (index,)
+        return self.data[tuple(place - 1 for place in places)]
+
+
+class ColumnFamily:
+    """`V` where the run shows `V[40]`: the subscript finds the column."""
+
+    def __init__(self, name: str, run: RunRecord) -> None:
+        self.name, self.run = name, run
+
+    def __getitem__(self, index: int | tuple[int, ...]) -> np.ndarray:
+        places = index if isinstance(index, tuple) else (index,)
+        wanted = f"{self.name}[{','.join(map(str, places))}]"
+        for column in self.run.columns:
+            if column.name.replace(" ", "") == wanted:
+                return self.run.values(column.name)
+        raise KeyError(wanted)
+
+
+class Names(dict[str, object]):
+    """What an expectation's names mean: columns of its run first, then final quantities, then functions."""
+
+    def __init__(self, outcome: Outcome, run: RunRecord | None) -> None:
+        super().__init__(FUNCTIONS)
+        self["runs"] = len(outcome.runs)
+        self["points"] = outcome.points
+        self.update(
+            {name: Elements(v) if isinstance(v, np.ndarray) else v for name, v in outcome.quantities.items()}
+        )
+        if run is None:
+            return
+        for column in run.columns:
+            if "[" in column.name:
+                family = column.name.split("[")[0]
+                self[family] = ColumnFamily(family, run)
+        for column in run.columns:
+            self[column.name] = run.values(column.name)
+        t = run.t
+        self.update(t=t, scale=run.scale, ended=run.ended, count=len(t))
+        self["at"] = lambda x, when: float(np.interp(when, t, x))
+
+
+def check(expected: Check, outcome: Outcome) -> str | None:
+    """Return what is wrong, or None."""
+    if expected.run is not None and len(outcome.runs) < abs(expected.run):
+        return f"row {expected.row}: there were only {len(outcome.runs)} runs"
+    run = None
+    if expected.run is not None:
+        run = outcome.runs[expected.run - 1 if expected.run > 0 else expected.run]
+    names = Names(outcome, run)
+    left, right = (_value(side, names, expected) for side in (expected.left, expected.right))
+    if expected.op == "<":
+        right_order = bool(np.all(left < right))
+    elif expected.op == ">":
+        right_order = bool(np.all(left > right))
+    elif isinstance(right, str):
+        right_order = left == right
+    else:
+        bound = expected.tolerance * (np.max(np.abs(right)) if expected.relative else 1.0)
+        right_order = np.shape(left) == np.shape(right) and bool(
+            np.all(np.abs(left - right) <= max(bound, 1e-13))
+        )
+    return None if right_order else f"row {expected.row}: {expected.text}\n    but it is {_shown(left)}"
+
+
+def _value(text: str, names: Names, expected: Check) -> object:
+    try:
+        value = eval(text.replace("^", "**"), {"__builtins__": {}}, names)
+    except Exception as error:
+        raise AssertionError(f"row {expected.row}: {expected.text}: {error!r}") from error
+    return np.array(value, dtype=float) if isinstance(value, list) else value
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, np.ndarray) and value.size > 12:
+        return f"array of {value.size}"
+    return repr(value) if isinstance(value, str | np.ndarray) else f"{value:.13g}"
+
+
+def disagreements(native: Outcome, reference: Outcome, expected: Expectations) -> list[str]:
+    """Return where two back ends differ by more than the program allows."""
+    wrong = []
+    if [e.key for e in _problems(native)] != [e.key for e in _problems(reference)]:
+        wrong.append(f"errors differ: {native.error} | {reference.error}")
+    if len(native.runs) != len(reference.runs):
+        return [*wrong, f"{len(native.runs)} runs, reference {len(reference.runs)}"]
+    for number, (a, b) in enumerate(zip(native.runs, reference.runs, strict=True), 1):
+        if a.count != b.count or a.ended != b.ended:
+            wrong.append(f"run {number}: {a.count} samples, {a.ended}; reference {b.count}, {b.ended}")
+            continue
+        for k, name in enumerate(["t", *(column.name for column in a.columns)]):
+            worst = difference(a.rows[: a.count, k], b.rows[: b.count, k])
+            if not worst <= expected.compare:
+                wrong.append(f"run {number}: {name} differs by {worst:.3g}")
+    for name in native.quantities.keys() | reference.quantities.keys():
+        if name not in native.quantities or name not in reference.quantities:
+            wrong.append(f"{name} is defined by one back end only")
+            continue
+        worst = difference(native.quantities[name], reference.quantities[name])
+        if not worst <= expected.compare and name not in UNREPEATABLE:
+            wrong.append(f"{name} differs by {worst:.3g}")
+    if expected.compare <= 1e-12 and native.console != reference.console:
+        wrong.append(f"console differs: {native.console!r} | {reference.console!r}")
+    return wrong
+
+
+UNREPEATABLE = frozenset({"started", "elapsed"})
+"""Quantities that hold clock times."""
+
+
+def difference(a: object, b: object) -> float:
+    """Return the largest difference relative to the largest value; 0 where both are the same inf or nan."""
+    a, b = np.asarray(a, dtype=complex), np.asarray(b, dtype=complex)
+    if a.shape != b.shape:
+        return math.inf
+    if a.size == 0:
+        return 0.0
+    same = (a == b) | (np.isnan(a) & np.isnan(b))
+    if same.all():
+        return 0.0
+    return float(np.max(np.abs(a - b)[~same]) / max(np.max(np.abs(a)), np.max(np.abs(b))))
+
+
+def _problems(outcome: Outcome) -> list:
+    return list(outcome.error.diagnostics) if outcome.error else []

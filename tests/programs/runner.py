@@ -1,0 +1,52 @@
+"""Runs a program on both back ends and returns everything that is not as its comments say."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tests.programs.checking import check, disagreements
+from tests.programs.execution import execute
+from tests.programs.expectations import read_expectations
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from tests.programs.execution import Outcome
+    from tests.programs.expectations import Expectations
+
+
+def faults_of_program(text: str, folder: Path) -> list[str]:
+    """Check the native back end against all expectations, and the reference back end against the native one."""
+    expected = read_expectations(text)
+    how = {"go": expected.go, "answers": expected.answers}
+    faults: list[str] = []
+    native = {
+        variant: execute(text, "native", folder, settings=variant, **how)
+        for variant in [(), *expected.variants]
+    }
+    faults += _faults(expected, native)
+    if expected.reference not in native:
+        native[expected.reference] = execute(text, "native", folder, settings=expected.reference, **how)
+    reference = execute(text, "reference", folder, settings=expected.reference, **how)
+    faults += [
+        f"back ends: {fault}" for fault in disagreements(native[expected.reference], reference, expected)
+    ]
+    return faults
+
+
+def _faults(expected: Expectations, outcomes: dict) -> list[str]:
+    plain: Outcome = outcomes[()]
+    found = [fault for c in expected.checks if (fault := check(c, outcomes[c.settings])) is not None]
+    found += [
+        f"not printed: {text!r} in {plain.console!r}" for text in expected.prints if text not in plain.console
+    ]
+    if expected.console is not None and plain.console.rstrip("\n") != "\n".join(expected.console):
+        found.append(f"console: {plain.console!r}")
+    wanted = expected.error
+    if plain.error is None:
+        return [*found, *([f"error {wanted[0]} did not come"] if wanted else [])]
+    problem = plain.error.diagnostics[0]
+    row = problem.source.position(problem.span.start).row if problem.source and problem.span else None
+    if wanted is None or problem.code != wanted[0] or (wanted[1] is not None and row != wanted[1]):
+        found.append(f"line {row}: error {problem.code}: {problem.message}")
+    return found

@@ -1,0 +1,25 @@
+"""Every example and every test program, held to the expectations in its comments, on both back ends."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.programs.expectations import read_expectations
+from tests.programs.runner import faults_of_program
+
+ROOT = Path(__file__).parents[2]
+PROGRAMS = sorted([*ROOT.glob("examples/**/*.src"), *ROOT.glob("tests/programs/**/*.src")])
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_program(path, tmp_path):
+    faults = faults_of_program(path.read_text(encoding="utf-8"), tmp_path)
+    assert not faults, "\n" + "\n".join(faults)
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_program_expects_something(path):
+    expected = read_expectations(path.read_text(encoding="utf-8"))
+    assert expected.checks or expected.prints or expected.console or expected.error
