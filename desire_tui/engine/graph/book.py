@@ -25,6 +25,7 @@ class GraphBook:
     def __init__(self) -> None:
         self.settings = DisplaySettings()
         self.pages: list[Graph] = []
+        self.pages_max = PAGES_MAX
         self._made = 0
         self._fresh = True  # the next run starts a page whatever `display` says
 
@@ -124,7 +125,7 @@ class GraphBook:
         page = Graph(self._made, frame, text)
         self._dress(page)
         self.pages.append(page)
-        del self.pages[:-PAGES_MAX]
+        del self.pages[: -self.pages_max]
         return page
 
     def _dress(self, page: Graph) -> None:

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.world import World
     from desire_tui.engine.source import Source
 
-_OWN_WORDS = frozenset({"erun", "run", "go", "list", "list+", "trace", "bye", "new", "NEW", "ed", "edit", "reload", "keep+"})
+_OWN_WORDS = frozenset(
+    {"erun", "run", "go", "list", "list+", "bye", "new", "NEW", "ed", "edit", "reload", "keep+"}
+)
 
 
 class Commands:
@@ -54,7 +56,7 @@ class Commands:
                 case FileCommand():
                     self.carry_out(node.word, node.argument)
                 case _:
-                    self.carry_out("dump run", None)
+                    self.carry_out("dump", "run")
         except DesireError as error:
             raise DesireError(
                 *(
@@ -73,12 +75,9 @@ class Commands:
                 session.run()
             case "go":
                 session.go()
-            case "trace":
-                self._world.tracing = not self._world.tracing
-                write(f"trace {'on' if self._world.tracing else 'off'}\n")
             case "list" | "list+":
                 write(self._listing(numbered=word == "list+"))
-            case "dump run":
+            case "dump":
                 if not session.runs:
                     raise DesireError(Diagnostic("no-run"))
                 write(run_report(session.runs[-1]))

@@ -29,7 +29,7 @@ def compare_rules(session: Session, world: World, desk: Desk, rule: int) -> str:
     with world.restored():
         world.reset()
         program, script = desk.runnable()
-        segment = desk.segments.lowered(program, script, last.segment)
+        segment = desk.segments.lowered(program, script, last.segment, rule)
         segment = desk.segments.recovering(segment, desk.stash_path)
         plan = world.simulator.defaults.plan(segment, rule, desk.source, None)
         record = RunRecord(

@@ -40,7 +40,7 @@ class Segments:
         self._values = values
         self._backend_name = backend
         self._backend: Backend | None = None
-        self._kept: dict[str | None, Segment] = {}
+        self._kept: dict[tuple[str | None, int], Segment] = {}
         self._generation = -1
         self._program: Program | None = None
         self._histories: dict[str | None, tuple[Segment, tuple[int, ...], int]] = {}
@@ -57,19 +57,19 @@ class Segments:
         self._kept.clear()
         self._histories.clear()
 
-    def lowered(self, program: Program, structure: Structure, label: str | None) -> Segment:
+    def lowered(self, program: Program, structure: Structure, label: str | None, rule: int) -> Segment:
         """Return a segment ready for a back end. DesireError: everything that is wrong with it; 215: none."""
         if self._generation != self._values.generation or program is not self._program:
             self.forget()
             self._generation, self._program = self._values.generation, program
-        known = self._kept.get(label)
+        known = self._kept.get((label, rule))
         if known is None:
             if program.segment(label) is None:
                 key = "no-dynamic-segment" if label is None else "no-such-segment"
                 raise DesireError(Diagnostic(key, facts={"label": label}))
             from desire_tui.engine.analysis import lower
 
-            known = self._kept[label] = lower(program, label, self._values, structure)
+            known = self._kept[label, rule] = lower(program, label, self._values, structure, rule)
         return known
 
     def model(self, segment: Segment, rule: int) -> Model:

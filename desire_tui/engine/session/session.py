@@ -194,6 +194,7 @@ class Session:
         if self._edited:
             raise DesireError(Diagnostic("go-after-edit"))
         self._stopped = None
+        self._world.step_allowed = self._interpreter.stepping
         with self._working():
             self._interpreter.go()
         self._note_stop()
@@ -236,10 +237,13 @@ class Session:
         self._stopped, self._edited = None, False
         self._world.runs.clear()
         self._world.runs_made = 0
+        tracing = self._interpreter is not None and self._interpreter.stepping
         self._interpreter = None
         self._desk.journal.program(program.source)
         with self._working():
-            self._interpreter_now().run()
+            interpreter = self._interpreter_now()
+            interpreter.stepping = tracing
+            interpreter.run()
         self._note_stop()
         del script
 
@@ -264,13 +268,15 @@ class Session:
             program = self._desk.program or parse(Source("", "<none>"))
             script = self._desk.structure or structure(program)
             self._interpreter = Interpreter(program, script, self.values, self._world)
+            self._world.stop_here = self._interpreter.stop_here
         return self._interpreter
 
     def _note_stop(self) -> None:
         """Tell where the script stands, if it came to a STOP."""
-        placed = self._interpreter.position if self._interpreter is not None else None
-        if placed is not None:
-            self._stopped = StoppedAt(placed, self._desk.source, tracing=self._world.tracing)
+        interpreter = self._interpreter
+        placed = interpreter.position if interpreter is not None else None
+        if interpreter is not None and placed is not None:
+            self._stopped = StoppedAt(placed, self._desk.source, tracing=interpreter.stepping)
             self._listener.stopped_at(self._stopped)
 
     @contextmanager

@@ -50,7 +50,9 @@ class World:
         self.state = State.IDLE
         self.runs: list[RunRecord] = []
         self.runs_made = 0
-        self.tracing = False
+        self.stop_here: Callable[[], None] = _nothing
+        self.step_allowed = False
+        """The traced script may carry out the statement it stands at (`go` was given)."""
         self.carry_out: Callable[[str, str | None], None] = _nothing
         self.write_to_channel: Callable[[int, str], None] = _nothing
 
@@ -68,7 +70,7 @@ class World:
         desk, began = self._desk, perf_counter()
         program, structure = desk.runnable()
         try:
-            segment = desk.segments.lowered(program, structure, label)
+            segment = desk.segments.lowered(program, structure, label, self.rule)
         except DesireError as error:
             raise _placed_at(error, desk, placed) from None
         segment = desk.segments.recovering(segment, desk.stash_path)
@@ -216,7 +218,11 @@ class World:
         self.carry_out(word, argument)
 
     def before(self, placed: Placed) -> None:
-        """Nothing to do: a traced script stops like one at a STOP."""
+        """Stop a traced script as at a STOP, but at a statement that `go` has just allowed."""
+        del placed
+        if self._desk.command is None and not self.step_allowed:
+            self.stop_here()
+        self.step_allowed = False
 
     def interrupted(self) -> bool:
         """Whether the script is to end; waits while paused."""

@@ -13,7 +13,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     "go-without-stop": Wording(43, "nothing to continue: the script is not at a STOP", "start it with zz"),
     "go-after-edit": Wording(43, "the program was changed since it stopped", "start it again with zz"),
-    "file-not-found": Wording(38, "there is no file {path}"),
+    "program-missing": Wording(38, "there is no file {path}"),
     "file-unreadable": Wording(38, "cannot read {path}: {reason}"),
     "file-binary": Wording(38, "{path} is not a text file", "a Desire program is plain text"),
     "file-unwritable": Wording(106, "cannot write {path}: {reason}"),

@@ -1,0 +1,1 @@
+"""Headless runs: programs without a screen. Knows nothing of Textual."""

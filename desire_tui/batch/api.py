@@ -1,0 +1,43 @@
+"""`desire_tui.run`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from desire_tui.batch.listener import BatchListener
+from desire_tui.batch.work import Orders, Work
+from desire_tui.engine.files import read_source
+from desire_tui.engine.source import Source
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from os import PathLike
+
+    from desire_tui.engine.outputs.results import Result
+    from desire_tui.engine.session.session import BackendName
+
+
+def run_program(
+    program: str | PathLike[str],
+    *,
+    set: Mapping[str, float] | None = None,  # noqa: A002 - the command line's word
+    input: Iterable[str] = (),  # noqa: A002 - the command line's word
+    go: bool = False,
+    timeout: float | None = None,
+    backend: BackendName = "native",
+    allow_shell: bool = False,
+    allow_write: bool = False,
+    quiet: bool = True,
+) -> Result:
+    """See `desire_tui.run`."""
+    is_text = isinstance(program, str) and ("\n" in program or "|" in program)
+    source = Source(str(program), "<text>") if is_text else read_source(Path(program))
+    show = (lambda _: None) if quiet else sys.stdout.write
+    listener = BatchListener(show, iter(input), lambda _: None)
+    orders = Orders(
+        settings=set or {}, answer_stops=go, timeout=timeout, backend=backend, allow_shell=allow_shell,
+        allow_write=allow_write,
+    )  # fmt: skip
+    return Work(source, orders, listener).run()

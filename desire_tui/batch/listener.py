@@ -1,0 +1,67 @@
+"""The front end of a headless run: console text out, answers in, no permission without a flag."""
+
+from __future__ import annotations
+
+import threading
+from typing import IO, TYPE_CHECKING
+
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.session.listener import Listener
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from desire_tui.engine.diagnostics import Diagnostic
+
+CONSOLE_CHARACTERS_MAX = 100_000_000
+"""Console text kept for the JSON; what a runaway program writes beyond is only passed on."""
+
+
+class BatchListener(Listener):
+    """Passes console text to `show` as it comes and keeps it; reads answers line by line."""
+
+    def __init__(
+        self,
+        show: Callable[[str], None],
+        answers: Iterator[str],
+        show_problems: Callable[[Sequence[Diagnostic]], None],
+    ) -> None:
+        self._show = show
+        self._answers = answers
+        self._show_problems = show_problems
+        self._parts: list[str] = []
+        self._size = 0
+        self.warnings: list[Diagnostic] = []
+        self.reading = threading.Event()
+        """Set while standard input is being read: the thread cannot be woken from that."""
+
+    @property
+    def console(self) -> str:
+        """All console text so far."""
+        return "".join(self._parts)
+
+    def console_text(self, text: str) -> None:
+        """Pass on and keep."""
+        if self._size < CONSOLE_CHARACTERS_MAX:
+            self._parts.append(text)
+            self._size += len(text)
+        self._show(text)
+
+    def ask(self, prompt: str) -> str:
+        """Show the prompt, take the next line."""
+        self.console_text(prompt)
+        self.reading.set()
+        try:
+            line = next(self._answers)
+        except StopIteration:
+            raise EOFError from None
+        except KeyboardInterrupt:
+            raise Interrupted from None
+        finally:
+            self.reading.clear()
+        return line.rstrip("\r\n")
+
+    def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
+        """Show warnings as they come."""
+        self.warnings.extend(diagnostics)
+        self._show_problems(diagnostics)

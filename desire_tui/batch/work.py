@@ -1,0 +1,116 @@
+"""One program from its text to its result, on a thread of its own so that Ctrl-C and limits are heard at once."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass, field
+from time import monotonic
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.session import Permissions, Session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+    from desire_tui.batch.listener import BatchListener
+    from desire_tui.engine.outputs.results import Result, StatusWord
+    from desire_tui.engine.session.session import BackendName
+    from desire_tui.engine.source import Source
+
+POLL_SECONDS = 0.1
+ENDING_SECONDS = 2.0
+"""How long a program that was told to end may take."""
+PAGES_MAX = 10_000
+_USER_ENDED = 301
+
+
+@dataclass(frozen=True)
+class Orders:
+    """How to run a program."""
+
+    settings: Mapping[str, float] = field(default_factory=dict)
+    answer_stops: bool = False
+    timeout: float | None = None
+    backend: BackendName = "native"
+    folder: Path | None = None
+    allow_shell: bool = False
+    allow_write: bool = False
+
+
+class Work:
+    """Runs one program. `result` is complete after `run`, whatever happened."""
+
+    def __init__(self, source: Source, orders: Orders, listener: BatchListener) -> None:
+        self._source, self._orders, self._listener = source, orders, listener
+        permissions = Permissions(shell=orders.allow_shell, files=orders.allow_write)
+        self.session = Session(
+            listener, backend=orders.backend, folder=orders.folder, permissions=permissions
+        )
+        self.session.graphs.pages_max = PAGES_MAX
+        self.session.override(orders.settings)
+        self.problems: list[Diagnostic] = []
+        self.status: StatusWord = "done"
+        self._crash: BaseException | None = None
+        self.abandoned = False
+        """The program did not end when told to; its thread still runs."""
+
+    def run(self, watch: Callable[[], None] | None = None) -> Result:
+        """Run the program, calling `watch` now and then; Ctrl-C in the main thread ends it."""
+        thread = threading.Thread(target=self._script, name="desire-batch", daemon=True)
+        began = monotonic()
+        limit = began + self._orders.timeout if self._orders.timeout is not None else None
+        thread.start()
+        while thread.is_alive():
+            try:
+                thread.join(POLL_SECONDS)
+                if watch is not None:
+                    watch()
+                if limit is not None and monotonic() > limit and thread.is_alive():
+                    facts = {"seconds": self._orders.timeout}
+                    self._end(thread, Diagnostic("time-limit", facts=facts, source=self._source))
+                    break
+            except KeyboardInterrupt:
+                self._end(thread, None)
+                break
+        if self._crash is not None:
+            raise self._crash
+        return self._result()
+
+    def _end(self, thread: threading.Thread, why: Diagnostic | None) -> None:
+        self.status = "limit"
+        self.session.end()
+        thread.join(ENDING_SECONDS)
+        self.abandoned = thread.is_alive()
+        if why is not None:
+            self.problems = [p for p in self.problems if p.code != _USER_ENDED]
+            self.problems.append(why)
+
+    def _script(self) -> None:
+        session = self.session
+        try:
+            session.erun(self._source)
+            while session.stopped_at is not None and self._orders.answer_stops:
+                session.go()
+            if session.stopped_at is not None:
+                self.status = "stopped"
+        except DesireError as error:
+            self.problems.extend(error.diagnostics)
+            ended = any(d.code == _USER_ENDED for d in error.diagnostics)
+            self.status = "limit" if ended or self.status == "limit" else "failed"
+        except BaseException as error:  # noqa: BLE001 - raised again on the main thread
+            self._crash = error
+
+    def _result(self) -> Result:
+        from desire_tui import __version__
+        from desire_tui.engine.outputs import results
+
+        session = self.session
+        return results.Result(
+            desire=__version__, program=self._source.name, status=self.status,
+            problems=tuple(results.problem_data(p) for p in [*self._listener.warnings, *self.problems]),
+            console=self._listener.console, runs=tuple(results.run_data(r) for r in list(session.runs)),
+            plots=results.plot_points(session.graphs), quantities=results.final_quantities(session.values),
+            timings=results.timings(session.parse_seconds, list(session.runs)),
+        )  # fmt: skip

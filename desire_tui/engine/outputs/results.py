@@ -1,0 +1,186 @@
+"""Everything a program produced, as plain data: what `desire run --json` writes and `desire_tui.run` returns.
+
+The layout is public (docs: headless runs); programs rely on it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from desire_tui.engine.values import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.graph import GraphBook
+    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.values import Values
+
+    Floats = NDArray[np.float64]
+
+StatusWord = Literal["done", "failed", "stopped", "limit"]
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One message; rows and columns from 1, None where it has no place."""
+
+    code: int
+    severity: str
+    message: str
+    file: str | None
+    line: int | None
+    column: int | None
+    end_line: int | None
+    end_column: int | None
+    hint: str | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CurveData:
+    """All samples of one variable, as computed (not clipped); `x` names the abscissa, None for t."""
+
+    name: str
+    x: str | None
+    values: Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RunData:
+    """One run. `curves` holds every variable of the display and type requests."""
+
+    segment: str | None
+    line: int
+    request: str
+    overlay: bool
+    rule: int
+    scale: float
+    t0: float
+    tmax: float
+    nn: int
+    dt: float
+    t: Floats
+    curves: tuple[CurveData, ...]
+    ended: str
+    end_time: float
+    steps: int
+    rejected: int
+    derivative_calls: int
+    seconds: float
+
+    def __getitem__(self, name: str) -> Floats:
+        """Return the samples of a variable, or of `t`; KeyError for one that was not requested."""
+        if name == "t":
+            return self.t
+        for curve in self.curves:
+            if curve.name == name:
+                return curve.values
+        raise KeyError(name)
+
+
+@dataclass(frozen=True, slots=True)
+class PlotPoint:
+    """A point of an interpreter plot."""
+
+    x: float
+    y: float
+    color: int
+
+
+@dataclass(eq=False)
+class Result:
+    """What a program produced. `quantities` are the final values, arrays in their shape."""
+
+    desire: str
+    program: str
+    status: StatusWord = "done"
+    problems: tuple[Problem, ...] = ()
+    console: str = ""
+    runs: tuple[RunData, ...] = ()
+    plots: tuple[PlotPoint, ...] = ()
+    quantities: dict[str, float | complex | NDArray[Any]] = field(default_factory=dict)
+    timings: dict[str, float] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> float | complex | NDArray[Any]:
+        """Return the final value of a quantity; KeyError for one that has none."""
+        return self.quantities[name]
+
+
+def problem_data(diagnostic: Diagnostic) -> Problem:
+    """Return a diagnostic as plain data."""
+    source, span = diagnostic.source, diagnostic.span
+    start = source.position(span.start) if source is not None and span is not None else (None, None)
+    end = source.position(span.end) if source is not None and span is not None else (None, None)
+    return Problem(
+        diagnostic.code, diagnostic.severity, diagnostic.message, source.name if source is not None else None,
+        start[0], start[1], end[0], end[1], diagnostic.hint,
+    )  # fmt: skip
+
+
+def run_data(record: RunRecord) -> RunData:
+    """Return a run as plain data, its samples copied."""
+    requests = {request.kind: request for request in record.requests}
+    shown = next((k for k in ("dispt", "dispxy", "DISPXY") if k in requests), None)
+    count, rows = record.count, record.rows
+    curves: dict[str, CurveData] = {}
+    for request in record.requests:
+        first = 1 + record.first_column(request)
+        for number, column in enumerate(request.columns):
+            if column.name not in curves:
+                x = _abscissa(request.kind, [c.name for c in request.columns], number)
+                curves[column.name] = CurveData(column.name, x, rows[:count, first + number].copy())
+    return RunData(
+        segment=record.segment, line=record.line, request=shown or ("type" if "type" in requests else "none"),
+        overlay=record.overlay, rule=record.rule, scale=record.scale, t0=record.t0, tmax=record.t_max,
+        nn=record.nn, dt=record.dt, t=record.t.copy(), curves=tuple(curves.values()), ended=record.ended,
+        end_time=record.end_time, steps=record.steps, rejected=record.rejected,
+        derivative_calls=record.derivative_calls, seconds=record.seconds,
+    )  # fmt: skip
+
+
+def _abscissa(kind: str, names: Sequence[str], number: int) -> str | None:
+    if kind == "dispxy":
+        return names[0] if number else None
+    if kind == "DISPXY":
+        return names[number - 1] if number % 2 else None
+    return None
+
+
+def plot_points(graphs: GraphBook) -> tuple[PlotPoint, ...]:
+    """Return all points of interpreter plots, page by page."""
+    return tuple(
+        PlotPoint(x, y, color)
+        for page in graphs
+        for x, y, color in zip(*(a.tolist() for a in page.points.so_far()), strict=True)
+    )
+
+
+def final_quantities(values: Values) -> dict[str, float | complex | NDArray[Any]]:
+    """Return all quantities that have a value."""
+    found: dict[str, float | complex | NDArray[Any]] = {}
+    for quantity in values:
+        if not values.is_defined(quantity):
+            continue
+        if quantity.shape:
+            found[quantity.name] = np.array(values.view(quantity))
+        elif quantity.kind is Kind.COMPLEX:
+            found[quantity.name] = complex(*values.data[quantity.slot : quantity.slot + 2])
+        else:
+            found[quantity.name] = values.cells[quantity.slot]
+    return found
+
+
+def timings(parse_seconds: float, runs: Iterable[RunRecord]) -> dict[str, float]:
+    """Return real seconds spent on reading, compiling and running."""
+    runs = list(runs)
+    return {
+        "parse_s": parse_seconds,
+        "compile_s": sum(r.compile_seconds for r in runs),
+        "run_s": sum(r.seconds for r in runs),
+    }
