@@ -7,6 +7,7 @@ import inspect
 import os
 import signal
 import threading
+import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -32,7 +33,7 @@ from desire_tui.engine.session import Permissions, Session, State
 from desire_tui.engine_thread import EngineThread, ScreenListener
 from desire_tui.line import CommandLine
 from desire_tui.live import Live
-from desire_tui.messages import Checked, EngineMessage
+from desire_tui.messages import Checked, EngineFault, EngineMessage
 from desire_tui.news import EngineNews
 from desire_tui.panes.command import CommandPane
 from desire_tui.panes.console import Console
@@ -134,7 +135,7 @@ class DesireApp(App[None]):
         self.set_keymap(config.keymap(self.settings))
         self.keeper = Keeper(self.editor)
         self.completer = Completer(self, self.desk.query_one(CompletionPopup))
-        self.checker = Checker(self.session.check, lambda *news: self.post_message(Checked(*news)) and None)
+        self.checker = Checker(self.session.check, self._checked, self._check_fault)
         self.engine.start()
         await open_first(self)
         for sentence in (*self._complaints, *self._theme_complaint()):
@@ -146,6 +147,12 @@ class DesireApp(App[None]):
         for number in (signal.SIGTERM, signal.SIGHUP):
             if threading.current_thread() is threading.main_thread():
                 asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
+
+    def _checked(self, number: int, version: int, problems: tuple[Diagnostic, ...]) -> None:
+        self.post_message(Checked(number, version, problems))
+
+    def _check_fault(self, error: Exception) -> None:
+        self.post_message(EngineFault(f"{type(error).__name__}: {error}", "".join(traceback.format_exception(error))))
 
     def _theme_complaint(self) -> list[str]:
         wanted = self.settings.theme

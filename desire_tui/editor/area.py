@@ -38,7 +38,7 @@ class CodeArea(TextArea):
 
     DEFAULT_CSS = """
     CodeArea { border: none; padding: 0; height: 1fr; width: 1fr; scrollbar-size-vertical: 1;
-               scrollbar-size-horizontal: 1; }
+               scrollbar-size-horizontal: 0; }
     CodeArea:focus { border: none; }
     CodeArea .text-area--gutter { color: $foreground 50%; }
     """

@@ -23,9 +23,10 @@ CHECKED_MAX = 2_000_000
 class Checker:
     """Checks texts one after the other. `report(tab number, version, problems)` is called in the checking thread."""
 
-    def __init__(self, check: Check, report: Report) -> None:
+    def __init__(self, check: Check, report: Report, fault: Callable[[Exception], object]) -> None:
         self._check = check
         self._report = report
+        self._fault = fault
         self._wanted: dict[int, tuple[int, Source]] = {}
         self._news = threading.Condition()
         self._thread: threading.Thread | None = None
@@ -48,4 +49,9 @@ class Checker:
                     self._news.wait()
                 number = next(iter(self._wanted))
                 version, source = self._wanted.pop(number)
-            self._report(number, version, self._check(source))
+            try:
+                problems = self._check(source)
+            except Exception as error:  # noqa: BLE001 - a fault in a check must not end all checking
+                self._fault(error)
+            else:
+                self._report(number, version, problems)

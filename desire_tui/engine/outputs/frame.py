@@ -71,6 +71,7 @@ def _frame(
     import plotext
 
     with _plotext_lock:
+        plotext.terminal.limit(width=False, height=False)  # the pane's size counts, not that of plotext's terminal
         figure = plotext.figure
         figure.clear()
         figure.theme("colorless")
