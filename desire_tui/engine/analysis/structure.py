@@ -145,6 +145,8 @@ class _Survey:
             match node:
                 case n.Assign():
                     pass
+                case n.Bare(n.Call(name)) if not self._in_submodel():
+                    self.report("call-missing", placed, name=name)
                 case n.If():
                     self._if(place, placed, node)
                 case n.For() | n.While():

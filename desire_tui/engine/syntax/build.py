@@ -32,6 +32,8 @@ class NumberToken(float):
     number: int
 
 
+DIMENSIONS_MAX = 10
+
 Value = Union[n.Node, Token, list[Any]]
 Kids = list[Any]
 _EXPRESSIONS = (
@@ -81,7 +83,7 @@ def _plain(node: Any) -> Any:
 def _condition(node: Any) -> Any:
     """The condition itself; an expression in its place lacks a relation."""
     if isinstance(node, _EXPRESSIONS):
-        raise Misuse("relation-expected", node.start, node.end)
+        raise Misuse("relation-expected", node.start, node.end, {"word": "if"})
     return node
 
 
@@ -215,14 +217,21 @@ class Builder:
     # ------------------------------------------------------------------------------------- declarations
 
     def declare(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Declare(kids[0].kind, _nodes(kids), first, last)
+        groups = _nodes(kids)
+        for part in (part for group in groups for part in group.parts):
+            if kids[0].kind == "ARRAY" and not part.dimensions:
+                raise Misuse("dimensions-missing", part.start, part.end)
+        return n.Declare(kids[0].kind, groups, first, last)
 
     def declared_group(self, kids: Kids, first: int, last: int) -> n.Node:
         whole = kids[-1] if isinstance(kids[-1], Token) else None
         return n.DeclaredGroup(_nodes(kids), whole, first, last)
 
     def declared(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Declared(kids[0], tuple(map(_plain, _nodes(kids))), first, last)
+        dimensions = tuple(map(_plain, _nodes(kids)))
+        if len(dimensions) > DIMENSIONS_MAX:
+            raise Misuse("dimensions-too-many", first, last, {"limit": DIMENSIONS_MAX})
+        return n.Declared(kids[0], dimensions, first, last)
 
     def procedure(self, kids: Kids, first: int, last: int) -> n.Node:
         values, references = _halves(kids[2:])
@@ -276,13 +285,23 @@ class Builder:
         return n.Seed(_plain(kids[1]), first, last)
 
     def fft(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Fft(kids[1], tuple(map(_plain, _nodes(kids))), first, last)
+        args = tuple(map(_plain, _nodes(kids)))
+        if len(args) != (5 if kids[1] == "R" else 3):
+            raise Misuse("fft-form", first, last)
+        return n.Fft(kids[1], args, first, last)
 
     def display(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Display(kids[1], tuple(map(_plain, _nodes(kids))), first, last)
+        mode, args = kids[1], tuple(map(_plain, _nodes(kids)))
+        wanted = {"C": 1, "N": 1, "W": 2}.get(mode, 0)
+        if len(args) != wanted:
+            raise Misuse("display-form", first, last, {"mode": str(mode), "wanted": ("no", "one", "two")[wanted]})
+        return n.Display(mode, args, first, last)
 
     def plot(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Plot(tuple(map(_plain, _nodes(kids))), first, last)
+        args = tuple(map(_plain, _nodes(kids)))
+        if len(args) > 3:
+            raise Misuse("plot-form", first, last)
+        return n.Plot(args, first, last)
 
     def show(self, kids: Kids, first: int, last: int) -> n.Node:
         return n.Show(kids[1], _plain(kids[3]) if len(kids) > 3 else None, first, last)

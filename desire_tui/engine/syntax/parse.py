@@ -9,13 +9,14 @@ import re
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import Diagnostic
-from desire_tui.engine.nodes import Label, Placed, Program, SegmentText, Simple
+from desire_tui.engine.nodes import Bare, Call, Label, Name, Placed, Program, SegmentText, Simple
 from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
 from desire_tui.engine.syntax.explain import explain
 from desire_tui.engine.syntax.shapes import statement
 from desire_tui.engine.syntax.tokens import Fault, scan
+from desire_tui.engine.syntax.words import keyword_like
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -30,7 +31,7 @@ LINES_MAX = 100_000
 """Lines kept before the store is emptied; a program of that length still runs, only slower to start."""
 
 _lines: dict[str, Entry] = {}
-_NUMBERED = re.compile(r"[ \t]*([0-9]+)(?=[ \t\r]*\Z|[ \t]+[^\s]|--)")
+_NUMBERED = re.compile(r"[ \t]*([0-9]+)(?=[ \t]*(?:\r?\Z|--|—)|[ \t]+[A-Za-z|])")
 _HEADER = re.compile(r"[ \t]*(?:/[ \t]*(?:NEW)?[ \t\r]*\Z|PIC[ \t]*['\"‘’“”])")
 _STARTS_ODD = frozenset("0123456789/P \t")
 
@@ -55,6 +56,9 @@ def parse(source: Source) -> Program:
             if isinstance(item, Fault):
                 if body is not None:
                     problems.append(_diagnostic(item, at + offset, source))
+                continue
+            if isinstance(item, Bare) and not isinstance(item.value, Call) and body is not None:
+                problems.append(_diagnostic(_no_statement(item), at + offset, source))
                 continue
             placed = Placed(item, at + offset, number)
             if body is script:
@@ -92,12 +96,32 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
     return tuple(placed), tuple(problems)
 
 
+def _swallowed(line: str, whole: Entry, parts: list[str]) -> bool:
+    """Whether a line that only seems to go on (`x =`) would spoil a good statement in the next one."""
+    if line.rstrip().endswith("_") or not _has_fault(whole):
+        return False
+    following = _lines.get(parts[1]) or _parse_line(parts[1])
+    return bool(following[0]) and not _has_fault(following) and not isinstance(following[0][0][0], Bare)
+
+
+def _has_fault(entry: Entry) -> bool:
+    return any(isinstance(item, Fault) for item, _ in entry[0])
+
+
 def numbered(line: str) -> int:
     """Return how many characters of a line are its line number, or the whole length of a header line."""
     if _HEADER.match(line):
         return len(line)
     found = _NUMBERED.match(line)
     return found.end() if found else 0
+
+
+def _no_statement(item: Bare) -> Fault:
+    """Return the fault of an expression that stands alone in a program (a command line prints it)."""
+    if isinstance(item.value, Name):
+        name = item.value.name
+        return Fault("not-a-statement", 0, item.end, {"first": name, "close": keyword_like(name)})
+    return Fault("expression-alone", 0, item.end)
 
 
 def _diagnostic(fault: Fault, at: int, source: Source) -> Diagnostic:
@@ -135,8 +159,12 @@ def _logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry,
                 i += 1
                 if not (known(rows[i - 1]) or _parse_line(rows[i - 1]))[1]:
                     break
-            line = "\n".join(parts)
-            entry = known(line) or _parse_line(line)
+            whole = known("\n".join(parts)) or _parse_line("\n".join(parts))
+            if _swallowed(line, whole, parts):
+                i -= len(parts) - 1  # report the unfinished line alone; the next one is a statement of its own
+                next_at = at + len(line) + 1
+            else:
+                entry = whole
         if entry[0]:
             yield entry, at, number
         at = next_at

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     Maker = Callable[[list[str], list[int], list[int]], nodes.Statement]
 
 SHAPES_MAX = 5_000
+_LETTERED = frozenset({"display", "FFT"})
+"""Statements whose letter decides how many arguments they take: it is part of their shape."""
 _patterns: dict[tuple[str, ...], nodes.Statement] = {}
 _makers: dict[tuple[str, ...], Maker] = {}
 _NAMESPACE: dict[str, Any] = {**vars(nodes), "octal_value": octal_value}
@@ -30,6 +32,8 @@ _NAMESPACE: dict[str, Any] = {**vars(nodes), "octal_value": octal_value}
 def statement(chunk: Chunk) -> nodes.Statement:
     """Return the statement of these tokens. Raises automaton.Unexpected or build.Misuse."""
     shape = tuple(chunk.kinds)
+    if shape[0] in _LETTERED:
+        shape = (*shape, *chunk.texts[1:2])
     maker = _makers.get(shape)
     if maker is not None:
         return maker(chunk.texts, chunk.starts, chunk.ends)

@@ -10,32 +10,10 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
+from desire_tui.engine.syntax.words import CLOSERS, KEYWORDS, OPENERS, RAW_AFTER, SOFT_WORDS
+
 NAME, NUMBER, OCTAL, STRING, RAW, LETTER, MATFUN = "NAME", "NUMBER", "OCTAL", "STRING", "RAW", "LETTER", "MATFUN"
 CLASSES = frozenset({NAME, NUMBER, OCTAL, STRING, RAW, LETTER, MATFUN})
-
-KEYWORDS = {
-    word: word
-    for word in """
-    if for while until repeat next exit label PROCEDURE call end SUBMODEL FUNCTION data read restore input write connect
-    disconnect dump time note sh help irule SEED trace drun drunr reset clear STOP go MATRIX DELTA Vector Delta DOT AVG
-    FFT display plot SHOW edit ed list keep load else proceed DYNAMIC OUT SAMPLE step term dispt dispxy DISPXY type
-    stash recover CLEARN PLEARN INTP JACOBIAN store get tdelay delay trkhld func func2 invoke ARRAY STATE INTEGER
-    COMPLEX erun run bye new NEW reload snapshot notebook compare
-    """.split()  # noqa: SIM905 - a list of words reads better than a wall of quotes
-} | {
-    "dimension": "ARRAY", "LEARN": "DELTA", "zz": "erun", "rld": "reload", "MACRO": "SUBMODEL", "quit": "bye",
-    "VECTOR": "Vector", "Vectr": "Vector", "MAT": "MATRIX", "Mat": "MATRIX", "old": "load",
-}  # fmt: skip
-"""Each keyword with its kind: itself, or the word that it is another spelling of."""
-
-SOFT_WORDS: dict[str, frozenset[str]] = {
-    "if": frozenset({"then", "and", "or", "not"}),
-    "while": frozenset({"and", "or", "not"}),
-    "until": frozenset({"and", "or", "not"}),
-    "for": frozenset({"to", "step"}),
-    "connect": frozenset({"as"}),
-}
-"""Words that are special inside one kind of statement, where an operator is expected."""
 
 LINE_MAX = 1_000_000
 """Characters in one line, continuations included."""
@@ -43,20 +21,19 @@ DEPTH_MAX = 100
 """Open brackets; every later pass may recurse once or twice for each."""
 
 _CONTINUES = frozenset("+*/^=-")
-_RAW_AFTER = frozenset({"sh", "help", "keep", "keep+", "load", "snapshot", "notebook", "compare"})
 _OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%", "#"})
-_OPEN = {"(": ")", "[": "]", "{": "}"}
+_OPEN = frozenset(OPENERS.values())
 
 _TOKEN = re.compile(
     r"""(?:[ \t\r\n\f\v]|_[ \t\r]*(?:\n|\Z))*(?:
       ([A-Za-z](?:[A-Za-z0-9$]|_(?![ \t\r]*(?:\n|\Z)))*)              # 1 name or keyword
-    | ((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![A-Za-z.$_]))  # 2 number
+    | ((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![0-9A-Za-z.$_]))  # 2 number
     | (--[^\n]*|—[^\n]*)                                             # 3 comment
     | (<=|>=|<>|\#\#|%%|[-+*/^=<>()\[\]{},;%\#])                       # 4 operator or bracket
     | (\|)                                                            # 5 end of the statement
     | ('[^'\n]*'|"[^"\n]*")                                           # 6 string
     | (\$(?:In|Tr)(?=[ \t]*\()|\$)                                     # 7 $In(A), $Tr(A); $ of write
-    | (&&?[0-9A-Za-z]+(?<=[0-9A-Fa-f])|&&[0-9A-Za-z]*|&)               # 8 octal, hexadecimal, minimum
+    | (&&?[0-9A-Za-z]*)                                              # 8 octal, hexadecimal, minimum
     | (['"][^\n]*)                                                    # 9 a quote nobody closed
     | (\.?[0-9][A-Za-z0-9.$_]*|\.)                                     # 10 not a number, perhaps
     | (.)                                                             # 11 nothing we know
@@ -195,7 +172,7 @@ def scan(text: str) -> Line:
                 depth += 1
                 if depth > DEPTH_MAX and chunk.fault is None:
                     chunk.fault = Fault("nested-too-deep", start - base, pos - base, {"limit": DEPTH_MAX})
-            elif token in ")]}":
+            elif token in CLOSERS:
                 depth -= 1
         elif group == 6:
             chunk.add(STRING, token, start, pos)
@@ -221,7 +198,7 @@ def _start(chunk: Chunk, text: str, token: str, kind: str | None, start: int, po
     elif token in ("list", "keep") and text.startswith("+", pos):
         kind, pos = f"{token}+", pos + 1
     chunk.add(kind, text[start:pos], start, pos)
-    if kind in _RAW_AFTER:
+    if kind in RAW_AFTER:
         return _rest(chunk, text, pos)
     if kind in ("Vector", "MATRIX"):
         found = _D_DT.match(text, pos) or (_DELTA.match(text, pos) if kind == "Vector" else None)

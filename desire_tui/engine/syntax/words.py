@@ -1,0 +1,55 @@
+"""The language's words: keywords with their other spellings, and words that are special in one statement only."""
+
+from __future__ import annotations
+
+from desire_tui.engine.diagnostics import closest
+
+KEYWORDS = {
+    word: word
+    for word in """
+    if for while until repeat next exit label PROCEDURE call end SUBMODEL FUNCTION data read restore input write
+    connect disconnect dump time note sh help irule SEED trace drun drunr reset clear STOP go MATRIX DELTA Vector
+    Delta DOT AVG FFT display plot SHOW edit ed list keep load else proceed DYNAMIC OUT SAMPLE step term dispt dispxy
+    DISPXY type stash recover CLEARN PLEARN INTP JACOBIAN store get tdelay delay trkhld func func2 invoke ARRAY STATE
+    INTEGER COMPLEX erun run bye new NEW reload snapshot notebook compare
+    """.split()  # noqa: SIM905 - a list of words reads better than a wall of quotes
+} | {
+    "dimension": "ARRAY", "LEARN": "DELTA", "zz": "erun", "rld": "reload", "MACRO": "SUBMODEL", "quit": "bye",
+    "VECTOR": "Vector", "Vectr": "Vector", "MAT": "MATRIX", "Mat": "MATRIX", "old": "load",
+}  # fmt: skip
+"""Each keyword with its kind: itself, or the word that it is another spelling of."""
+
+SOFT_WORDS: dict[str, frozenset[str]] = {
+    "if": frozenset({"then", "and", "or", "not"}),
+    "while": frozenset({"and", "or", "not"}),
+    "until": frozenset({"and", "or", "not"}),
+    "for": frozenset({"to", "step"}),
+    "connect": frozenset({"as"}),
+}
+"""Words that are special inside one kind of statement, where an operator is expected."""
+
+RAW_AFTER = frozenset({"sh", "help", "keep", "keep+", "load", "snapshot", "notebook", "compare"})
+"""Commands that take the rest of their statement as it stands."""
+
+RELATIONS = frozenset({"=", "<", ">", "<=", ">=", "<>"})
+OPENERS = {")": "(", "]": "[", "}": "{"}
+"""Each closing bracket with its opening one."""
+CLOSERS = frozenset(OPENERS)
+
+_TWO_WORDS = ("go to", "end if", "end while", "d/dt", "Vectr d/dt", "Vectr delta")
+_ELSEWHERE = {
+    "print": "write", "goto": "go to", "dim": "dimension", "wend": "end while", "return": "exit", "endif": "end if",
+    "fi": "proceed", "endwhile": "end while", "done": "end while", "stop": "STOP", "def": "FUNCTION", "sub": "PROCEDURE",
+    "echo": "write", "exec": "call", "break": "exit", "rem": "--", "seed": "SEED", "dynamic": "DYNAMIC",
+}  # fmt: skip
+"""What users of other languages type."""
+
+
+def keyword_like(text: str) -> str | None:
+    """Return the keyword that was probably meant, or None."""
+    folded = text.casefold()
+    if folded in _ELSEWHERE:
+        return _ELSEWHERE[folded]
+    candidates = (*KEYWORDS, *_TWO_WORDS)
+    same = [word for word in candidates if word.casefold() == folded]
+    return same[0] if same else closest(text, candidates)
