@@ -1,7 +1,7 @@
 """CVODE's callbacks as native functions: right-hand side, error weights, Jacobian.
 
-They know the model only through `integration.problem.Problem`, which CVODE hands to them as user data. An N_Vector is
-`{content, ops, context}`, a serial one's content `{int32 length; int32 own_data; double* data}`.
+They know the model only through `integration.problem.Problem`, which CVODE hands to them as user data. An
+N_Vector is `{content, ops, context}`, a serial one's content `{int32 length; int32 own_data; double* data}`.
 """
 
 from __future__ import annotations
@@ -107,15 +107,16 @@ def _add_weights(module: Any) -> None:
     y, w, problem = _numbers(f, f.arguments[0]), _numbers(f, f.arguments[1]), f.arguments[2]
     largest, tolerance = f.get(problem, "largest"), f.get(problem, "tolerance")
     with f.loop(INT(0), f.get(problem, "n")) as i:
-        scale = _scale(f, largest, y, i)
+        scale = _scale(f, largest, y, i, keep=True)
         f.store(w, i, f.build.fdiv(REAL(1.0), f.build.fmul(tolerance, scale)))
     f.build.ret(INT32(0))
 
 
-def _scale(f: Function, largest: Any, y: Any, i: Any) -> Any:
-    """Update and return the largest magnitude of state i, 1 for 0."""
+def _scale(f: Function, largest: Any, y: Any, i: Any, *, keep: bool) -> Any:
+    """Return the largest magnitude of state i so far, 1 for 0."""
     size = f.intrinsic("llvm.maxnum", f.intrinsic("llvm.fabs", f.load(y, i)), f.load(largest, i))
-    f.store(largest, i, size)
+    if keep:
+        f.store(largest, i, size)
     return f.build.select(f.build.fcmp_ordered("==", size, REAL(0.0)), REAL(1.0), size)
 
 
@@ -125,6 +126,7 @@ def _add_jacobian(module: Any) -> None:
     t, y, fy, matrix, problem, spare, spare2, _ = f.arguments
     y, fy, spare, spare2 = (_numbers(f, v) for v in (y, fy, spare, spare2))
     data = f.call(f.get(problem, "data_of"), POINTER, [matrix])
+    f.add(problem, "jacobian_calls", INT(1))
     f.store(f.get(problem, "values"), INT(T), t)
     scatter(f, problem, y)
     with f.build.if_then(f.build.icmp_signed("!=", f.get(problem, "nonzeros"), INT(0))):
@@ -181,7 +183,7 @@ def _fill_by_differences(
     with f.loop(INT(0), f.get(problem, "colours")) as colour:
         with _slice(f, problem, "seed_starts", colour) as i:
             state = f.load(seeds, i, INT32)
-            least = f.build.fmul(_scale(f, largest, y, state), REAL(_LEAST))
+            least = f.build.fmul(_scale(f, largest, y, state, keep=False), REAL(_LEAST))
             size = f.intrinsic("llvm.maxnum", f.intrinsic("llvm.fabs", f.load(y, state)), least)
             to = f.build.fadd(f.load(y, state), f.build.fmul(size, REAL(_DIFFERENCE)))
             f.store(change, state, f.build.fsub(to, f.load(y, state)))

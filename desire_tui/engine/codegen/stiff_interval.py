@@ -2,12 +2,13 @@
 
     int32 desire_interval(Problem*, RunMemory*, double t_next, int32 passed)
 
-starts from t and the states in the values and comes back with `Ended.RUNNING` once t is `t_next`; with STOPPED where
-`stop` was set; TERM with the statement's number in `which`; SOLVER with CVODE's flag in `which`. `passed` is 1 if the
-pass at the first step's start has been done (it always is at a communication point), 0 to go on inside an interval.
+starts from t and the states in the values and comes back with `Ended.RUNNING` once t is `t_next`; with
+STOPPED where `stop` was set; TERM with the statement's number in `which`; SOLVER with CVODE's flag in
+`which`. `passed` is 1 if the pass at the first step's start has been done (it always is at a communication
+point), 0 to go on inside an interval.
 
-CVODE keeps a history of the solution. It begins anew where the states in the values are not what it left there: at a
-run's start, where difference-equation code changed one, where the user did.
+CVODE keeps a history of the solution. It begins anew where the states in the values are not what it left
+there: at a run's start, where difference-equation code changed one, where the user did.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ def add_interval(module: Any) -> None:
 
 
 def _add_gather(module: Any) -> None:
-    """The states' values → CVODE's vector (nothing to do where they are the same memory)."""
+    """The states' values → CVODE's vector."""
     f = Function(module, "desire_gather", VOID, [POINTER])
     (problem,) = f.arguments
     values, ranges, states = (f.get(problem, name) for name in ("values", "ranges", "states"))
@@ -71,16 +72,12 @@ def _add_sync(module: Any) -> None:
 
 
 def _count(f: Function, problem: Any) -> None:
-    """Move CVODE's counts of failed tries and Jacobians, which start at 0 with each restart, to `past_…`."""
-    for name, field in (
-        ("CVodeGetNumErrTestFails", "failed"),
-        ("CVodeGetNumNonlinSolvConvFails", "failed"),
-        ("CVodeGetNumJacEvals", "jacobians"),
-    ):
-        cell = f.build.alloca(INT)
+    """Keep CVODE's counts of failed tries, which start at 0 with each restart."""
+    cell = f.build.alloca(INT)
+    for name in ("CVodeGetNumErrTestFails", "CVodeGetNumNonlinSolvConvFails"):
         f.build.store(INT(0), cell)
         f.outside(name, INT32, [f.get(problem, "solver"), cell])
-        f.add(problem, field, f.build.load(cell, typ=INT))
+        f.add(problem, "failed", f.build.load(cell, typ=INT))
 
 
 def _add_interval(module: Any) -> None:

@@ -14,7 +14,7 @@ from desire_tui.engine.integration.sundials.signatures import address
 
 _CALLED = (
     "CVode", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep", "CVodeGetNumErrTestFails",
-    "CVodeGetNumNonlinSolvConvFails", "CVodeGetNumJacEvals",
+    "CVodeGetNumNonlinSolvConvFails",
 )  # fmt: skip
 
 
@@ -44,11 +44,11 @@ def stiff_functions() -> StiffFunctions:
     )
     parsed = binding.parse_assembly(str(module))
     parsed.verify()
-    tuning = binding.create_pipeline_tuning_options(speed_level=1)  # level 2 costs 0.3 s and gains nothing here
+    tuning = binding.create_pipeline_tuning_options(speed_level=1)  # level 2 costs 0.3 s and gains nothing
+    here
     tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = False
     passes = binding.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(parsed, passes)
     engine = binding.create_mcjit_compiler(parsed, machine)
-    engine.finalize_object()
-    found = [engine.get_function_address(f"desire_{n}") for n in ("rhs", "weights", "jacobian", "interval")]
+    engine.finalize_object() found = [engine.get_function_address(f"desire_{n}") for n in ("rhs", "weights", "jacobian", "interval")]
     return StiffFunctions(*found, keep=engine)

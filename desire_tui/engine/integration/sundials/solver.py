@@ -37,7 +37,7 @@ class Counts:
     failed: int
     """Steps tried again: error tests failed and corrector iterations that did not converge."""
     derivative_calls: int
-    jacobian_calls: int
+    """Without those for a Jacobian."""
     order: int
 
 
@@ -67,8 +67,6 @@ class Solver:
         self._set("CVodeSetMaxConvFails", _FAILURES_ALLOWED)
         self._set("CVodeSetMaxHnilWarns", -1)
         parts.attached = Attached(libraries(), context, self.memory, self.vector, n, linear)
-        self._diagonal = linear.kind == "diagonal"
-        self._matrix = linear.kind in {"dense", "band", "sparse"}
         self._reached = ctypes.c_double()
 
     def free(self) -> None:
@@ -106,13 +104,7 @@ class Solver:
         counted = (steps, rhs, setups, fails, order, next_order)
         self._set("CVodeGetIntegratorStats", *map(ctypes.byref, counted), *map(ctypes.byref, unused))
         diverged = self._count("CVodeGetNumNonlinSolvConvFails")
-        more = 0
-        if self._diagonal:
-            more = self._count("CVDiagGetNumRhsEvals")
-        elif self._matrix:
-            more = self._count("CVodeGetNumLinRhsEvals")
-        jacobians = self._count("CVodeGetNumJacEvals") if self._matrix else 0
-        return Counts(steps.value, fails.value + diverged, rhs.value + more, jacobians, order.value)
+        return Counts(steps.value, fails.value + diverged, rhs.value, order.value)
 
     def worst_state(self) -> int:
         """Return the number of the state with the largest weighted error estimate in the last try."""

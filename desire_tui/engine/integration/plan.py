@@ -1,0 +1,120 @@
+"""Which linear algebra a model gets under a rule, and the tables by which its Jacobian is filled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.integration.pattern import Pattern
+from desire_tui.engine.integration.problem import Matrix
+from desire_tui.engine.integration.sundials.library import superlu
+from desire_tui.engine.integration.sundials.linear import Linear, positions
+
+if TYPE_CHECKING:
+    from desire_tui.engine.integration.pattern import Numbers
+    from desire_tui.engine.integration.problem import Problem
+
+RULES = range(9, 17)
+"""The rules that are CVODE's."""
+
+DENSE_MOST = 30
+"""Up to so many states a dense matrix is always best (measured: docs/rules.md)."""
+
+
+@dataclass(frozen=True)
+class Tables:
+    """The tables of `problem.Problem`, kept alive here."""
+
+    seed_starts: Numbers
+    seeds: Numbers
+    entry_starts: Numbers
+    rows: Numbers
+    columns: Numbers
+    places: Numbers
+    sources: Numbers
+    row_indices: Numbers
+    column_starts: Numbers
+
+    def give(self, problem: Problem) -> None:
+        """Write the tables' addresses into the structure."""
+        for name in self.__dataclass_fields__:
+            setattr(problem, name, getattr(self, name).ctypes.data)
+        problem.colours = len(self.seed_starts) - 1
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How a model's corrector equations are solved: `linear` is without the Jacobian's address."""
+
+    linear: Linear
+    method: Matrix
+    tables: Tables | None
+
+
+def kind_of(rule: int) -> str:
+    """Return what a rule does about the Jacobian: `fixed-point`, `jacobian`, `differences`, `diagonal`."""
+    return ("fixed-point", "jacobian", "differences", "diagonal")[(rule - 9) % 4]
+
+
+def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = True) -> Plan:
+    """Decide for a rule 9 … 16.
+
+    `pattern` is where the Jacobian is not zero. `program`: a JACOBIAN segment fills it. `tangent`: else exact
+    derivatives are at hand; without them rules 10 and 14 difference too (the reference back end).
+    """
+    kind = kind_of(rule)
+    if kind == "fixed-point":
+        return Plan(Linear("fixed-point"), Matrix.NONE, None)
+    if kind == "diagonal":
+        return Plan(Linear("diagonal"), Matrix.NONE, None)
+    linear = _linear(pattern)
+    method = Matrix.DIFFERENCES
+    if kind == "jacobian":
+        method = Matrix.PROGRAM if program else Matrix.TANGENT if tangent else Matrix.DIFFERENCES
+    return Plan(linear, method, _tables(linear, pattern, method))
+
+
+def _linear(pattern: Pattern) -> Linear:
+    """Compare the operations of one factorisation: n³/3 dense, n·l·(l + u) band; sparse pays if both are many."""
+    n = pattern.n
+    if n <= DENSE_MOST:
+        return Linear("dense")
+    lower, upper = pattern.lower, pattern.upper
+    band_work = 2.0 * n * (lower + 1) * (lower + upper + 1)
+    dense_work = n**3 / 3.0
+    sparse_work = 4000.0 * n + 40.0 * pattern.count * (pattern.count / n) if superlu_pays(pattern) else np.inf
+    best = min((dense_work, 0, "dense"), (band_work, 1, "band"), (sparse_work, 2, "sparse"))[2]
+    if best == "band":
+        return Linear("band", lower=lower, upper=upper)
+    if best == "sparse":
+        return Linear("sparse", nonzeros=pattern.count)
+    return Linear("dense")
+
+
+def superlu_pays(pattern: Pattern) -> bool:
+    """Whether there is a sparse solver and the matrix is large and empty enough to load it."""
+    return pattern.n > 200 and pattern.count < 0.1 * pattern.n**2 and superlu() is not None
+
+
+def _tables(linear: Linear, pattern: Pattern, method: Matrix) -> Tables:
+    n = pattern.n
+    colours = np.zeros(n, dtype=np.int32) if method is Matrix.PROGRAM else pattern.colours
+    number = int(colours.max(initial=-1)) + 1
+    seeds = np.argsort(colours, kind="stable").astype(np.int32)
+    entry_colours = colours[pattern.columns]
+    order = np.argsort(entry_colours, kind="stable")
+    places = positions(linear, n, pattern.rows, pattern.columns)
+    edges = np.arange(number + 1)
+    return Tables(
+        seed_starts=np.searchsorted(colours[seeds], edges).astype(np.int32),
+        seeds=seeds,
+        entry_starts=np.searchsorted(entry_colours[order], edges).astype(np.int32),
+        rows=pattern.rows[order],
+        columns=pattern.columns[order],
+        places=places[order],
+        sources=(pattern.rows.astype(np.int64) * n + pattern.columns).astype(np.int32)[order],
+        row_indices=pattern.rows,
+        column_starts=pattern.starts,
+    )

@@ -1,0 +1,83 @@
+"""The structure that CVODE's callbacks get: where the model's functions, states and tables stand.
+
+Native callbacks (`codegen.stiff`) and Python ones (`integration.callbacks`) read the same structure;
+addresses are plain integers, 0 for what is missing.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from enum import IntEnum
+
+_ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
+
+
+class Matrix(IntEnum):
+    """How the Jacobian's entries are found."""
+
+    NONE = 0
+    TANGENT = 1
+    """Exactly: for each colour the derivative of the right-hand side in the direction of its states."""
+    DIFFERENCES = 2
+    """For each colour one difference of the right-hand side."""
+    PROGRAM = 3
+    """The program's JACOBIAN segment."""
+
+
+class Problem(ctypes.Structure):
+    """One model under one of the rules 9 … 16.
+
+    Functions of the model, C calling convention: `derivatives(memory, k)` and `tangent(memory, k)` write n
+    numbers to `k` from t and the states (and their directions) in the values; `jacobian(memory)` runs the
+    JACOBIAN segment; `step(memory)` runs `pass(-, STEP)` and returns 0, or 1 + the number of the `term`
+    that fired.
+
+    Tables: `ranges` holds triples (slot, first state, count) of int64. The states of colour c are
+    `seeds[seed_starts[c]] …`, its matrix entries `rows[entry_starts[c]] …` with their flat `places` in the
+    matrix and (PROGRAM, one colour) `sources` in the program's array. A sparse matrix' own `row_indices` and
+    `column_starts` are copied into it each time. All are int32.
+    """
+
+    _fields_ = (
+        ("memory", _ADDRESS),  # the RunMemory, handed to the model's functions
+        ("values", _ADDRESS),  # slot 0
+        ("derivatives", _ADDRESS),
+        ("tangent", _ADDRESS),
+        ("jacobian", _ADDRESS),
+        ("step", _ADDRESS),
+        ("n", _INT),
+        ("range_count", _INT),
+        ("ranges", _ADDRESS),
+        ("states", _ADDRESS),  # CVODE's y
+        ("last", _ADDRESS),  # y as CVODE left it: another one now means that the program changed a state
+        ("largest", _ADDRESS),  # max |y| so far
+        ("tolerance", _REAL),  # ERMAX
+        ("method", _INT),  # a Matrix
+        ("colours", _INT),
+        ("seed_starts", _ADDRESS),
+        ("seeds", _ADDRESS),
+        ("entry_starts", _ADDRESS),
+        ("rows", _ADDRESS),
+        ("columns", _ADDRESS),  # DIFFERENCES: each entry's state
+        ("places", _ADDRESS),
+        ("sources", _ADDRESS),
+        ("directions", _ADDRESS),  # TANGENT: n numbers, the states' directions; 0 but while it is called
+        ("array", _ADDRESS),  # PROGRAM: the JACOBIAN segment's array
+        ("spare", _ADDRESS),  # n numbers
+        ("nonzeros", _INT),
+        ("row_indices", _ADDRESS),
+        ("column_starts", _ADDRESS),
+        ("data_of", _ADDRESS),  # SUNDIALS' functions that tell where a matrix keeps its numbers …
+        ("indices_of", _ADDRESS),  # … and, sparse, rows and column starts
+        ("starts_of", _ADDRESS),
+        ("solver", _ADDRESS),  # CVODE's memory
+        ("vector", _ADDRESS),  # N_Vector over `states`
+        ("derivative_calls", _INT),
+        ("started", _INT),  # 0: begin anew
+        ("t", _REAL),  # time that CVODE has reached
+        ("first_step", _REAL),  # 0: CVODE looks for one
+        ("jacobian_calls", _INT),
+        ("failed", _INT),  # steps tried again before the last restart
+        ("suspect", _INT),  # state whose derivative was not finite; -1: none
+        ("restarts", _INT),
+    )

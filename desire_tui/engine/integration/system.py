@@ -1,0 +1,142 @@
+"""One model under a rule 9 … 16: CVODE, the structure its callbacks get, and the memory both need."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from desire_tui.engine.integration.problem import Matrix, Problem
+from desire_tui.engine.integration.sundials.library import libraries
+from desire_tui.engine.integration.sundials.signatures import address
+from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Solver
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.integration.plan import Plan
+
+_DATA_OF = {"dense": "SUNDenseMatrix_Data", "band": "SUNBandMatrix_Data", "sparse": "SUNSparseMatrix_Data"}
+
+
+class Memory(Protocol):
+    """What is wanted of `runtime.memory.RunMemory`."""
+
+    error_max: float
+    dt_max: float
+    derivative_calls: int
+    jacobian_calls: int
+    rejected: int
+    order: int
+
+
+@dataclass(frozen=True)
+class Functions:
+    """Addresses of the model's C functions (see `problem.Problem`); 0 for none."""
+
+    derivatives: int = 0
+    tangent: int = 0
+    jacobian: int = 0
+    step: int = 0
+
+
+@dataclass(frozen=True)
+class Natives:
+    """Addresses of CVODE's callbacks."""
+
+    rhs: int
+    weights: int
+    jacobian: int
+
+
+class StiffSystem:
+    """CVODE made ready for a model.
+
+    `ranges` says where states live: (slot, first state, count). `directions` (TANGENT) and `array`
+    (PROGRAM) are slots of n and n·n numbers. Everything the structure points at is kept alive here.
+    """
+
+    def __init__(
+        self,
+        rule: int,
+        plan: Plan,
+        values: int,
+        ranges: Sequence[tuple[int, int, int]],
+        functions: Functions,
+        natives: Natives,
+        *,
+        directions: int = 0,
+        array: int = 0,
+    ) -> None:
+        self.rule, self.plan = rule, plan
+        self.n = n = sum(count for _, _, count in ranges)
+        self.problem = problem = Problem()
+        self._ranges = np.array(ranges, dtype=np.int64).reshape(-1, 3)
+        self._buffers = np.zeros((4, n))
+        self.largest, self.last, own, spare = self._buffers
+        problem.values = values
+        problem.n, problem.range_count, problem.ranges = n, len(self._ranges), self._ranges.ctypes.data
+        problem.states = own.ctypes.data  # not the values themselves: CVODE works in it while callbacks
+        write
+        those
+        problem.last, problem.largest, problem.spare = (a.ctypes.data for a in (self.last, self.largest,
+        spare))
+        problem.derivatives, problem.tangent = functions.derivatives, functions.tangent
+        problem.jacobian, problem.step = functions.jacobian,
+        functions.step
+        problem.directions, problem.array = values + 8 * directions, values + 8 * array
+        self._connect_matrix()
+        linear = plan.linear
+        if
+        plan.method
+        is
+        not
+        Matrix.NONE:
+            linear
+            =
+            replace(linear, jacobian=natives.jacobian)
+        callbacks = Callbacks(natives.rhs, natives.weights, ctypes.addressof(problem))
+        self.solver = Solver(rule, n, problem.states, callbacks, linear)
+        problem.solver, problem.vector = self.solver.memory, self.solver.vector
+
+    def _connect_matrix(self) -> None:
+        problem, plan = self.problem, self.plan
+        problem.method = plan.method.value
+        if plan.tables is None:
+            return
+        library = libraries().cvode
+        plan.tables.give(problem)
+        problem.data_of = address(library, _DATA_OF[plan.linear.kind])
+        if plan.linear.kind == "sparse":
+            problem.nonzeros = plan.linear.nonzeros
+            problem.indices_of = address(library, "SUNSparseMatrix_IndexValues")
+            problem.starts_of = address(library, "SUNSparseMatrix_IndexPointers")
+
+    def begin(self, memory: Memory, first_step: float) -> None:
+        """Prepare a run: forget history, counts and largest values; take ERMAX, DTMAX and the first DT."""
+        problem = self.problem
+        problem.memory = ctypes.addressof(memory)  # type: ignore[arg-type]
+        problem.tolerance = memory.error_max
+        problem.first_step = first_step
+        problem.started = problem.failed = problem.jacobian_calls = problem.derivative_calls
+        =
+        problem.restarts = 0
+        problem.suspect = -1
+        self.largest[:] = 0.0
+        self.solver.limit(memory.dt_max)
+
+    def report(self, memory: Memory) -> None:
+        """Write what CVODE did so far into the run's memory."""
+        counts = self.solver.counts() if self.problem.started else Counts(0, 0, 0, 0)
+        memory.rejected = self.problem.failed + counts.failed
+        memory.derivative_calls = self.problem.derivative_calls
+        memory.jacobian_calls = self.problem.jacobian_calls
+        memory.order = counts.order
+
+    def suspect(self) -> int:
+        """Return the number of the state that a failure is about."""
+        if self.problem.suspect >= 0:
+            return int(self.problem.suspect)
+        return self.solver.worst_state()
