@@ -1,4 +1,4 @@
-"""Script statements `MATRIX`, `Vector`, `DOT`, `AVG` on real arrays (language.md section 7; book, section 6.2)."""
+"""`MATRIX`, `Vector`, `DOT`, `AVG` in scripts, on real arrays (language.md section 7; book, section 6.2)."""
 
 from __future__ import annotations
 
@@ -22,8 +22,6 @@ from desire_tui.engine.nodes import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
     from desire_tui.engine.interpreter.machine import Operation
@@ -40,17 +38,18 @@ def matrix(site: Site) -> Operation:
     target = site.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 2:
         raise Fault("not-a-matrix", node, name=node.name)
+    rows, columns = target.shape
     expressions = ArrayExpressions(site, true_products=True)
     value = expressions.evaluator(node.value)
     bounds = [site.real(b) if b is not None else None for b in (node.lower, node.upper)]
-    mask = site.values.view(site.array(Name(node.mask))) if node.mask else None
-    view = site.values.view(target)
+    mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
+    view = site.numbers(target)
     identity = isinstance(node.value, Number) and node.value.value == 1.0 and not node.delta
 
     def action() -> None:
         result = value()
         if identity:
-            result = np.eye(*target.shape)
+            result = np.eye(rows, columns)
         if np.ndim(result) == 0 and not identity and not node.delta and result != 0.0:
             raise Fault("matrix-from-number", node.value, name=node.name)
         result = conform(result, target.shape, node, node.name)
@@ -74,8 +73,8 @@ def vector(site: Site) -> Operation:
     if len(target.shape) != 1:
         raise Fault("not-a-vector", node, name=node.name)
     value = ArrayExpressions(site, true_products=False).evaluator(node.value)
-    mask = site.values.view(site.array(Name(node.mask))) if node.mask else None
-    view = site.values.view(target)
+    mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
+    view = site.numbers(target)
 
     def action() -> None:
         result = conform(value(), target.shape, node, node.name)
@@ -135,11 +134,11 @@ class _DotTerm:
             raise Fault("script-dot-term", node)
         self._sign, self._node = sign, node
         left = self._vector(site, factors[0])
-        self._left = site.values.view(left)
+        self._left = site.numbers(left)
         self.length = left.size
         last = factors[-1]
         ones = isinstance(last, Number) and last.value == 1.0 and len(factors) == 2
-        self._right = None if ones else site.values.view(self._vector(site, last))
+        self._right = None if ones else site.numbers(self._vector(site, last))
         self._matrix = self._find_matrix(site, factors[1]) if len(factors) == 3 else None
         shape = self._matrix.shape if self._matrix is not None else (self.length, self.length)
         right = self.length if self._right is None else len(self._right)
@@ -157,8 +156,8 @@ class _DotTerm:
         quantity = site.array(name)
         if len(quantity.shape) != 2:
             raise Fault("not-a-matrix", node, name=quantity.name)
-        view = site.values.view(quantity)
-        return view.T if isinstance(node, Transposed) else view  # type: ignore[return-value]
+        view = site.numbers(quantity)
+        return view.T if isinstance(node, Transposed) else view
 
     def value(self) -> float:
         """Return the signed sum of products."""
@@ -166,5 +165,3 @@ class _DotTerm:
             return self._sign * float(np.sum(self._left))
         right = self._right if self._matrix is None else self._matrix @ self._right
         return self._sign * float(self._left @ right)
-
-

@@ -1,7 +1,7 @@
 """Expressions over whole arrays, evaluated by NumPy.
 
-Products are true matrix products in `MATRIX` statements; in `Vector` statements a matrix times a vector is one too, and
-two vectors multiply element by element. Scalars multiply and add everywhere.
+Products are true matrix products in `MATRIX` statements; in `Vector` statements a matrix times a vector is one
+too, and two vectors multiply element by element. Scalars multiply and add everywhere.
 """
 
 from __future__ import annotations
@@ -42,10 +42,10 @@ class ArrayExpressions:
             return self._site.real(node)
         match node:
             case Name():
-                view = self._site.values.view(self._site.array(node))
+                view = self._site.numbers(self._site.array(node))
                 return lambda: view
             case Transposed(name):
-                view = self._site.values.view(self._matrix(Name(name, node.start, node.end)))
+                view = self._site.numbers(self._matrix(Name(name, node.start, node.end)))
                 return lambda: view.T
             case Shifted():
                 return self._shifted(node)
@@ -85,7 +85,7 @@ class ArrayExpressions:
         quantity = self._site.array(Name(node.name, node.start, node.end))
         if len(quantity.shape) != 1:
             raise Fault("not-a-vector", node, name=node.name)
-        view, by, size = self._site.values.view(quantity), self._site.real(node.by), quantity.size
+        view, by, size = self._site.numbers(quantity), self._site.real(node.by), quantity.size
 
         def evaluate() -> NDArray[np.float64]:
             k = round(max(-size, min(size, by())))

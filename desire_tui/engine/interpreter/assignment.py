@@ -38,14 +38,14 @@ def assign(site: Site) -> Operation:
         raise
 
     def once() -> int:
-        """A target that never got its value stays undefined."""
+        """Leave a target undefined that never got its value."""
         try:
             following = operation()
         except BaseException:
             values.defined[fresh] = 0
             raise
         values.defined[fresh] = 1
-        site.code.operations[site.place] = operation
+        site.machine.operations[site.address] = operation
         return following
 
     return once
@@ -54,14 +54,14 @@ def assign(site: Site) -> Operation:
 def _fresh_slot(site: Site, slot: ast.expr) -> int | None:
     if not isinstance(slot, ast.Constant):
         return None
-    number = int(slot.value)  # type: ignore[arg-type]
+    number = py.constant_slot(slot)
     return number if number < SCALAR_SLOTS and not site.values.defined[number] else None
 
 
 def _assignment(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Expr) -> Operation:
     number = literal(value)
     if number is not None and kind is Kind.REAL and isinstance(slot, ast.Constant):
-        cells, place, following = site.values.cells, slot.value, site.next
+        cells, place, following = site.values.cells, py.constant_slot(slot), site.next
 
         def constant() -> int:
             cells[place] = number
@@ -103,10 +103,9 @@ def storer(site: Site, target: Target) -> Callable[[complex], None]:
         if kind is Kind.COMPLEX:
             helpers["set_complex"](slot_of(), complex(value))
             return
-        if isinstance(value, complex):
+        if value.imag != 0.0:
             raise Fault("complex-to-real", target, name=target.name)
-        if kind is Kind.INTEGER:
-            value = helpers["to_integer"](value)
-        cells[slot_of()] = value
+        number = value.real
+        cells[slot_of()] = helpers["to_integer"](number) if kind is Kind.INTEGER else number
 
     return store

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from desire_tui.engine.interpreter.faults import Fault, Origins
 from desire_tui.engine.interpreter.noise import Noise
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.source import Source
     from desire_tui.engine.values import Kind, Values
 
+Expression = TypeVar("Expression", bound=ast.expr)
+
 WHOLE_LIMIT = 9007199254740992.0
 """INTEGER values stay within ±2^53, where doubles hold every whole number."""
 
@@ -26,6 +28,12 @@ _LOAD, _STORE = ast.Load(), ast.Store()
 def number(value: float) -> ast.expr:
     """Return a constant."""
     return ast.Constant(value)
+
+
+def constant_slot(slot: ast.Constant) -> int:
+    """Return the slot that a constant expression stands for."""
+    assert isinstance(slot.value, int)
+    return slot.value
 
 
 def load(variable: str) -> ast.expr:
@@ -53,10 +61,10 @@ def set_cell(slot: ast.expr, value: ast.expr) -> ast.stmt:
     return ast.Assign([ast.Subscript(load("c"), slot, _STORE)], value)
 
 
-def at(made: ast.AST, node: Node) -> Any:
+def at(made: Expression, node: Node) -> Expression:
     """Give generated code its place in the statement (offsets as columns) and return it."""
-    made.lineno = made.end_lineno = 1  # type: ignore[attr-defined]
-    made.col_offset, made.end_col_offset = node.start, node.end  # type: ignore[attr-defined]
+    made.lineno = made.end_lineno = 1
+    made.col_offset, made.end_col_offset = node.start, node.end
     return made
 
 

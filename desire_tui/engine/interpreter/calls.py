@@ -15,6 +15,8 @@ from desire_tui.engine.nodes import Name
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
+    import ast
+
     from desire_tui.engine.interpreter.builder import Builder
     from desire_tui.engine.interpreter.functions import Functions
     from desire_tui.engine.interpreter.translate import Translator
@@ -69,7 +71,7 @@ class CallTranslator:
             result = Kind.COMPLEX
         return Typed(at(py.call(self._shared(entry), argument), node), result)
 
-    def _table(self, node: Call, entry: LibraryFunction) -> py.ast.expr:
+    def _table(self, node: Call, entry: LibraryFunction) -> ast.expr:
         tables = 1 if node.name == "func1" else 3
         args = [self.translator.real(arg) for arg in node.args[:-tables]]
         arrays = [self._array(arg) for arg in node.args[-tables:]]
@@ -83,8 +85,7 @@ class CallTranslator:
                 raise Fault("table2-shape", node, name=f.name, rows=x.size, columns=y.size)
         cells = self.build.values.cells
         views = [py.load(self.build.share("a", cells[q.slot : q.slot + q.slots])) for q in arrays]
-        made: py.ast.expr = at(py.call(self._shared(entry), *args, *views), node)
-        return made
+        return at(py.call(self._shared(entry), *args, *views), node)
 
     def _array(self, node: Expr) -> Quantity:
         if not isinstance(node, Name):

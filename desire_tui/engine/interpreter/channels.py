@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TextIO
+from typing import IO, TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
@@ -22,7 +22,7 @@ class Channel:
 
     path: Path
     mode: Literal["input", "output"]
-    file: TextIO
+    file: IO[str]
 
 
 class Channels:

@@ -43,7 +43,7 @@ def until(site: Site) -> Operation:
     """`until C`."""
     node = site.node
     assert isinstance(node, Until)
-    again = site.code.structure.partner[site.place] + 1
+    again = site.partner + 1
     leave = ast.If(site.translator.condition(node.condition), [ast.Return(py.number(site.next))], [])
     check = ast.Expr(py.call("check"))
     return site.function([leave, check, ast.Return(py.number(again))])
@@ -51,7 +51,7 @@ def until(site: Site) -> Operation:
 
 def _behind(site: Site) -> int:
     """Where control goes when it does not enter the block that opens here."""
-    return site.code.structure.partner[site.place] + 1
+    return site.partner + 1
 
 
 def _choose(site: Site, condition: ast.expr, yes: int, no: int) -> Operation:
@@ -60,15 +60,15 @@ def _choose(site: Site, condition: ast.expr, yes: int, no: int) -> Operation:
 
 def end_while(site: Site) -> Operation:
     """`end while`."""
-    return _jump_back(site, site.code.structure.partner[site.place])
+    return _jump_back(site, site.partner)
 
 
-def _jump_back(site: Site, place: int) -> Operation:
+def _jump_back(site: Site, address: int) -> Operation:
     check = site.machine.check
 
     def operation() -> int:
         check()
-        return place
+        return address
 
     return operation
 
@@ -80,7 +80,8 @@ def go_to(site: Site) -> Operation:
     place = site.code.structure.place(node.target)
     if place is None:
         raise Fault("no-such-label", node, name=node.target)
-    return _jump_back(site, place) if place <= site.place else site.jump(place)
+    address = site.code.base + place
+    return _jump_back(site, address) if place <= site.place else site.jump(address)
 
 
 def for_loop(site: Site) -> Operation:
@@ -121,7 +122,7 @@ def next_pass(site: Site) -> Operation:
     kind = site.slot_code(node.variable)[1]
     if isinstance(node.variable, Name):
         loop[4] = site.slot(node.variable)[0]()  # found anew: `clear` may have moved it
-    cells, body, after, interrupted = site.values.cells, opening + 1, site.next, site.host.interrupted
+    cells, body, after, interrupted = site.values.cells, site.partner + 1, site.next, site.host.interrupted
     whole = kind is Kind.INTEGER
 
     def operation() -> int:
@@ -132,7 +133,7 @@ def next_pass(site: Site) -> Operation:
             raise Interrupted
         loop[0] = k
         value = loop[2] + k * loop[3]
-        cells[loop[4]] = rounded(value) if whole else value  # type: ignore[index]
+        cells[int(loop[4])] = rounded(value) if whole else value
         return body
 
     return operation
@@ -146,7 +147,7 @@ def leave_block(site: Site) -> Operation:
 def exit_block(site: Site) -> Operation:
     """`exit`: out of the innermost loop, or back from a PROCEDURE."""
     closer = site.code.structure.exits[site.place]
-    return site.machine.leave if closer is None else site.jump(closer + 1)
+    return site.machine.leave if closer is None else site.jump(site.code.base + closer + 1)
 
 
 def end_procedure(site: Site) -> Operation:

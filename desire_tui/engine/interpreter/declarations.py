@@ -126,7 +126,7 @@ def _check_free(site: Site, node: Node, name: str, *, scalar: bool) -> None:
 
 
 def _define_j(site: Site) -> None:
-    """The first COMPLEX line defines j, the square root of −1."""
+    """Define j, the square root of −1, at the first COMPLEX line."""
     values = site.values
     known = values.find("j")
     if known is not None and known.kind is Kind.COMPLEX:

@@ -54,10 +54,10 @@ def clear(site: Site) -> Operation:
 
     def action() -> None:
         machine = site.machine
-        if any(frame.procedure for frame in machine.frames):
+        if machine.returns:
             raise Fault("clear-in-procedure", site.node)
         site.values.clear()
-        machine.refresh(machine.frames)
+        machine.refresh()
 
     return site.then(action)
 
@@ -128,10 +128,10 @@ def show(site: Site) -> Operation:
     quantity = site.array(Name(node.name, node.start, node.end))
     square = max(1, round(quantity.size**0.5))
     usual = quantity.shape[-1] if len(quantity.shape) > 1 else square
-    columns = site.whole(node.columns) if node.columns is not None else lambda: usual
+    given = site.whole(node.columns) if node.columns is not None else None
 
     def action() -> None:
-        count = columns()
+        count = given() if given is not None else usual
         if not 1 <= count <= quantity.size:
             raise Fault("script-show-columns", node, columns=count, size=quantity.size)
         site.host.show(quantity, count)

@@ -86,7 +86,7 @@ class Entries:
 
 
 def split_entries(line: str) -> list[str]:
-    """Split a line at commas, semicolons and tabs outside brackets; numbers may stand apart by blanks alone."""
+    """Split a line at commas, semicolons and tabs outside brackets, and at blanks between numbers."""
     entries: list[str] = []
     depth, start = 0, 0
     for index, character in enumerate(line):

@@ -1,22 +1,23 @@
 """From a Python exception inside generated code to the user's message and the exact place in the source.
 
 Generated code carries the offsets of the nodes it was made from as its column numbers (see `translate`), so the
-traceback itself says which part of a statement failed: finding the place costs nothing while nothing fails.
+traceback itself says which part of a statement failed: that costs nothing while nothing fails.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.nodes import Binary, Call, Node
-from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
     from types import CodeType, TracebackType
 
     from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.source import Source
 
 MARK = "<desire "
 """How the file names of generated code begin; the number behind is an index into `Origins`."""
@@ -79,7 +80,7 @@ def _placed_error(error: DesireError, placed: Placed, source: Source | None) -> 
         return error
     return DesireError(
         *(
-            d if d.span is not None else Diagnostic(d.key, placed.span(), d.facts, source, d.severity, d.related)
+            d if d.span is not None else replace(d, span=placed.span(), source=d.source or source)
             for d in error.diagnostics
         )
     )
@@ -131,10 +132,6 @@ def _node_at(root: Node, start: int, end: int) -> Node | None:
         elif isinstance(item, Node):
             if (item.start, item.end) == (start, end):
                 best = item
-            todo.extend(getattr(item, name) for name in item.__slots__ if name not in {"start", "end"})
+            parts: tuple[str, ...] = type(item).__slots__
+            todo.extend(getattr(item, part) for part in parts if part not in {"start", "end"})
     return best
-
-
-def absolute(placed: Placed, node: Node | None) -> Span:
-    """Return the place of a node in the source."""
-    return placed.span(node if node is not None and node.end > node.start else None)

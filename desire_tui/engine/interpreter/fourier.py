@@ -10,6 +10,8 @@ from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.nodes import Fft
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from desire_tui.engine.interpreter.machine import Operation
@@ -24,13 +26,15 @@ def fft(site: Site) -> Operation:
     assert isinstance(node, Fft)
     wanted = _ARRAYS[node.kind]
     if len(node.args) != wanted + 1:
-        raise Fault("fft-arguments", node, kind=node.kind, needed="n and " + ("four" if wanted == 4 else "two"))
+        raise Fault(
+            "fft-arguments", node, kind=node.kind, needed="n and four" if wanted == 4 else "n and two"
+        )
     count = site.whole(node.args[0])
     quantities = [site.array(arg) for arg in node.args[1:]]
     for argument, quantity in zip(node.args[1:], quantities, strict=True):
         if len(quantity.shape) != 1:
             raise Fault("fft-array", argument, name=quantity.name)
-    views = [site.values.view(q) for q in quantities]
+    views = [site.numbers(q) for q in quantities]
 
     def action() -> None:
         n = count()
@@ -68,4 +72,4 @@ def _convolve(x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
     x[:], y[:] = product.real, product.imag
 
 
-_TRANSFORMS = {"F": _forward, "I": _inverse, "R": _two_real, "C": _convolve}
+_TRANSFORMS: dict[str, Callable[..., None]] = {"F": _forward, "I": _inverse, "R": _two_real, "C": _convolve}

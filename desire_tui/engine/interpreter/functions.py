@@ -1,7 +1,7 @@
-"""`FUNCTION f(a$, b$) = expression`: compiled once for each combination of argument kinds, called like any other.
+"""`FUNCTION f(a$, b$) = expression`: compiled once for each combination of argument kinds.
 
-The body may use program variables, evaluated at call time; dummies are local. An argument may be a whole array where
-the body uses its dummy as one (`func1`, subscripts).
+The body may use program variables, evaluated at call time; dummies are local. An argument may be a whole
+array where the body uses its dummy as one (`func1`, subscripts).
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 class Functions:
     """The program's FUNCTIONs."""
 
-    def __init__(self, definitions: dict[str, Placed], scope: Scope, build: Builder, source: Source | None) -> None:
+    def __init__(
+        self, definitions: dict[str, Placed], scope: Scope, build: Builder, source: Source | None
+    ) -> None:
         self.definitions = definitions
         self._sources: dict[str, Source | None] = dict.fromkeys(definitions, source)
         self._scope = scope

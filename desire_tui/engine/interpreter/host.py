@@ -49,17 +49,17 @@ class Host(Protocol):
         """Run a shell command if that is allowed (error 450 otherwise)."""
 
     def permit(self, path: Path, mode: Literal["read", "write"]) -> Path:
-        """Return the resolved path if the program may open it (error 451 otherwise); relative to its folder."""
+        """Return the resolved path (relative to the program's folder) if it may be opened; else error 451."""
         ...
 
     def command(self, word: str, argument: str | None) -> None:
-        """Carry out a command that is about editors, files and graphs: ed, keep, load, snapshot, help …"""
+        """Carry out a command about editors, files and graphs: ed, keep, load, snapshot, help, …."""
 
     def before(self, placed: Placed) -> None:
-        """Called before each statement while tracing or with breakpoints set; may wait."""
+        """Hear of the next statement while `Interpreter.stepping` is on; may wait, or `stop_here()`."""
 
     def interrupted(self) -> bool:
-        """Whether the user wants the script to end; asked at every jump back and at least every 1000 statements."""
+        """Whether the user wants the script to end; asked at every jump back and every 1000 statements."""
         ...
 
     def warn(self, problem: DesireError) -> None:

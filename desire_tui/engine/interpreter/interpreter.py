@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NoReturn
 from desire_tui.engine.analysis.structure import Structure, script_structure
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.channels import Channels
-from desire_tui.engine.interpreter.machine import Code, Frame, Machine
+from desire_tui.engine.interpreter.machine import Machine
 from desire_tui.engine.interpreter.reading import DataList
 from desire_tui.engine.interpreter.statements import make
 from desire_tui.engine.source import Source
@@ -30,11 +30,9 @@ class Interpreter:
     def __init__(self, program: Program, structure: Structure, values: Values, host: Host) -> None:
         self.program = program
         self.structure = structure
-        self._machine = Machine(values, host, program.script, structure, program.source, make)
+        self._machine = Machine(values, host, program, structure, make)
         self.channels = self._machine.channels = Channels(host)
-        self._script = Code(self._machine, program.script, structure, self._machine.scope, program.source)
-        self._machine.script_code = self._script
-        self._machine.data = DataList(self._script)
+        self._machine.data = DataList(self._machine)
 
     @property
     def stepping(self) -> bool:
@@ -47,12 +45,11 @@ class Interpreter:
 
     @property
     def position(self) -> Placed | None:
-        """The statement that `go` would carry out next (after STOP); None if there is nothing to go on with."""
-        frames = self._machine.stopped
-        if not frames or not frames[-1].code.placed:
+        """The statement that `go` would carry out next, after a STOP; else None."""
+        if self._machine.stopped is None:
             return None
-        frame = frames[-1]
-        return frame.code.placed[min(frame.place, len(frame.code.placed) - 1)]
+        code, place = self._machine.locate(self._machine.stopped.address)
+        return code.placed[min(place, len(code.placed) - 1)]
 
     def run(self) -> None:
         """Run the script from the top; files still connected are closed first."""
@@ -61,7 +58,7 @@ class Interpreter:
         self._machine.stopped = None
         self._machine.data.rewind()
         self.channels.close()
-        self._run([Frame(self._script, 0)])
+        self._run(self._machine.script.base)
 
     def go(self) -> None:
         """Continue after STOP; error 43 if there is nothing to continue."""
@@ -72,7 +69,7 @@ class Interpreter:
 
     def stop_here(self) -> NoReturn:
         """Stop before the present statement as at a STOP; for `Host.before` while tracing."""
-        self._machine.stop(self._machine.frames[-1].place)
+        self._machine.stop_before()
 
     def forget_position(self) -> None:
         """Make `go` impossible: the program was edited, or the values were cleared."""
@@ -84,11 +81,19 @@ class Interpreter:
         if structure.problems:
             raise DesireError(*structure.problems)
         self._machine.define(structure.functions, source)
-        code = Code(self._machine, statements, structure, self._machine.scope, source, is_command=True)
-        self._run([Frame(code, 0)])
-
-    def _run(self, frames: list[Frame]) -> None:
+        machine = self._machine
+        code = machine.link(statements, structure, machine.scope, source, 0, len(statements), is_command=True)
+        stopped = machine.stopped
         try:
-            self._machine.run(frames)
+            self._run(code.base)
+        finally:
+            if (
+                machine.stopped is None or machine.stopped is stopped
+            ):  # else a PROCEDURE stopped, and comes back here
+                machine.unlink(code)
+
+    def _run(self, address: int) -> None:
+        try:
+            self._machine.run(address)
         finally:
             self.channels.flush()

@@ -1,7 +1,8 @@
 """The interpreter's engine: a program counter over operations that are made when they are first reached.
 
-Each statement becomes one operation, a Python function without arguments that returns the place of the statement to
-go on with. Blocks are jumps; a PROCEDURE is a frame on a stack, so that STOP can leave and `go` come back anywhere.
+Each statement becomes one operation, a Python function without arguments that returns the address of the
+next one. All operations stand in one list: the script's first, then the body of each PROCEDURE (one for each
+kind of arguments), then the command line in hand. A call pushes the address to come back to.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.channels import Channels
     from desire_tui.engine.interpreter.host import Host
     from desire_tui.engine.interpreter.reading import DataList
-    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.nodes import Placed, Program
     from desire_tui.engine.source import Source
     from desire_tui.engine.values import Values
 
@@ -36,176 +37,201 @@ _BURST = 1000
 """Operations between two looks at the world (`Host.interrupted`, tracing); every jump back looks too."""
 
 
-class Switch(Exception):  # noqa: N818 - control flow
-    """The top frame changed: a PROCEDURE was called or left."""
-
-
 class Finished(Exception):  # noqa: N818 - control flow
     """The script (or command line) ended, or came to a STOP."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Stop:
+    """Where `go` continues; `announced`: the host has heard of that statement already (tracing)."""
+
+    address: int
+    returns: list[tuple[int, str]]
+    announced: bool
+
+
 @dataclass(eq=False)
 class Code:
-    """Statements with the operations made of them so far; a PROCEDURE has one for each kind of arguments."""
+    """Some statements, from place `first` to `last`, whose operations stand at address `base` + place."""
 
-    machine: Machine
     placed: Sequence[Placed]
     structure: Structure
     scope: Scope
     source: Source | None
+    translator: Translator
+    first: int
+    last: int
+    base: int
     is_command: bool = False
-    operations: list[Operation] = field(default_factory=list)
     loops: dict[int, list[float]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        machine = self.machine
-        self.translator = Translator(self.scope, machine.build, machine.functions)
-        self.forget()
-
-    def forget(self) -> None:
-        """Make all operations anew when they are next reached."""
-        first = self.machine.first
-        self.operations[:] = [partial(first, self, place) for place in range(len(self.placed))]
-        self.operations.append(self.machine.finish)
-
-
-@dataclass(slots=True, eq=False)
-class Frame:
-    """A place in some code, and the PROCEDURE it belongs to."""
-
-    code: Code
-    place: int
-    procedure: str | None = None
 
 
 class Machine:
-    """Runs code over values; `make` turns a statement into an operation."""
+    """Runs code over values; `make` turns the statement at a place into an operation."""
+
+    channels: Channels
+    data: DataList
 
     def __init__(
         self,
         values: Values,
         host: Host,
-        script: Sequence[Placed],
+        program: Program,
         structure: Structure,
-        source: Source | None,
-        make: Callable[[Code, int], Operation],
+        make: Callable[[Machine, Code, int], Operation],
     ) -> None:
         self.values = values
         self.host = host
-        self.script = script
-        self.structure = structure
-        functions = dict(structure.functions)  # commands may add to it
-        self.source = source
         self.make = make
+        self.structure = structure
         self.origins = Origins()
         self.build = Builder(values, self.origins)
         self.build.names["check"] = self.check
+        functions = dict(structure.functions)  # commands may add to it
         self.scope = Scope(values, functions, structure.procedures)
-        self.functions = Functions(functions, self.scope, self.build, source)
+        self.functions = Functions(functions, self.scope, self.build, program.source)
+        self.operations: list[Operation] = []
+        self.codes: list[Code] = []
         self.procedures: dict[tuple[object, ...], Code] = {}
-        self.frames: list[Frame] = []
-        self.stopped: list[Frame] | None = None
+        self.script = self.link(program.script, structure, self.scope, program.source, 0, len(program.script))
+        self.returns: list[tuple[int, str]] = []
+        self.stopped: Stop | None = None
+        self._address = 0
         self.stepping = False
-        self.channels: Channels
-        self.data: DataList
-        self.script_code: Code
         self._generation = values.generation
+
+    # ------------------------------------------------------------------------------- making code
+
+    def link(
+        self,
+        placed: Sequence[Placed],
+        structure: Structure,
+        scope: Scope,
+        source: Source | None,
+        first: int,
+        last: int,
+        *,
+        is_command: bool = False,
+    ) -> Code:
+        """Add statements `first` … `last - 1` to the operations; the last one is followed by the end."""
+        base = len(self.operations) - first
+        translator = Translator(scope, self.build, self.functions)
+        code = Code(placed, structure, scope, source, translator, first, last, base, is_command)
+        self.operations += [partial(self._first, code, place) for place in range(first, last)]
+        self.operations.append(_finish)
+        self.codes.append(code)
+        return code
+
+    def unlink(self, code: Code) -> None:
+        """Take a command line's operations away again, unless something was added behind them."""
+        if self.codes[-1] is code:
+            self.codes.pop()
+            del self.operations[code.base + code.first :]
+
+    def _first(self, code: Code, place: int) -> int:
+        """Make the operation of a statement that is reached for the first time, and carry it out."""
+        operation = self.operations[code.base + place] = self.make(self, code, place)
+        return operation()
+
+    def forget(self) -> None:
+        """Make all operations anew when they are next reached, and PROCEDUREs' bodies when next called."""
+        self.procedures.clear()
+        self.functions.forget()
+        self.data.forget()
+        for code in self.codes:
+            for place in range(code.first, code.last):
+                self.operations[code.base + place] = partial(self._first, code, place)
+
+    def refresh(self) -> None:
+        """Forget all operations if all names were cleared since they were made."""
+        if self._generation != self.values.generation:
+            self._generation = self.values.generation
+            self.forget()
+
+    def define(self, definitions: dict[str, Placed], source: Source | None) -> None:
+        """Take FUNCTIONs from a command line; code that calls those of the same name is made anew."""
+        if definitions:
+            self.functions.define(definitions, source)
+            self.forget()
+
+    # ------------------------------------------------------------------------------- running
+
+    def run(
+        self, address: int, returns: list[tuple[int, str]] | None = None, *, announced: bool = False
+    ) -> None:
+        """Run to the end or to a STOP. DesireError with its place; Interrupted."""
+        self.refresh()
+        before, self.returns = self.returns, returns if returns is not None else []
+        try:
+            self._loop(address, announced=announced)
+        except Finished:
+            pass
+        finally:
+            self.returns = before
+
+    def _loop(self, address: int, *, announced: bool) -> None:
+        operations, host = self.operations, self.host
+        try:
+            while True:
+                while not self.stepping:
+                    for _ in range(_BURST):
+                        address = operations[address]()
+                    self.check()
+                while self.stepping:
+                    code, place = self.locate(address)
+                    if place < code.last and not announced:
+                        self._address = address
+                        host.before(code.placed[place])
+                    announced = False
+                    address = operations[address]()
+        except (Finished, Interrupted):
+            raise
+        except Exception as error:
+            code, place = self.locate(address)
+            raise explain(error, code.placed[place], code.source, self.origins) from error
+
+    def locate(self, address: int) -> tuple[Code, int]:
+        """Return the code and the place in it that an address belongs to."""
+        for code in self.codes:
+            if code.first <= address - code.base <= code.last:
+                return code, address - code.base
+        raise IndexError(address)
 
     def check(self) -> None:
         """Let the user in: called at every jump back."""
         if self.host.interrupted():
             raise Interrupted
 
-    def finish(self) -> NoReturn:
-        """End of the statements."""
+    def call(self, name: str, back: int) -> None:
+        """Note a PROCEDURE that is entered; error 52 if it is being executed already."""
+        for _, active in self.returns:
+            if active == name:
+                raise Fault("procedure-recursion", None, name=name)
+        self.returns.append((back, name))
+
+    def leave(self) -> int:
+        """Return from a PROCEDURE."""
+        if not self.returns:
+            raise Fault("end-without-call")
+        return self.returns.pop()[0]
+
+    def stop(self, address: int) -> NoReturn:
+        """STOP: `go` continues at `address`."""
+        self.stopped = Stop(address, self.returns, announced=False)
         raise Finished
 
-    def stop(self, place: int) -> NoReturn:
-        """STOP: `go` continues at `place`."""
-        self.frames[-1].place = place
-        self.stopped = self.frames
+    def stop_before(self) -> NoReturn:
+        """Stop before the statement that `Host.before` is just hearing of."""
+        self.stopped = Stop(self._address, self.returns, announced=True)
         raise Finished
 
     def resume(self) -> None:
         """Continue after STOP; error 43."""
-        frames = self.stopped
-        if frames is None:
+        if self.stopped is None:
             raise DesireError(Diagnostic("go-without-stop"))
-        self.stopped = None
-        self.run(frames)
+        stop, self.stopped = self.stopped, None
+        self.run(stop.address, stop.returns, announced=stop.announced)
 
-    def first(self, code: Code, place: int) -> int:
-        """Make the operation of a statement that is reached for the first time, and carry it out."""
-        operation = code.operations[place] = self.make(code, place)
-        return operation()
 
-    def run(self, frames: list[Frame]) -> None:
-        """Run to the end or to a STOP. DesireError with its place; Interrupted."""
-        self.refresh(frames)
-        before, self.frames = self.frames, frames
-        try:
-            self._loop(frames)
-        except Finished:
-            pass
-        finally:
-            self.frames = before
-
-    def define(self, definitions: dict[str, Placed], source: Source | None) -> None:
-        """Take FUNCTIONs from a command line; code that calls those of the same name is made anew."""
-        if definitions:
-            self.functions.define(definitions, source)
-            self.procedures.clear()
-            self.script_code.forget()
-
-    def refresh(self, frames: list[Frame] = ()) -> None:  # type: ignore[assignment]
-        """Forget made operations if all names were cleared since."""
-        if self._generation == self.values.generation:
-            return
-        self._generation = self.values.generation
-        self.procedures.clear()
-        self.functions.forget()
-        self.data.forget()
-        self.script_code.forget()
-        for frame in frames:
-            frame.code.forget()
-
-    def _loop(self, frames: list[Frame]) -> None:
-        interrupted = self.host.interrupted
-        while True:
-            frame = frames[-1]
-            operations = frame.code.operations
-            place = frame.place
-            try:
-                while not self.stepping:
-                    for _ in range(_BURST):
-                        place = operations[place]()
-                    if interrupted():
-                        raise Interrupted
-                while self.stepping:
-                    frame.place = place
-                    if place < len(frame.code.placed):
-                        self.host.before(frame.code.placed[place])
-                    place = operations[place]()
-                frame.place = place
-            except Switch:
-                continue
-            except (Finished, Interrupted):
-                raise
-            except Exception as error:
-                code = frame.code
-                raise explain(error, code.placed[place], code.source, self.origins) from error
-
-    def enter(self, name: str, code: Code, place: int, back: int) -> NoReturn:
-        """Call a PROCEDURE; error 52 if it is being executed already."""
-        if any(frame.procedure == name for frame in self.frames):
-            raise Fault("procedure-recursion", None, name=name)
-        self.frames[-1].place = back
-        self.frames.append(Frame(code, place, name))
-        raise Switch
-
-    def leave(self) -> NoReturn:
-        """Return from a PROCEDURE."""
-        if len(self.frames) < 2:
-            raise Fault("end-without-call")
-        self.frames.pop()
-        raise Switch
+def _finish() -> NoReturn:
+    raise Finished

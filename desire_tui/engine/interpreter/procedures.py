@@ -1,7 +1,7 @@
 """`call p(e1, e2; r1, r2)`: arguments before the `;` by value, behind it by reference (book, section 5.2.4).
 
-A PROCEDURE's body is made into operations once for each combination of argument kinds and whole arrays. Its value
-dummies have slots of their own; a reference to a scalar or element goes through a box that each call fills.
+A PROCEDURE's body is made into operations once for each combination of argument kinds and whole arrays. Its
+value dummies have slots of their own; a reference to a scalar or element goes through a box that calls fill.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.faults import Fault
-from desire_tui.engine.interpreter.machine import Code
 from desire_tui.engine.interpreter.scope import Meaning, Reference
 from desire_tui.engine.nodes import CallProcedure, Element, Name
 from desire_tui.engine.values import SCALAR_SLOTS, Kind, Quantity
@@ -19,12 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.analysis.structure import ProcedureText
-    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.machine import Code, Operation
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import Expr
-
-_MOST_BODIES = 64
-"""Bodies kept; a program that passes more different arrays than this makes them again."""
 
 Box = list[int]
 
@@ -51,14 +47,16 @@ def call(site: Site) -> Operation:
     dummies = code.scope.dummies
     slots = [meaning.slot for name in wanted.values if isinstance(meaning := dummies[name], Quantity)]
     boxes = [m.box if isinstance(m := dummies[name], Reference) else None for name in wanted.references]
-    place, back, machine = found.opens + 1, site.next, site.machine
+    entry, back, machine = code.base + found.opens + 1, site.next, site.machine
     store_complex = machine.build.names["set_complex"]
     cells = site.values.cells
     stores = [
         (evaluate, slot, kind is Kind.COMPLEX) for (evaluate, kind), slot in zip(values, slots, strict=True)
     ]
     fills = [
-        (bound.fill, box) for bound, box in zip(references, boxes, strict=True) if bound.fill and box is not None
+        (bound.fill, box)
+        for bound, box in zip(references, boxes, strict=True)
+        if bound.fill is not None and box is not None
     ]
 
     def operation() -> int:
@@ -66,10 +64,11 @@ def call(site: Site) -> Operation:
             if is_complex:
                 store_complex(slot, evaluate())
             else:
-                cells[slot] = evaluate()  # type: ignore[assignment]
+                cells[slot] = evaluate().real
         for fill, box in fills:
             fill(box)
-        machine.enter(node.name, code, place, back)
+        machine.call(node.name, back)
+        return entry
 
     return operation
 
@@ -140,8 +139,9 @@ def _body(site: Site, found: ProcedureText, kinds: list[Kind], references: list[
             continue
         box = [0, 0]
         dummies[name] = Reference(machine.build.share("r", box), bound.kind, box)
-    if len(machine.procedures) >= _MOST_BODIES:
-        machine.procedures.clear()
-    code = Code(machine, machine.script, machine.structure, machine.scope.inner(dummies), machine.source)
+    script, scope = machine.script, machine.scope.inner(dummies)
+    code = machine.link(
+        script.placed, machine.structure, scope, script.source, found.opens + 1, found.closes + 1
+    )
     machine.procedures[key] = code
     return code

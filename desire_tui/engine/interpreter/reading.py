@@ -15,7 +15,7 @@ from desire_tui.engine.values import Kind, Quantity
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.machine import Code, Operation
+    from desire_tui.engine.interpreter.machine import Machine, Operation
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import Target
 
@@ -25,9 +25,10 @@ if TYPE_CHECKING:
 class DataList:
     """All `data` items of a script, and the next one to be read."""
 
-    def __init__(self, code: Code) -> None:
-        self._code = code
-        self._places = code.structure.data
+    def __init__(self, machine: Machine) -> None:
+        self._machine = machine
+        self._code = machine.script
+        self._places = machine.structure.data
         self._list = 0
         self._item = 0
         self._evaluators: dict[tuple[int, int], Callable[[], complex]] = {}
@@ -58,7 +59,7 @@ class DataList:
 
         known = self._evaluators.get((place, item))
         if known is None:
-            site = Site(self._code, place)
+            site = Site(self._machine, self._code, place)
             assert isinstance(site.node, Data)
             try:
                 known = site.value(site.node.items[item])[0]
@@ -116,10 +117,11 @@ def _array_filler(site: Site, target: Name, quantity: Quantity) -> Callable[[Cal
             value = supply()
             if kind is Kind.COMPLEX:
                 helpers["set_complex"](slot + 2 * index, complex(value))
-            elif isinstance(value, complex):
+            elif value.imag != 0.0:
                 raise Fault("complex-to-real", target, name=target.name)
             else:
-                cells[slot + index] = helpers["to_integer"](value) if kind is Kind.INTEGER else value
+                number = value.real
+                cells[slot + index] = helpers["to_integer"](number) if kind is Kind.INTEGER else number
             if index % 1000 == 999:
                 check()
 

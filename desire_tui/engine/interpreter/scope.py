@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 class Reference:
     """A dummy behind the `;` of a PROCEDURE that stands for a scalar or an element.
 
-    `box` is `[slot, defined]` of whatever it stands for in the present call, known to generated code as `variable`.
+    `box` is `[slot, defined]` of what it stands for in the present call; generated code calls it `variable`.
     """
 
     variable: str

@@ -17,7 +17,10 @@ from desire_tui.engine.values import SCALAR_SLOTS, Kind
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.machine import Code, Operation
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.interpreter.machine import Code, Machine, Operation
     from desire_tui.engine.nodes import Expr, Placed, Statement, Target
     from desire_tui.engine.values import Quantity
 
@@ -25,15 +28,16 @@ if TYPE_CHECKING:
 class Site:
     """One statement of some code."""
 
-    def __init__(self, code: Code, place: int) -> None:
+    def __init__(self, machine: Machine, code: Code, place: int) -> None:
+        self.machine = machine
         self.code = code
         self.place = place
+        self.address = code.base + place
         self.placed: Placed = code.placed[place]
         self.node: Statement = self.placed.node
-        self.next = place + 1
-        self.machine = code.machine
-        self.host = code.machine.host
-        self.values = code.machine.values
+        self.next = self.address + 1
+        self.host = machine.host
+        self.values = machine.values
         self.scope = code.scope
         self.translator = code.translator
 
@@ -51,9 +55,14 @@ class Site:
 
         return operation
 
-    def jump(self, place: int) -> Operation:
+    def jump(self, address: int) -> Operation:
         """Return the operation that only goes on elsewhere."""
-        return lambda: place
+        return lambda: address
+
+    @property
+    def partner(self) -> int:
+        """Address of the statement that closes, divides or opens the block of this one."""
+        return self.code.base + self.code.structure.partner[self.place]
 
     def real(self, node: Expr) -> Callable[[], float]:
         """Return a function that evaluates a real expression."""
@@ -89,7 +98,7 @@ class Site:
         """Return a function that gives a scalar target's slot (marking it defined), and the target's kind."""
         code, kind = self.slot_code(target)
         if isinstance(code, ast.Constant):
-            slot = int(code.value)  # type: ignore[arg-type]
+            slot = py.constant_slot(code)
             defined = self.values.defined
 
             def constant() -> int:
@@ -116,6 +125,11 @@ class Site:
         if meaning.shape:
             raise Fault("array-without-subscripts", target, name=target.name, dimensions=len(meaning.shape))
         return py.number(meaning.slot), meaning.kind
+
+    def numbers(self, quantity: Quantity) -> NDArray[np.float64]:
+        """Return a real array's numbers in its shape, sharing memory."""
+        slot = quantity.slot
+        return self.values.data[slot : slot + quantity.size].reshape(quantity.shape)
 
     def array(self, node: Expr, *, real: bool = True) -> Quantity:
         """Return the array that an argument names; errors 19 and 84."""

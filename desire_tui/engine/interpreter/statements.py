@@ -15,7 +15,7 @@ from desire_tui.engine.interpreter.site import Site
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.machine import Code, Operation
+    from desire_tui.engine.interpreter.machine import Code, Machine, Operation
 
     Maker = Callable[[Site], Operation]
 
@@ -75,9 +75,9 @@ _SCRIPT_ONLY = (n.Label, n.GoTo, n.Procedure, n.Submodel, n.Data)
 _SCRIPT_ONLY_WORDS = {"STOP", "end"}
 
 
-def make(code: Code, place: int) -> Operation:
+def make(machine: Machine, code: Code, place: int) -> Operation:
     """Make the operation of a statement."""
-    site = Site(code, place)
+    site = Site(machine, code, place)
     node = site.node
     if isinstance(node, n.Simple):
         return _make_word(site, node)
@@ -100,12 +100,14 @@ def _make_word(site: Site, node: n.Simple) -> Operation:
 
 
 def _first_word(node: n.Statement) -> str:
-    words = {n.Label: "label", n.GoTo: "go to", n.Procedure: "PROCEDURE", n.Submodel: "SUBMODEL", n.Data: "data"}
-    return words[type(node)]
+    if isinstance(node, n.GoTo):
+        return "go to"
+    name = type(node).__name__
+    return name.lower() if isinstance(node, n.Label | n.Data) else name.upper()
 
 
 def _bare(site: Site, node: n.Bare) -> Operation:
-    """An expression alone: a command prints its value."""
+    """Print an expression that stands alone as a command."""
     if not site.code.is_command:
         raise Fault("bare-expression", node)
     line = writing.line_of(site, (n.WriteItem(node.value, "", "", node.start, node.end),))

@@ -16,20 +16,20 @@ _PER_LINE = 5
 
 def scalar_text(value: complex, kind: Kind) -> str:
     """Return a value as `write` shows it: C's `%g`, `%d` for INTEGER, `a + j*( b)` for COMPLEX."""
-    if isinstance(value, complex):
+    if kind is Kind.COMPLEX:
         return f"{_g(value.real)} + j*( {_g(value.imag)})"
-    if kind is Kind.INTEGER and abs(value) < 1e300:
-        return f"{value:.0f}"
-    return _g(value)
+    number = value.real
+    if kind is Kind.INTEGER and abs(number) < 1e300:
+        return f"{number:.0f}"
+    return _g(number)
 
 
 def raw_text(value: complex, kind: Kind) -> str:
     """Return a value with all its digits, for a program to read."""
-    if isinstance(value, complex):
-        return f"[{raw_text(value.real, kind)},{raw_text(value.imag, kind)}]"
-    if value.is_integer() and abs(value) < 1e15:
-        return f"{value:.0f}"
-    return repr(value)
+    if kind is Kind.COMPLEX:
+        return f"[{raw_text(value.real, Kind.REAL)},{raw_text(value.imag, Kind.REAL)}]"
+    number = value.real
+    return f"{number:.0f}" if number.is_integer() and abs(number) < 1e15 else repr(number)
 
 
 def _g(value: float) -> str:
@@ -56,14 +56,13 @@ def raw_array_text(values: Values, quantity: Quantity) -> Iterator[str]:
 
 def elements(values: Values, quantity: Quantity) -> list[complex]:
     """Return an array's numbers in row-major order."""
-    flat: list[complex] = values.view(quantity).ravel().tolist()
-    return flat
+    return [*values.view(quantity).ravel().tolist()]
 
 
 def _element_text(value: complex, kind: Kind) -> str:
-    if isinstance(value, complex):
+    if kind is Kind.COMPLEX:
         return f"{value.real:12.6e} + j*( {value.imag:12.6e})"
-    return f"{value:12.0f}" if kind is Kind.INTEGER else f"{value:12.6e}"
+    return f"{value.real:12.0f}" if kind is Kind.INTEGER else f"{value.real:12.6e}"
 
 
 def octal(value: float) -> str:

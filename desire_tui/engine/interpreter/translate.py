@@ -1,7 +1,7 @@
 """Expressions and conditions become Python syntax trees that read the values directly.
 
-Names are looked up once, when a statement runs for the first time: a name that has a value keeps it until all names
-are cleared, so generated code need not ask again. The place of each node goes along (see `faults`).
+Names are looked up once, when a statement runs for the first time: a name that has a value keeps it until all
+names are cleared, so generated code need not ask again. The place of each node goes along (see `faults`).
 """
 
 from __future__ import annotations
@@ -139,8 +139,8 @@ class Translator:
                 return Typed(base, kind)
             if exponent == 2:
                 once = self.build.fresh("v")
-                square = ast.BinOp(ast.NamedExpr(ast.Name(once, ast.Store()), base), ast.Mult(), py.load(once))
-                return Typed(at(square, node), kind)
+                first = ast.NamedExpr(ast.Name(once, ast.Store()), base)
+                return Typed(at(ast.BinOp(first, ast.Mult(), py.load(once)), node), kind)
             result = kind if exponent > 0 else Kind.COMPLEX if kind is Kind.COMPLEX else Kind.REAL
             return Typed(at(py.call("integer_power", base, ast.Constant(exponent)), node), result)
         if kind is Kind.COMPLEX:
