@@ -12,7 +12,7 @@ from desire_tui.engine.runtime.delays import lags
 from desire_tui.engine.runtime.faults import fault
 from desire_tui.engine.runtime.history import History
 from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
-from desire_tui.engine.runtime.plan import Defaults
+from desire_tui.engine.runtime.plan import DUMMY, Defaults
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class Simulator:
         finally:
             self._control.attach(None)
             self.memory = None
-            self._settle(segment, memory, positions, record)
+            self._settle(segment, plan, memory, positions, record)
             record.seconds = perf_counter() - began
             self._began = 0.0
         if ended in _WORDS:
@@ -98,7 +98,7 @@ class Simulator:
         self, segment: Segment, plan: Plan, positions: Positions, lag: NDArray[np.int64]
     ) -> RunMemory:
         values = self._values
-        joined = positions.end == values.cells[T] and positions.points > 0
+        joined = positions.end == values.cells[T]
         if joined:
             positions.points -= 1  # the joint is the same communication point
         memory = RunMemory(
@@ -144,18 +144,24 @@ class Simulator:
                 block = max(1.0, min(block * 8, block * BLOCK_SECONDS / max(took, 1e-6)))
 
     def _settle(
-        self, segment: Segment, memory: RunMemory, positions: Positions, record: RunRecord
+        self, segment: Segment, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord
     ) -> None:
         """Make the run's results the script's: everything the segment set is defined now."""
         values = self._values
         for slot in segment.scalars:
             values.defined[slot] = 1
-        values.defined[T] = values.defined[DT] = 1
+        values.defined[T] = 1
+        if plan.rule != DUMMY:
+            values.defined[DT] = 1
         positions.points = int(memory.points_before + memory.point)
-        positions.end = values.cells[T]
-        self.defaults.follow()
         _note(memory, record)
+        # Dummy integration leaves t at the next point: nothing is there twice
+        whole = memory.phase == Phase.ENDED and memory.point == memory.nn and plan.rule != DUMMY
+        positions.end = values.cells[T] if whole else float("nan")
+        self.defaults.follow()
         record.end_time = values.cells[T]
+        if plan.rule == DUMMY and record.count:
+            record.end_time = float(record.rows[record.count - 1, 0])
         if record.count < len(record.rows) // 2:
             record.rows = record.rows[: record.count].copy()
 
