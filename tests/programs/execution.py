@@ -84,5 +84,5 @@ def execute(
             outcome.quantities[quantity.name] = np.array(values.view(quantity))
         elif values.is_defined(quantity):
             outcome.quantities[quantity.name] = values.cells[quantity.slot]
-    outcome.points = sum(len(page.points) for page in session.graphs)
+    outcome.points = sum(page.points.count for page in session.graphs)
     return outcome
