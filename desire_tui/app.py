@@ -152,7 +152,9 @@ class DesireApp(App[None]):
         self.post_message(Checked(number, version, problems))
 
     def _check_fault(self, error: Exception) -> None:
-        self.post_message(EngineFault(f"{type(error).__name__}: {error}", "".join(traceback.format_exception(error))))
+        self.post_message(
+            EngineFault(f"{type(error).__name__}: {error}", "".join(traceback.format_exception(error)))
+        )
 
     def _theme_complaint(self) -> list[str]:
         wanted = self.settings.theme
@@ -176,10 +178,14 @@ class DesireApp(App[None]):
         """Write unsaved work to the recovery file."""
         if not self.keeper.checkpoint():
             folder = places.state_folder()
-            self.notify(f"Unsaved work cannot be kept safe: {folder} cannot be written.", severity="warning", markup=False)
+            self.notify(
+                f"Unsaved work cannot be kept safe: {folder} cannot be written.",
+                severity="warning",
+                markup=False,
+            )
 
     def on_app_blur(self) -> None:
-        """The window lost the focus."""
+        """Keep the work safe when the window loses the focus."""
         self.checkpoint()
 
     def _handle_exception(self, error: Exception) -> None:

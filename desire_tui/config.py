@@ -90,7 +90,13 @@ def defaults_text() -> str:
 
 def _nearest(key: str, known: list[str]) -> str:
     close = closest(key, known)
-    return f"; did you mean '{close}'?" if close else f"; there are: {', '.join(known)}" if len(known) < 10 else ""
+    return (
+        f"; did you mean '{close}'?"
+        if close
+        else f"; there are: {', '.join(known)}"
+        if len(known) < 10
+        else ""
+    )
 
 
 def _misfit(key: str, value: Any, default: Any) -> str | None:

@@ -1,9 +1,9 @@
 """The desktop's screen: which panes there are, where they stand, which are shown.
 
-    ┌ editor ───┬ graph ──────┐
-    │           │             │
-    ├ command ──┼ side ───────┤    side: quantities, problems or help
-    └ status ───┴─────────────┘
+┌ editor ───┬ graph ──────┐
+│           │             │
+├ command ──┼ side ───────┤    side: quantities, problems or help
+└ status ───┴─────────────┘
 """
 
 from __future__ import annotations
@@ -44,6 +44,9 @@ _TITLES = {"run.accept": "OK", "run.pause": "pause", "view.palette": "palette", 
 
 class Desk(Screen[None]):
     """All panes."""
+
+    AUTO_FOCUS = "#prompt"
+    """What is typed while the desktop still opens is not lost."""
 
     class Ready(Message):
         """All panes are there."""
@@ -87,7 +90,9 @@ class Desk(Screen[None]):
                     yield HelpPane()
         yield StatusBar([(self._key(command), _TITLES[command]) for command in SHOWN_KEYS])
         yield CompletionPopup()
-        yield Label(f"Desire needs a terminal of at least\n{SMALLEST[0]} × {SMALLEST[1]} characters.", id="too-small")
+        yield Label(
+            f"Desire needs a terminal of at least\n{SMALLEST[0]} × {SMALLEST[1]} characters.", id="too-small"
+        )
 
     def _key(self, command_id: str) -> str:
         keys = self._keys.get(command_id) or BY_ID[command_id].keys

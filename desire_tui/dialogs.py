@@ -47,7 +47,7 @@ class Choice(ModalScreen[str | None]):
         self._title, self._sentence, self._choices = title, sentence, choices
 
     def compose(self) -> ComposeResult:
-        """The sentence above its answers."""
+        """Put the sentence above its answers."""
         box = Vertical()
         box.border_title = self._title
         with box:
@@ -69,8 +69,8 @@ class Choice(ModalScreen[str | None]):
                 return
 
 
-class Line(ModalScreen[str | None]):
-    """Asks for a line of text."""
+class Line(ModalScreen[str]):
+    """Asks for a line of text; Esc gives an empty one."""
 
     DEFAULT_CSS = f"""
     Line {{ {_CSS} }}
@@ -79,7 +79,7 @@ class Line(ModalScreen[str | None]):
     Line Input:focus {{ border: none; }}
     Line Label {{ width: 1fr; color: $text-muted; margin-top: 1; }}
     """
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "dismiss(None)", "Cancel")]
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "dismiss('')", "Cancel")]
 
     def __init__(self, title: str, value: str = "", hint: str = "") -> None:
         super().__init__()

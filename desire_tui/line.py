@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import deque
+from functools import partial
 
 from desire_tui.actions import Controller
 from desire_tui.commands import parse_line
@@ -49,7 +50,8 @@ class CommandLine(Controller):
                     self._queue.clear()
                     self._echo(line)
                     self.app.command.console.add(
-                        "A program is running: Ctrl+C pauses it, then Space Enter ends it. Names alone show values.", "notice"
+                        "A program is running: Ctrl+C pauses it, then Space Enter ends it. Names alone show values.",
+                        "notice",
                     )
                 return
             self._queue.popleft()
@@ -60,8 +62,7 @@ class CommandLine(Controller):
             elif self.app.engine.is_busy:
                 self._show_values(line)
             else:
-                text = line
-                self.app.engine.submit(lambda: self.app.session.execute(text))
+                self.app.engine.submit(partial(self.app.session.execute, line))
 
     def _echo(self, line: str) -> None:
         self.app.news.flush()

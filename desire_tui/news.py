@@ -106,7 +106,9 @@ class EngineNews(Controller):
         if source is None or source.name == "<command>":
             return None
         candidates = [editor.active, editor.front, *editor.areas]
-        return next((area for area in candidates if area is not None and area.buffer.name == source.name), None)
+        return next(
+            (area for area in candidates if area is not None and area.buffer.name == source.name), None
+        )
 
     @handle.register
     def _checked(self, message: messages.Checked) -> None:
@@ -128,7 +130,9 @@ class EngineNews(Controller):
             app.editor.show(area)
             area.go_to(row)
         line = place.source.line(row + 1).strip()
-        app.command.console.add(f"{'next' if place.tracing else 'stopped'} at line {row + 1}: {line}", "notice")
+        app.command.console.add(
+            f"{'next' if place.tracing else 'stopped'} at line {row + 1}: {line}", "notice"
+        )
         app.quantities.show(app.session.values)
 
     @handle.register
@@ -159,7 +163,11 @@ class EngineNews(Controller):
         del message
         self.flush()
         app = self.app
-        if app.session.stopped_at is None and app.editor.active is not None and app.editor.active.marks.traced is not None:
+        if (
+            app.session.stopped_at is None
+            and app.editor.active is not None
+            and app.editor.active.marks.traced is not None
+        ):
             app.editor.active.marks.traced = None
             app.editor.active.marks_changed()
         app.show_status()

@@ -26,6 +26,20 @@ def examples_folder() -> Path:
     return inside if inside.is_dir() else Path(__file__).parent.parent / "examples"
 
 
+def full(path: Path, folder: Path | None = None) -> Path:
+    """Return the absolute path, `~` and links resolved; relative ones start at `folder` (default: where we are)."""
+    path = path.expanduser()
+    return ((folder / path) if folder is not None else path).resolve()
+
+
+def exists(path: Path) -> bool:
+    """Whether there is such a file; one that may not be looked at counts as missing."""
+    try:
+        return path.exists()
+    except OSError:
+        return False
+
+
 def write_safely(path: Path, text: str) -> None:
     """Replace a file's text so that a crash at any moment leaves either the old or the new file.
 

@@ -31,7 +31,7 @@ async def open_first(app: DesireApp) -> None:
         await _first_example(app)
     blank = next((a for a in app.editor.areas if a.buffer.path is None and not a.text), None)
     if blank is not None and len(app.editor.areas) > 1:
-        await app.editor.remove(blank)
+        await app.editor.close_tab(blank)
     (app.command.prompt if app.editor.front.text.strip() else app.editor.front).focus()
     app.run_worker(_offer_recovery(app), name="recovery")
 
@@ -50,12 +50,15 @@ async def _offer_recovery(app: DesireApp) -> None:
     for file in unreadable:
         recovery.set_aside(file)
         app.complain(
-            f"{file} was left by another version or is damaged; it is kept as {file.with_suffix('.unread').name}", code=None
+            f"{file} was left by another version or is damaged; it is kept as {file.with_suffix('.unread').name}",
+            code=None,
         )
     for leftover in found:
         names = ", ".join(tab.label for tab in leftover.tabs)
         choice = await app.push_screen_wait(
-            Choice("Unsaved work found", f"Desire ended without saving {names}.", ("Restore", "Later", "Discard"))
+            Choice(
+                "Unsaved work found", f"Desire ended without saving {names}.", ("Restore", "Later", "Discard")
+            )
         )
         if choice == "Restore":
             await app.keeper.adopt(leftover)

@@ -47,7 +47,9 @@ class EditActions(Controller):
         """Go to a row, or `row:column`."""
         area = self.app.editor.front
         count = area.document.line_count
-        text = argument or await self.app.push_screen_wait(Line("Go to line", hint=f"1 … {count}, or line:column"))
+        text = argument or await self.app.push_screen_wait(
+            Line("Go to line", hint=f"1 … {count}, or line:column")
+        )
         if not text:
             return
         row, _, column = text.partition(":")

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.dialogs import Choice, Line
-from desire_tui.editor.area import CodeArea
 from desire_tui.editor.buffer import Buffer, NotText
-from desire_tui.places import write_safely
+from desire_tui.places import exists, full, write_safely
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.editor.area import CodeArea
 
 SUFFIX = ".src"
 
@@ -32,7 +37,7 @@ class FileActions(Controller):
         area.focus()
 
     async def clear(self, argument: str = "") -> None:
-        """`new`: clear the program after asking."""
+        """Clear the program after asking (`new`)."""
         answer = await self.app.push_screen_wait(
             Choice("New program", "Clear the program and all quantities?", ("Yes", "No"))
         )
@@ -40,7 +45,7 @@ class FileActions(Controller):
             await self.clear_now(argument)
 
     async def clear_now(self, argument: str = "") -> None:
-        """`NEW`: an empty tab, no names, scale 1, irule 1."""
+        """Clear at once (`NEW`): an empty tab, no names, scale 1, irule 1."""
         del argument
         self.app.run_actions.end_now()
         self.app.engine.submit(self.app.session.new)
@@ -62,7 +67,7 @@ class FileActions(Controller):
 
     async def open_path(self, path: Path, *, focus: bool = True) -> CodeArea | None:
         """Open a file in a tab, or show the tab that holds it. None where it cannot be read; the user is told."""
-        path = path.expanduser().resolve()
+        path = full(path)
         editor = self.app.editor
         if (known := next((a for a in editor.areas if a.buffer.path == path), None)) is not None:
             editor.show(known, focus=focus)
@@ -71,7 +76,7 @@ class FileActions(Controller):
             buffer = Buffer.from_file(path)
         except (OSError, NotText) as error:
             reason = error.strerror if isinstance(error, OSError) else str(error)
-            self.app.complain(f"cannot open {path}: {reason}", code=18 if path.exists() else 38)
+            self.app.complain(f"cannot open {path}: {reason}", code=18 if exists(path) else 38)
             return None
         area = await editor.add(buffer)
         if focus:
@@ -94,7 +99,11 @@ class FileActions(Controller):
     async def save(self, argument: str = "") -> None:
         """`keep`: save over the tab's file, or as `argument`."""
         area = self.app.editor.front
-        await (self.save_area(area, self._resolve(argument)) if argument else self.save_area(area, area.buffer.path))
+        await (
+            self.save_area(area, self._resolve(argument))
+            if argument
+            else self.save_area(area, area.buffer.path)
+        )
 
     async def save_as(self, argument: str = "") -> None:
         """Save under a name that is asked for."""
@@ -116,7 +125,7 @@ class FileActions(Controller):
         text = area.text
         if not self._write(path, text.replace("\n", "\r\n") if area.buffer.crlf else text):
             return False
-        area.buffer.saved(path.resolve(), text)
+        area.buffer.saved(full(path), text)
         self.app.editor.refresh_tabs()
         self.app.notify(f"Saved {path}", timeout=2, markup=False)
         return True
@@ -129,16 +138,18 @@ class FileActions(Controller):
         )
 
     async def _may_overwrite(self, area: CodeArea, path: Path) -> bool:
-        own = area.buffer.path is not None and path.resolve() == area.buffer.path
+        own = area.buffer.path is not None and full(path) == area.buffer.path
         if own and area.buffer.changed_on_disk():
             sentence = f"{path.name} was changed on disk since it was read here."
-            if not path.exists():
+            if not exists(path):
                 return True  # it vanished: writing it again loses nothing
-            choice = await self.app.push_screen_wait(Choice("Changed on disk", sentence, ("Overwrite", "Read it", "Cancel")))
+            choice = await self.app.push_screen_wait(
+                Choice("Changed on disk", sentence, ("Overwrite", "Read it", "Cancel"))
+            )
             if choice == "Read it":
                 self._read_again(area)
             return choice == "Overwrite"
-        if not own and path.exists():
+        if not own and exists(path):
             choice = await self.app.push_screen_wait(
                 Choice("File exists", f"{path} exists. Overwrite it?", ("Overwrite", "Cancel"))
             )
@@ -191,8 +202,7 @@ class FileActions(Controller):
         del argument
         await self._copy(numbered)
 
-    async def _copy(self, change: object) -> None:
-        assert callable(change)
+    async def _copy(self, change: Callable[[str], str]) -> None:
         origin = self.app.editor.active or self.app.editor.front
         buffer = Buffer(label=f"{Path(origin.buffer.name).stem}-copy")
         area = await self.app.editor.add(buffer, change(origin.text))
@@ -205,7 +215,7 @@ class FileActions(Controller):
         del argument
         area = self.app.editor.front
         if await self.may_lose(area):
-            await self.app.editor.remove(area)
+            await self.app.editor.close_tab(area)
 
     async def may_lose(self, area: CodeArea) -> bool:
         """Whether a tab may go: it is saved, or the user saves it now or gives it up."""
@@ -213,7 +223,11 @@ class FileActions(Controller):
             return True
         self.app.editor.show(area)
         choice = await self.app.push_screen_wait(
-            Choice("Unsaved work", f"{area.buffer.name} has changes that are not saved.", ("Save", "Discard", "Cancel"))
+            Choice(
+                "Unsaved work",
+                f"{area.buffer.name} has changes that are not saved.",
+                ("Save", "Discard", "Cancel"),
+            )
         )
         return await self.save_area(area, area.buffer.path) if choice == "Save" else choice == "Discard"
 
@@ -262,4 +276,6 @@ class FileActions(Controller):
 
     async def ask_name(self, title: str, value: str) -> str | None:
         """Ask for a file name."""
-        return await self.app.push_screen_wait(Line(title, value, "relative names start at the program's folder"))
+        return await self.app.push_screen_wait(
+            Line(title, value, "relative names start at the program's folder")
+        )

@@ -7,6 +7,7 @@ from pathlib import Path
 from desire_tui.actions import Controller
 from desire_tui.dialogs import Line
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.places import full, write_safely
 
 
 class GraphActions(Controller):
@@ -74,7 +75,9 @@ class GraphActions(Controller):
 
     def _turn(self, step: int) -> None:
         if not self.app.graph.turn(step):
-            self.app.notify("No further graph." if len(self.app.session.graphs) else "No graph yet.", timeout=2)
+            self.app.notify(
+                "No further graph." if len(self.app.session.graphs) else "No graph yet.", timeout=2
+            )
 
     async def snapshot(self, argument: str = "") -> None:
         """Save the graph shown as PNG, SVG or PDF."""
@@ -91,9 +94,7 @@ class GraphActions(Controller):
             if not typed:
                 return
             name = typed
-        path = Path(name).expanduser()
-        path = path if path.suffix else path.with_suffix(".png")
-        path = path if path.is_absolute() else app.session.folder / path
+        path = full(Path(name) if Path(name).suffix else Path(f"{name}.png"), app.session.folder)
         page = app.graph.page
 
         def write() -> None:
@@ -115,11 +116,7 @@ class GraphActions(Controller):
         name = argument or await app.push_screen_wait(Line("Save the samples as", "samples.csv"))
         if not name:
             return
-        path = Path(name).expanduser()
-        path = path if path.suffix else path.with_suffix(".csv")
-        path = path if path.is_absolute() else app.session.folder / path
-        from desire_tui.places import write_safely
-
+        path = full(Path(name) if Path(name).suffix else Path(f"{name}.csv"), app.session.folder)
         try:
             write_safely(path, app.samples(","))
         except OSError as error:

@@ -27,6 +27,7 @@ class RunActions(Controller):
         self._accept_front()
         source = source_of(app.editor.front)
         app.listener.front = source
+        app.send_breakpoints()
         self.end_now()
         app.engine.submit(lambda: app.session.erun(source))
 
@@ -37,6 +38,7 @@ class RunActions(Controller):
         self._accept_front()
         source = source_of(app.editor.front)
         name = app.editor.front.buffer.name
+        app.send_breakpoints()
 
         def accept() -> None:
             problems = app.session.accept(source)
@@ -110,7 +112,7 @@ class RunActions(Controller):
             app.command.stop_asking()
             app.listener.answer(None)
 
-    # ----------------------------------------------------------------------------------------- trace, breakpoints
+    # ------------------------------------------------------------------------------ stops
 
     def trace(self, argument: str = "") -> None:
         """Single-step: the script of the front tab stops before its next statement."""

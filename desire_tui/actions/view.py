@@ -26,7 +26,10 @@ class ViewActions(Controller):
     def _step(self, by: int) -> None:
         panes = self._panes()
         focused = self.app.focused
-        here = next((n for n, pane in enumerate(panes) if focused is pane or (focused and pane in focused.ancestors)), 0)
+        here = next(
+            (n for n, pane in enumerate(panes) if focused is pane or (focused and pane in focused.ancestors)),
+            0,
+        )
         for distance in range(1, len(panes) + 1):
             pane = panes[(here + by * distance) % len(panes)]
             if self.app.bring(pane):
@@ -106,7 +109,9 @@ class ViewActions(Controller):
         self.app.copy_to_clipboard(text)
         lines = text.count("\n") + 1
         self.app.notify(
-            f"Copied {lines} line{'s' if lines > 1 else ''}. {self.app.clipboard_hint}".strip(), timeout=2.5, markup=False
+            f"Copied {lines} line{'s' if lines > 1 else ''}. {self.app.clipboard_hint}".strip(),
+            timeout=2.5,
+            markup=False,
         )
 
     def copy_output(self, argument: str = "") -> None:

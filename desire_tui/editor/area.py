@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, ClassVar
 
 from rich.segment import Segment
 from rich.style import Style
-from textual import events
 from textual.binding import Binding, BindingType
 from textual.geometry import Size
 from textual.message import Message
@@ -26,11 +25,18 @@ from desire_tui.editor.marks import Marks
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from textual.document._edit import Edit, EditResult
+    from textual import events
+    from textual.document._document import EditResult
+    from textual.document._edit import Edit
 
     from desire_tui.editor.buffer import Buffer
 
-GUTTER_SIGNS = {"error": ("✖", "#f4737b"), "warning": ("▲", "#e5c07b"), "break": ("●", "#f4737b"), "trace": ("▶", "#7fc97f")}
+GUTTER_SIGNS = {
+    "error": ("✖", "#f4737b"),
+    "warning": ("▲", "#e5c07b"),
+    "break": ("●", "#f4737b"),
+    "trace": ("▶", "#7fc97f"),
+}
 
 
 class CodeArea(TextArea):
@@ -62,7 +68,9 @@ class CodeArea(TextArea):
         self.popup_open = False
         self._width_most = 0
         self._text: str | None = None
-        super().__init__(text, show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
+        super().__init__(
+            text, show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500
+        )
         self._highlights = LineHighlights()
         self.indent_width = indent.WIDTH
         self._editor_theme = theme
@@ -103,7 +111,9 @@ class CodeArea(TextArea):
         self._line_cache.clear()
         highlights = self._highlights
         highlights.clear()
-        if isinstance(highlights, LineHighlights):  # TextArea's own constructor comes here before ours is in place
+        if isinstance(
+            highlights, LineHighlights
+        ):  # TextArea's own constructor comes here before ours is in place
             highlights.document = self.document
             highlights.marks = self.marks.problems
 
@@ -251,7 +261,9 @@ class CodeArea(TextArea):
             self.rewrite_rows(top - 1, bottom, [*lines[top : bottom + 1], lines[top - 1]])
         else:
             self.rewrite_rows(top, bottom + 1, [lines[bottom + 1], *lines[top : bottom + 1]])
-        self.selection = Selection((top + step, 0), (bottom + step, len(self.document.get_line(bottom + step))))
+        self.selection = Selection(
+            (top + step, 0), (bottom + step, len(self.document.get_line(bottom + step)))
+        )
 
     def go_to(self, row: int, column: int = 0) -> None:
         """Put the cursor on a row (from 0), in the middle of the view."""

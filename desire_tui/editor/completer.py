@@ -48,11 +48,16 @@ class Completer:
         if forced and len(found) == 1:
             self.take()
             return
-        target.popup_open = self._popup.is_open
+        if isinstance(target, CodeArea | Prompt):
+            target.popup_open = self._popup.is_open
 
     @staticmethod
     def _next_is_letter(target: CodeArea | Prompt, column: int) -> bool:
-        line = target.document.get_line(target.cursor_location[0]) if isinstance(target, CodeArea) else target.value
+        line = (
+            target.document.get_line(target.cursor_location[0])
+            if isinstance(target, CodeArea)
+            else target.value
+        )
         return line[column : column + 1].isalnum()
 
     def _known(self) -> dict[str, str]:
@@ -87,7 +92,9 @@ class Completer:
             return
         if isinstance(target, CodeArea):
             row, column = target.cursor_location
-            target.replace(offer.word, (row, column - len(prefix)), (row, column), maintain_selection_offset=False)
+            target.replace(
+                offer.word, (row, column - len(prefix)), (row, column), maintain_selection_offset=False
+            )
             target.move_cursor((row, column - len(prefix) + len(offer.word)))
         elif isinstance(target, Prompt):
             at = target.cursor_position

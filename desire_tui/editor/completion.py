@@ -36,7 +36,9 @@ def prefix_of(line: str, column: int) -> str:
     return found.group() if found else ""
 
 
-def offers(prefix: str, texts: Iterable[str], known: Mapping[str, str], *, commands: bool = False) -> list[Offer]:
+def offers(
+    prefix: str, texts: Iterable[str], known: Mapping[str, str], *, commands: bool = False
+) -> list[Offer]:
     """Return completions of `prefix`, the program's own names first.
 
     `texts` are programs whose names count, `known` are names with a line about each (quantities with their values);

@@ -33,6 +33,8 @@ def edit_outside(app: App[None], area: CodeArea) -> None:
             return
         text = copy.read_text(encoding="utf-8", errors="replace")
     if status:
-        app.notify(f"{words[0]} ended with status {status}; the text is unchanged.", severity="warning", markup=False)
+        app.notify(
+            f"{words[0]} ended with status {status}; the text is unchanged.", severity="warning", markup=False
+        )
     elif text != area.text:
         area.rewrite_rows(0, area.document.line_count - 1, text.removesuffix("\n").split("\n"))

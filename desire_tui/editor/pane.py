@@ -87,7 +87,9 @@ class EditorPane(Vertical):
     async def add(self, buffer: Buffer, text: str | None = None, *, front: bool = True) -> CodeArea:
         """Open a tab; an untouched empty one is replaced."""
         area = CodeArea(buffer, buffer.saved_text if text is None else text, self.app.current_theme.name)
-        blank = self._front if self._front and not self._front.text and self._front.buffer.path is None else None
+        blank = (
+            self._front if self._front and not self._front.text and self._front.buffer.path is None else None
+        )
         self.areas.append(area)
         await self.query_one("#areas", Horizontal).mount(area)
         if front or self._front is None:
@@ -96,7 +98,7 @@ class EditorPane(Vertical):
             area.display = False
             self.refresh_tabs()
         if blank is not None and text is None and blank is not self.active and buffer.path:
-            await self.remove(blank)
+            await self.close_tab(blank)
         self._ask_check(area)
         return area
 
@@ -115,7 +117,7 @@ class EditorPane(Vertical):
         self.refresh_tabs()
         self._tell_place()
 
-    async def remove(self, area: CodeArea) -> None:
+    async def close_tab(self, area: CodeArea) -> None:
         """Close a tab without asking; the last one leaves an empty one."""
         at = self.areas.index(area)
         had_focus = area.has_focus
@@ -195,7 +197,9 @@ class EditorPane(Vertical):
     def _ask_check(self, area: CodeArea) -> None:
         if self._check_timer is not None:
             self._check_timer.stop()
-        self._check_timer = self.set_timer(CHECK_AFTER_S, lambda: self.post_message(self.CheckWanted(area)) and None)
+        self._check_timer = self.set_timer(
+            CHECK_AFTER_S, lambda: self.post_message(self.CheckWanted(area)) and None
+        )
 
     @on(TextArea.SelectionChanged)
     def _moved(self, event: TextArea.SelectionChanged) -> None:
@@ -224,7 +228,7 @@ class EditorPane(Vertical):
             self.post_message(self.Wanted("run.accept"))
 
     def on_descendant_focus(self) -> None:
-        """The text that has the focus is the one in front."""
+        """Bring the text that got the focus to the front."""
         focused = self.screen.focused
         if isinstance(focused, CodeArea) and focused is not self._front and focused in self.areas:
             self.show(focused)

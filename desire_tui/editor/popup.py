@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rich.text import Text
-from textual.geometry import Offset
 from textual.widgets import OptionList
 from textual.widgets.option_list import Option
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from textual.geometry import Offset
 
     from desire_tui.editor.completion import Offer
 
@@ -57,7 +58,8 @@ class CompletionPopup(OptionList):
         width = min(word_width + longest + 3, screen.width - 2, 72)
         self.clear_options()
         self.add_options(
-            Option(Text.assemble((f"{o.word:<{word_width}}", "bold"), (o.about, "dim"), no_wrap=True)) for o in found
+            Option(Text.assemble((f"{o.word:<{word_width}}", "bold"), (o.about, "dim"), no_wrap=True))
+            for o in found
         )
         rows = min(len(found), ROWS_MAX)
         below = at.y + 1
@@ -74,5 +76,12 @@ class CompletionPopup(OptionList):
 
     def move(self, key: str) -> None:
         """Move the mark as an arrow or page key asks."""
-        {"up": self.action_cursor_up, "down": self.action_cursor_down, "pageup": self.action_page_up,
-         "pagedown": self.action_page_down}[key]()  # fmt: skip
+        match key:
+            case "up":
+                self.action_cursor_up()
+            case "down":
+                self.action_cursor_down()
+            case "pageup":
+                self.action_page_up()
+            case "pagedown":
+                self.action_page_down()

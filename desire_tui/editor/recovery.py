@@ -40,7 +40,7 @@ class Leftover:
 
 
 def recovery_file() -> Path:
-    """This process's recovery file."""
+    """Return this process's recovery file."""
     return state_folder() / f"recovery-{os.getpid()}.json"
 
 
@@ -110,6 +110,12 @@ def _is_alive(pid: int) -> bool:
 
 def _is_zombie(pid: int) -> bool:
     try:
-        return Path(f"/proc/{pid}/stat").read_text(encoding="ascii", errors="replace").rpartition(")")[2].split()[0] == "Z"
+        return (
+            Path(f"/proc/{pid}/stat")
+            .read_text(encoding="ascii", errors="replace")
+            .rpartition(")")[2]
+            .split()[0]
+            == "Z"
+        )
     except (OSError, IndexError):
         return False

@@ -74,6 +74,7 @@ class TabStrip(Widget):
 
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
+        del y
         base = self.rich_style
         theme = self.app.current_theme
         front = Style(color=str(theme.foreground), bgcolor=str(theme.surface), bold=True)

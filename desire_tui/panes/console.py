@@ -157,7 +157,9 @@ class Console(ScrollView):
             segments = self._marked(text, style, self.found[0])
         strip = Strip(segments, cell_len(text)).crop(0, self.size.width)
         strip = strip.adjust_cell_length(self.size.width, base).apply_offsets(start, number)
-        if (selection := self.text_selection) is not None and (span := selection.get_span(number)) is not None:
+        if (selection := self.text_selection) is not None and (
+            span := selection.get_span(number)
+        ) is not None:
             first, last = span[0] - start, (len(text) if span[1] == -1 else span[1] - start)
             if last > 0 and first < len(text):
                 chosen = self.screen.get_component_rich_style("screen--selection")
@@ -188,7 +190,10 @@ class Console(ScrollView):
         segments, at = [], 0
         lower, wanted = text.casefold(), wanted.casefold()
         while (hit := lower.find(wanted, at)) >= 0:
-            segments += [Segment(text[at:hit], style), Segment(text[hit : hit + len(wanted)], style + Style(reverse=True))]
+            segments += [
+                Segment(text[at:hit], style),
+                Segment(text[hit : hit + len(wanted)], style + Style(reverse=True)),
+            ]
             at = hit + len(wanted)
         return [*segments, Segment(text[at:], style)]
 

@@ -78,14 +78,23 @@ class ExamplesScreen(ModalScreen[Path | None]):
         options.clear_options()
         self._listed = []
         for path in self._programs:
-            name, about = str(path.relative_to(self._folder).with_suffix("")), first_comment(self._texts[path])
+            name, about = (
+                str(path.relative_to(self._folder).with_suffix("")),
+                first_comment(self._texts[path]),
+            )
             if all(word in f"{name} {about}".casefold() for word in words):
                 self._listed.append(path)
-                options.add_option(Option(Text.assemble((name, "bold"), "\n  ", (about, "dim"), no_wrap=True)))
+                options.add_option(
+                    Option(Text.assemble((name, "bold"), "\n  ", (about, "dim"), no_wrap=True))
+                )
         if self._listed:
             options.highlighted = 0
         else:
-            options.add_option(Option("No such example." if self._programs else f"No examples in {self._folder}", disabled=True))
+            options.add_option(
+                Option(
+                    "No such example." if self._programs else f"No examples in {self._folder}", disabled=True
+                )
+            )
             self.query_one(Static).update("")
 
     @on(Input.Changed)

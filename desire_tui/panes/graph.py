@@ -93,7 +93,9 @@ class GraphPane(Container, can_focus=True):
         marks = []
         pages = self._pages()
         if self.page is not None and pages and self.page is not pages[-1]:
-            marks.append(f"page {pages.index(self.page) + 1}/{len(pages)}" if self.page in pages else "old page")
+            marks.append(
+                f"page {pages.index(self.page) + 1}/{len(pages)}" if self.page in pages else "old page"
+            )
         if not self.window.is_whole:
             marks.append("zoom")
         return f" {' · '.join(marks)} " if marks else ""
@@ -286,7 +288,11 @@ class GraphPane(Container, can_focus=True):
             self.tick()
             return True
         pages = self._pages()
-        at = (pages.index(self.page) - 1 if self.page in pages else len(pages) - 1) if number is None else number - 1
+        at = (
+            (pages.index(self.page) - 1 if self.page in pages else len(pages) - 1)
+            if number is None
+            else number - 1
+        )
         if self.page is None or not 0 <= at < len(pages) or pages[at] is self.page:
             return False
         self._under.append(pages[at])
@@ -339,7 +345,7 @@ class GraphPane(Container, can_focus=True):
 
     def on_click(self, event: events.Click) -> None:
         """Two clicks pause the run."""
-        if event.chain == 2:  # noqa: PLR2004 - a double click
+        if event.chain == 2:
             self.post_message(self.PauseWanted())
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:

@@ -108,7 +108,12 @@ class HelpPane(Vertical):
             return
         hits.clear_options()
         for page in pages.search(event.value)[:HITS_MAX]:
-            hits.add_option(Option(Text.assemble((f"{page.name:<16} ", "bold"), (page.summary, "dim"), no_wrap=True), page.name))
+            hits.add_option(
+                Option(
+                    Text.assemble((f"{page.name:<16} ", "bold"), (page.summary, "dim"), no_wrap=True),
+                    page.name,
+                )
+            )
         if not hits.option_count:
             hits.add_option(Option("Nothing found.", disabled=True))
         hits.display = True

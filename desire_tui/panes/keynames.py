@@ -12,7 +12,10 @@ _NAMES = {
 
 def key_name(key: str) -> str:
     """Return one key's name: `ctrl+pagedown` → `Ctrl+PgDn`."""
-    return "+".join(_NAMES.get(part, part.upper() if len(part) == 1 or part[0] == "f" else part) for part in key.split("+"))
+    return "+".join(
+        _NAMES.get(part, part.upper() if len(part) == 1 or part[0] == "f" else part)
+        for part in key.split("+")
+    )
 
 
 def key_names(keys: str) -> str:

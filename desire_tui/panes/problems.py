@@ -39,7 +39,10 @@ class ProblemsPane(OptionList):
     def show(self, areas: Sequence[CodeArea]) -> None:
         """List the problems of these tabs."""
         entries = [
-            (area, mark) for area in areas for row in sorted(area.marks.problems) for mark in area.marks.problems[row]
+            (area, mark)
+            for area in areas
+            for row in sorted(area.marks.problems)
+            for mark in area.marks.problems[row]
         ]
         if [(a, m) for a, m in entries] == self._entries:
             return
@@ -49,7 +52,9 @@ class ProblemsPane(OptionList):
         for area, mark in entries:
             colour = str(theme.error if mark.style == "error" else theme.warning)
             place = f"{area.buffer.name}:{mark.row + 1}:{mark.start + 1} "
-            self.add_option(Option(Text.assemble((place, "dim"), (f"{mark.style} {mark.code}: ", colour), mark.message)))
+            self.add_option(
+                Option(Text.assemble((place, "dim"), (f"{mark.style} {mark.code}: ", colour), mark.message))
+            )
         if not entries:
             self.add_option(Option("No problems.", disabled=True))
 

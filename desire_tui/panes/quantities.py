@@ -183,10 +183,17 @@ class QuantitiesPane(Vertical):
     def add_slider(self, name: str) -> None:
         """Give a scalar a slider, or move to the one it has."""
         quantity = self._values.find(name) if self._values is not None and name else None
-        if quantity is None or quantity.shape or self._values is None or not self._values.is_defined(quantity):
+        if (
+            quantity is None
+            or quantity.shape
+            or self._values is None
+            or not self._values.is_defined(quantity)
+        ):
             self.table.focus()
             if name:
-                self.notify(f"'{name}' has no value yet: run the program, then choose a parameter.", markup=False)
+                self.notify(
+                    f"'{name}' has no value yet: run the program, then choose a parameter.", markup=False
+                )
             return
         for slider in self.query(Slider):
             if slider.quantity == name:

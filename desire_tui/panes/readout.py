@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.panes.window import Window
-
 if TYPE_CHECKING:
     from desire_tui.engine.graph import Graph
+    from desire_tui.panes.window import Window
 
 
 @dataclass(frozen=True, slots=True)

@@ -59,6 +59,7 @@ class Slider(Widget, can_focus=True):
 
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
+        del y
         base = self.rich_style
         theme = self.app.current_theme
         part = (self.value - self.low) / ((self.high - self.low) or 1.0)

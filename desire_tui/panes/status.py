@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 BAR_CELLS = 10
+KEYS_KEPT = 32
+"""Cells that the keys keep beside the run."""
 _EIGHTHS = " ▏▎▍▌▋▊▉█"
 
 
@@ -35,9 +37,11 @@ class StatusBar(Widget):
 
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
+        del y
         base = self.rich_style
         theme = self.app.current_theme
-        right = self._run_text()
+        wanted = len(self.hint) + 3 if self.hint else 0
+        right = self._run_text(self.size.width - wanted)
         room = self.size.width - len(right) - 1
         key = Style(color=str(theme.primary), bold=True)
         left: list[Segment] = []
@@ -52,28 +56,27 @@ class StatusBar(Widget):
                 left += [Segment(f" {name}", base + key), Segment(f" {title} ", base)]
                 used += width
         strip = Strip(left).adjust_cell_length(max(room, 0), base)
-        return Strip.join([strip, Strip([Segment(right + " ", base)], len(right) + 1)]).crop(0, self.size.width)
+        return Strip.join([strip, Strip([Segment(right + " ", base)], len(right) + 1)]).crop(
+            0, self.size.width
+        )
 
-    def _run_text(self) -> str:
+    def _run_text(self, room: int) -> str:
+        """Return what is known of the run, as much as fits; the least important goes first."""
         status = self.status
         if status is None or (status.state is State.IDLE and not status.run):
             return ""
-        width = self.size.width
-        if status.state in (State.COMPILING, State.SCRIPT, State.ASKING) and not status.run:
-            return status.state.value
-        parts = [f"run {status.run}"]
-        if status.state in (State.RUNNING, State.PAUSED):
-            parts = [f"{status.state.value} {status.run}"] if width >= 60 else parts
+        going = status.state in (State.RUNNING, State.PAUSED)
+        parts = [f"{status.state.value} {status.run}" if going else f"run {status.run}"]
+        if going:
             parts.append(f"{_bar(status.progress)} t {status.t:.4g}/{status.t0 + status.t_max:.4g}")
-        elif status.state is not State.IDLE:
-            parts.insert(0, status.state.value)
-        else:
+        elif status.state is State.IDLE:
             parts.append(f"t {status.t:.4g}")
-        parts.append(f"{speed(status.steps_per_second)} steps/s")
-        if width >= 100:
-            parts += [f"rule {status.rule}", f"DT {status.dt:.3g}"]
-        text = " · ".join(parts)
-        return text if len(text) <= width else text[:width]
+        else:
+            parts.insert(0, status.state.value)
+        parts += [f"{speed(status.steps_per_second)} steps/s", f"rule {status.rule}", f"DT {status.dt:.3g}"]
+        while len(parts) > 1 and len(" · ".join(parts)) > min(room, max(room - KEYS_KEPT, BAR_CELLS)):
+            parts.pop()
+        return " · ".join(parts)[: max(room, 0)]
 
 
 def _bar(progress: float) -> str:

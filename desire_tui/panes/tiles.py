@@ -116,6 +116,7 @@ class KeyRow(GraphPiece):
 
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
+        del y
         pane, ground = self.pane, self.ground
         width = self.size.width
         reading = pane.reading
@@ -123,7 +124,9 @@ class KeyRow(GraphPiece):
         if reading is not None:
             segments.append(Segment(f" {reading.head} ", ground + Style(bold=True)))
             for name, color, value in reading.values:
-                segments.append(Segment(f" {name} = {value}", ground + curve_style(color, white=pane.is_white)))
+                segments.append(
+                    Segment(f" {name} = {value}", ground + curve_style(color, white=pane.is_white))
+                )
         elif pane.page is not None and pane.keys_shown:
             for name, color in pane.page.keys:
                 segments.append(Segment(" ■ ", ground + curve_style(color, white=pane.is_white)))

@@ -40,5 +40,8 @@ class Window(NamedTuple):
         if (right - left) * width < SMALLEST or (top - bottom) * height < SMALLEST:
             return self
         return Window(
-            self.left + left * width, self.left + right * width, self.bottom + bottom * height, self.bottom + top * height
+            self.left + left * width,
+            self.left + right * width,
+            self.bottom + bottom * height,
+            self.bottom + top * height,
         )

@@ -32,6 +32,8 @@ class Desk:
         self.command: Source | None = None
         """The command line being carried out, None while the script runs."""
         self.overrides: dict[str, float] = {}
+        self.breakpoints: frozenset[int] = frozenset()
+        """Lines of the script (from 1) before which it stops as at a STOP."""
         self.parse_seconds = 0.0
         self.journal = Journal()
         self._folder = folder
@@ -85,5 +87,21 @@ class Desk:
             if isinstance(node, Assign) and isinstance(node.target, Name) and node.target.name in self.overrides:
                 value = Number(self.overrides[node.target.name], node.value.start, node.value.end)
                 placed = placed._replace(node=Assign(node.target, value, node.start, node.end))  # noqa: PLW2901
+            script.append(placed)
+        return replace(program, script=tuple(script))
+
+    def with_breakpoints(self, program: Program) -> Program:
+        """Return the program with a STOP before the first statement of each line that holds a breakpoint."""
+        if not self.breakpoints:
+            return program
+        from desire_tui.engine.nodes import Placed, Simple
+
+        script: list[Placed] = []
+        waiting = set(self.breakpoints)
+        for placed in program.script:
+            row = program.source.position(placed.at).row
+            if row in waiting:
+                waiting.discard(row)
+                script.append(Placed(Simple("STOP"), placed.at))
             script.append(placed)
         return replace(program, script=tuple(script))

@@ -20,7 +20,7 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.values import DT, SCALE, TMAX, T
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
     from pathlib import Path
 
     from desire_tui.engine.graph import Graph
@@ -144,7 +144,7 @@ class Session:
         self._desk.parse_seconds = perf_counter() - began
         if self._stopped is not None and source.text != self._desk.source.text:
             self._edited = True
-        self._desk.program = self._desk.overridden(program)
+        self._desk.program = self._desk.with_breakpoints(self._desk.overridden(program))
         self._desk.structure = structure(self._desk.program)
         self._desk.journal.program(source)
         problems = self.check(source)
@@ -163,6 +163,10 @@ class Session:
     def override(self, settings: Mapping[str, float]) -> None:
         """Give scalars values that the script's own assignments do not change, from the next `accept` on."""
         self._desk.overrides = dict(settings)
+
+    def set_breakpoints(self, lines: Iterable[int]) -> None:
+        """Stop the script before these lines (from 1), from the next `accept` on."""
+        self._desk.breakpoints = frozenset(lines)
 
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
