@@ -7,6 +7,10 @@ from desire_tui.engine.session import Listener, Session
 from desire_tui.engine.source import Source
 
 
+BACKEND = "reference"
+"""Set by the fixture: every test here runs on both back ends."""
+
+
 class Kept(Listener):
     """Keeps what it hears."""
 
@@ -44,16 +48,16 @@ class Kept(Listener):
         self.events.append(("graph", graph.number))
 
 
-def session_for(text, *, folder=None, answers=(), backend="reference"):
+def session_for(text, *, folder=None, answers=(), backend=None):
     """Return a session that has run a program."""
     session, _ = ran(text, folder=folder, answers=answers, backend=backend)
     return session
 
 
-def ran(text, *, folder=None, answers=(), backend="reference"):
+def ran(text, *, folder=None, answers=(), backend=None):
     """Return a session that has run a program, and its listener."""
     kept = Kept(answers)
-    session = Session(kept, backend=backend, folder=folder)
+    session = Session(kept, backend=backend or BACKEND, folder=folder)
     session.erun(Source(text, "test.src"))
     return session, kept
 

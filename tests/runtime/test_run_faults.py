@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import running
 from running import Kept, failure, session_for
 
 from desire_tui.engine.diagnostics import DesireError, render
@@ -12,7 +13,7 @@ from desire_tui.engine.source import Source
 
 def failed(text):
     kept = Kept()
-    session = Session(kept, backend="reference")
+    session = Session(kept, backend=running.BACKEND)
     with pytest.raises(DesireError) as caught:
         session.erun(Source(text, "test.src"))
     return session, caught.value.diagnostics[0]

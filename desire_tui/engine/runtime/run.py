@@ -155,6 +155,8 @@ class Simulator:
             values.defined[DT] = 1
         positions.points = int(memory.points_before + memory.point)
         _note(memory, record)
+        if memory.steps and not memory.dt_most:  # a constant step need not be measured
+            record.dt_least = record.dt_most = plan.dt
         # Dummy integration leaves t at the next point: nothing is there twice
         whole = memory.phase == Phase.ENDED and memory.point == memory.nn and plan.rule != DUMMY
         positions.end = values.cells[T] if whole else float("nan")

@@ -1,0 +1,159 @@
+"""Pausing and ending from another thread; what a session says meanwhile."""
+
+from __future__ import annotations
+
+import threading
+from time import monotonic, sleep
+
+import pytest
+import running
+from running import Kept
+
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.session import Session, State
+from desire_tui.engine.source import Source
+
+LONG = "TMAX = 1.0E+06 | DT = 0.001 | NN = {nn}\ndrun\nn = 1\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n"
+PATIENCE = 20.0
+
+
+class Worker:
+    """A session at work on its own thread."""
+
+    def __init__(self, text):
+        self.kept = Kept()
+        self.started = threading.Event()
+        self.kept.at_run_start = self.started.set
+        self.session = Session(self.kept, backend=running.BACKEND)
+        self.error = None
+        self.thread = threading.Thread(target=self._work, args=(text,), daemon=True)
+        self.thread.start()
+
+    def _work(self, text):
+        try:
+            self.session.erun(Source(text, "test.src"))
+        except DesireError as error:
+            self.error = error
+
+    def wait_for(self, condition):
+        deadline = monotonic() + PATIENCE
+        while not condition():
+            assert monotonic() < deadline, self.session.status
+            sleep(0.005)
+
+    def join(self):
+        self.thread.join(PATIENCE)
+        assert not self.thread.is_alive()
+
+
+@pytest.mark.parametrize("nn", [2, 100_000], ids=["few samples", "many samples"])
+def test_pause_resume_and_end(nn):
+    worker = Worker(LONG.format(nn=nn))
+    session = worker.session
+    assert worker.started.wait(PATIENCE)
+    worker.wait_for(lambda: session.status.t > 0)
+    assert session.status.state is State.RUNNING
+    session.pause()
+    worker.wait_for(lambda: session.status.state is State.PAUSED)
+    sleep(0.3)
+    held = session.status.t
+    sleep(0.2)
+    assert session.status.t == held
+    session.resume()
+    worker.wait_for(lambda: session.status.t > held)
+    session.end()
+    worker.join()
+    assert worker.error.diagnostics[0].code == 301
+    record = session.runs[0]
+    assert record.ended == "stopped"
+    assert record.count >= 1  # the samples stay
+    assert session.values.find("n") is None  # the script ended too
+    assert session.status.state is State.IDLE
+
+
+def test_end_while_paused():
+    worker = Worker(LONG.format(nn=1000))
+    assert worker.started.wait(PATIENCE)
+    worker.session.pause()
+    worker.session.end()
+    worker.join()
+    assert worker.error.diagnostics[0].code == 301
+
+
+def test_a_script_without_runs_can_be_paused_and_ended():
+    worker = Worker("n = 0\nwhile 1 > 0\nn = n + 1\nend while\n")
+    n = lambda: worker.session.values.find("n")  # noqa: E731
+    worker.wait_for(lambda: n() is not None and worker.session.values.cells[n().slot] > 100)
+    worker.session.pause()
+    worker.wait_for(lambda: worker.session.status.state is State.PAUSED)
+    sleep(0.1)
+    held = worker.session.values.cells[n().slot]
+    sleep(0.1)
+    assert worker.session.values.cells[n().slot] == held
+    worker.session.end()
+    worker.join()
+    assert worker.error.diagnostics[0].code == 301
+
+
+def test_an_idle_session_ignores_pause_and_end():
+    session = running.session_for("x = 1\n")
+    session.pause()
+    session.end()
+    session.execute("y = x + 1")
+    assert running.value(session, "y") == 2
+
+
+def test_stop_and_go():
+    session, kept = running.ran("x = 1\nSTOP\nx = x + 1\nSTOP\nx = 10 * x\n")
+    assert kept.events == [("stopped", 2)] or kept.events == [("stopped", 3)]
+    assert session.status.state is State.STOPPED
+    session.execute("x = 5")
+    session.execute("go")
+    assert running.value(session, "x") == 6
+    session.go()
+    assert running.value(session, "x") == 60
+    assert session.stopped_at is None
+    with pytest.raises(DesireError) as caught:
+        session.go()
+    assert caught.value.diagnostics[0].code == 43
+
+
+def test_go_after_an_edit_is_refused():
+    session, _ = running.ran("x = 1\nSTOP\nx = 2\n")
+    session.accept(Source("x = 1\nSTOP\nx = 3\n", "test.src"))
+    with pytest.raises(DesireError) as caught:
+        session.execute("go")
+    assert caught.value.diagnostics[0].code == 43
+    assert "changed" in caught.value.diagnostics[0].message
+
+
+def test_trace_steps_through_the_script():
+    kept = Kept()
+    session = Session(kept, backend=running.BACKEND)
+    session.accept(Source("a = 1\nb = 2\nc = 3\n", "test.src"))
+    session.execute("trace")
+    session.execute("run")
+    assert session.stopped_at is not None
+    rows = []
+    while session.stopped_at is not None:
+        rows.append(kept.events[-1][1])
+        session.execute("go")
+    assert rows == [1, 2, 3]
+    assert running.value(session, "c") == 3
+
+
+def test_run_keeps_rule_and_scale_but_erun_does_not():
+    session, _ = running.ran("x = scale\n")
+    session.execute("scale = 7 | irule 3 | y = 1")
+    session.execute("run")
+    assert running.value(session, "x") == 7
+    assert session.rule == 3
+    assert session.values.find("y") is None  # names are cleared all the same
+    session.execute("erun")
+    assert running.value(session, "x") == 1
+    assert session.rule == 1
+
+
+def test_memory_of_ended_runs_is_given_back():
+    session = running.session_for("TMAX = 1 | NN = 1.0E+06 | DT = 1.0E-06 | drun\nDYNAMIC\nd/dt x = 1\ndispt x\nterm x - 0.001\n")
+    assert session.runs[0].rows.nbytes < 1 << 16
