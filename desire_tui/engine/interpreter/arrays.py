@@ -1,7 +1,7 @@
 """Expressions over whole arrays, evaluated by NumPy.
 
-Products are true matrix products in `MATRIX` statements; in `Vector` statements a matrix times a vector is one
-too, and two vectors multiply element by element. Scalars multiply and add everywhere.
+Products are true matrix products in `MATRIX` statements; in `Vector` statements a matrix times a vector is
+one too, and two vectors multiply element by element. Scalars multiply and add everywhere.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """From a Python exception inside generated code to the user's message and the exact place in the source.
 
-Generated code carries the offsets of the nodes it was made from as its column numbers (see `translate`), so the
-traceback itself says which part of a statement failed: that costs nothing while nothing fails.
+Generated code carries the offsets of the nodes it was made from as its column numbers (see `translate`), so
+the traceback itself says which part of a statement failed: that costs nothing while nothing fails.
 """
 
 from __future__ import annotations

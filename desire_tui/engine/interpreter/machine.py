@@ -43,11 +43,10 @@ class Finished(Exception):  # noqa: N818 - control flow
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stop:
-    """Where `go` continues; `announced`: the host has heard of that statement already (tracing)."""
+    """Where `go` continues, and the open calls there."""
 
     address: int
     returns: list[tuple[int, str]]
-    announced: bool
 
 
 @dataclass(eq=False)
@@ -156,20 +155,18 @@ class Machine:
 
     # ------------------------------------------------------------------------------- running
 
-    def run(
-        self, address: int, returns: list[tuple[int, str]] | None = None, *, announced: bool = False
-    ) -> None:
+    def run(self, address: int, returns: list[tuple[int, str]] | None = None) -> None:
         """Run to the end or to a STOP. DesireError with its place; Interrupted."""
         self.refresh()
         before, self.returns = self.returns, returns if returns is not None else []
         try:
-            self._loop(address, announced=announced)
+            self._loop(address)
         except Finished:
             pass
         finally:
             self.returns = before
 
-    def _loop(self, address: int, *, announced: bool) -> None:
+    def _loop(self, address: int) -> None:
         operations, host = self.operations, self.host
         try:
             while True:
@@ -179,10 +176,9 @@ class Machine:
                     self.check()
                 while self.stepping:
                     code, place = self.locate(address)
-                    if place < code.last and not announced:
+                    if place < code.last:
                         self._address = address
                         host.before(code.placed[place])
-                    announced = False
                     address = operations[address]()
         except (Finished, Interrupted):
             raise
@@ -217,12 +213,12 @@ class Machine:
 
     def stop(self, address: int) -> NoReturn:
         """STOP: `go` continues at `address`."""
-        self.stopped = Stop(address, self.returns, announced=False)
+        self.stopped = Stop(address, self.returns)
         raise Finished
 
     def stop_before(self) -> NoReturn:
         """Stop before the statement that `Host.before` is just hearing of."""
-        self.stopped = Stop(self._address, self.returns, announced=True)
+        self.stopped = Stop(self._address, self.returns)
         raise Finished
 
     def resume(self) -> None:
@@ -230,7 +226,7 @@ class Machine:
         if self.stopped is None:
             raise DesireError(Diagnostic("go-without-stop"))
         stop, self.stopped = self.stopped, None
-        self.run(stop.address, stop.returns, announced=stop.announced)
+        self.run(stop.address, stop.returns)
 
 
 def _finish() -> NoReturn:
