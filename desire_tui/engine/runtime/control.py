@@ -56,6 +56,11 @@ class Control:
                 self._raise_flag()
         self._go_on.set()
 
+    def nudge(self) -> None:
+        """Bring native code back for a moment; without a wish the run goes on."""
+        with self._lock:
+            self._raise_flag()
+
     def _raise_flag(self) -> None:
         if self._memory is not None:
             self._memory.stop = 1

@@ -13,6 +13,7 @@ from desire_tui.engine.runtime.faults import fault
 from desire_tui.engine.runtime.history import History
 from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
 from desire_tui.engine.runtime.plan import DUMMY, Defaults
+from desire_tui.engine.runtime.ticker import Ticker
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ class Simulator:
         self.history = History(values)
         self._values = values
         self._control = control
+        self._ticker = Ticker(control)
         self.memory: RunMemory | None = None
         """The run's memory while one goes on."""
         self._began = 0.0
@@ -78,9 +80,11 @@ class Simulator:
         memory.rows = record.rows.ctypes.data
         self.memory = memory
         self._control.attach(memory)
+        self._ticker.begin()
         try:
             ended = self._advance(model, segment, memory, record, observer)
         finally:
+            self._ticker.end()
             self._control.attach(None)
             self.memory = None
             self._settle(segment, plan, memory, positions, record)
@@ -125,10 +129,8 @@ class Simulator:
                 _grow(record, memory)
             memory.row_limit = min(first + (1 if segment.pictures else int(block)), len(record.rows))
             began = perf_counter()
-            if self._control.clear_to_run(memory):
-                ended = Ended(model.advance(memory))
-            else:
-                ended = Ended.STOPPED
+            self._ticker.block()
+            ended = Ended(model.advance(memory)) if self._control.clear_to_run(memory) else Ended.STOPPED
             took = perf_counter() - began
             _note(memory, record)
             if segment.pictures and record.count > first:
