@@ -94,6 +94,8 @@ class DesireApp(App[None]):
             "run": self.run_actions, "file": self.file, "edit": EditActions(self), "graph": GraphActions(self),
             "view": self.actions_view, "help": HelpActions(self),
         }  # fmt: skip
+        self.is_ready = False
+        """Whether the tabs are open and the timers run."""
         self.desk = Desk(History(places.state_folder() / "history.json"), self.settings.keys)
 
     # ----------------------------------------------------------------------------------------------- panes
@@ -140,13 +142,14 @@ class DesireApp(App[None]):
         await open_first(self)
         for sentence in (*self._complaints, *self._theme_complaint()):
             self.complain(sentence, code=None)
-        self.set_interval(1 / self.settings.frames_per_second, self.draw_frame)
-        self.set_interval(STATUS_EVERY_S, self.show_status)
-        self.set_interval(QUANTITIES_EVERY_S, lambda: self.quantities.show(self.session.values))
-        self.set_interval(self.settings.checkpoint_seconds, self.checkpoint)
+        self.desk.set_interval(1 / self.settings.frames_per_second, self.draw_frame)
+        self.desk.set_interval(STATUS_EVERY_S, self.show_status)
+        self.desk.set_interval(QUANTITIES_EVERY_S, lambda: self.quantities.show(self.session.values))
+        self.desk.set_interval(self.settings.checkpoint_seconds, self.checkpoint)
         for number in (signal.SIGTERM, signal.SIGHUP):
             if threading.current_thread() is threading.main_thread():
                 asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
+        self.is_ready = True
 
     def _checked(self, number: int, version: int, problems: tuple[Diagnostic, ...]) -> None:
         self.post_message(Checked(number, version, problems))
@@ -307,7 +310,8 @@ class DesireApp(App[None]):
 
     @on(EngineMessage)
     def _engine_says(self, message: EngineMessage) -> None:
-        self.news.handle(message)
+        if self.desk.is_running:  # what arrives while the desktop closes has nobody to tell
+            self.news.handle(message)
 
     @on(CommandPane.LinesEntered)
     def _lines(self, event: CommandPane.LinesEntered) -> None:

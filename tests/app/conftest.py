@@ -1,0 +1,102 @@
+"""A desktop of one's own for each test: no file of the user's is read or written."""
+
+from __future__ import annotations
+
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING
+
+import pytest
+
+from desire_tui.app import DesireApp
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Callable
+    from pathlib import Path
+
+    from textual.pilot import Pilot
+
+OSCILLATOR = """\
+-- undamped oscillator: x = cos(t)
+TMAX = 6 | DT = 0.001 | NN = 301
+irule 3
+x = 1
+drun
+write 'x = '; x
+DYNAMIC
+d/dt x = v
+d/dt v = -x
+dispt x, v
+"""
+LONG = OSCILLATOR.replace("TMAX = 6", "TMAX = 60000").replace("NN = 301", "NN = 100001")
+
+
+@pytest.fixture(autouse=True)
+def own_places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("CONFIG", "STATE", "DATA", "CACHE"):
+        monkeypatch.setenv(f"XDG_{name}_HOME", str(tmp_path / name.lower()))
+    for name in ("TMUX", "NO_COLOR", "VISUAL", "EDITOR"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.chdir(tmp_path)
+
+
+async def until(pilot: Pilot[None], condition: Callable[[], object], *, tries: int = 1500) -> None:
+    """Let the app work until something holds."""
+    for _ in range(tries):
+        if condition():
+            return
+        await pilot.pause(0.01)
+    assert condition()
+
+
+class Desktop:
+    """The running app with what tests do most."""
+
+    def __init__(self, app: DesireApp, pilot: Pilot[None]) -> None:
+        self.app, self.pilot = app, pilot
+
+    async def until(self, condition: Callable[[], object]) -> None:
+        await until(self.pilot, condition)
+
+    async def press(self, *keys: str) -> None:
+        await self.pilot.press(*keys)
+
+    async def line(self, text: str) -> None:
+        """Give a command line."""
+        self.app.command.prompt.focus()
+        self.app.command.prompt.value = text
+        await self.pilot.press("enter")
+        await self.pilot.pause()
+
+    async def idle(self) -> None:
+        await self.until(lambda: not self.app.engine.is_busy)
+        await self.pilot.pause()
+
+    async def do(self, command_id: str, argument: str = "") -> None:
+        self.app.do(command_id, argument)
+        await self.pilot.pause()
+
+    @property
+    def output(self) -> str:
+        self.app.news.flush()
+        return self.app.command.console.text
+
+
+@asynccontextmanager
+async def desktop(*files: Path, size: tuple[int, int] = (100, 30)) -> AsyncIterator[Desktop]:
+    app = DesireApp(files)
+    async with app.run_test(size=size) as pilot:
+        await until(pilot, lambda: app.is_ready)
+        try:
+            yield Desktop(app, pilot)
+        finally:
+            app.session.end()
+
+
+@pytest.fixture
+def program(tmp_path: Path) -> Callable[[str, str], Path]:
+    def write(text: str, name: str = "osc.src") -> Path:
+        path = tmp_path / name
+        path.write_text(text)
+        return path
+
+    return write

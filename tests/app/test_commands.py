@@ -1,0 +1,107 @@
+"""The table of actions: complete, without clashes, reachable, and every action works."""
+
+from __future__ import annotations
+
+import pytest
+from textual.screen import ModalScreen
+
+from desire_tui import commands
+from desire_tui.commands import BY_ID, COMMANDS, parse_line
+
+from .conftest import OSCILLATOR, desktop
+
+
+def test_ids_and_words_and_keys_are_unique():
+    assert len(BY_ID) == len(COMMANDS)
+    words = [word for command in COMMANDS for word in command.words]
+    assert len(words) == len(set(words))
+    keys = [key for command in COMMANDS for key in command.keys.split(",") if key]
+    assert len(keys) == len(set(keys))
+    assert "ctrl+enter" not in keys
+
+
+@pytest.mark.parametrize(
+    ("line", "wanted"),
+    [
+        ("zz", ("run.start", "")),
+        ("  erun ", ("run.start", "")),
+        ("keep 'a b.src'", ("file.save", "a b.src")),
+        ("keep'x.src'", ("file.save", "x.src")),
+        ('load "f"', ("file.open", "f")),
+        ("help dispt", ("help.word", "dispt")),
+        ("snapshot 'g.png'", ("graph.snapshot", "g.png")),
+        ("bye", ("file.quit", "")),
+        ("run = 3", None),
+        ("line[3] = 2", None),
+        ("zz | write x", None),
+        ("write x", None),
+        ("go to 100", None),
+        ("", None),
+    ],
+)
+def test_command_lines(line: str, wanted: tuple[str, str] | None):
+    found = parse_line(line)
+    assert (found and (found[0].id, found[1])) == wanted
+
+
+async def test_every_action_is_in_the_palette_and_has_a_method(program):
+    async with desktop(program(OSCILLATOR)) as desk:
+        offered = {entry.title.split("  ")[0] for entry in desk.app.get_system_commands(desk.app.screen)}
+        for command in COMMANDS:
+            part, _, name = command.id.partition(".")
+            assert callable(getattr(desk.app._controllers[part], name))
+            assert command.title in offered or command.id == "view.palette"
+
+
+@pytest.mark.parametrize("part", sorted({command.id.partition(".")[0] for command in COMMANDS}))
+async def test_every_action_can_be_done_at_any_time(program, part: str):
+    """Before a run and after one; dialogs are cancelled."""
+    async with desktop(program(OSCILLATOR)) as desk:
+        for round_ in range(2):
+            for command in COMMANDS:
+                if command.id.partition(".")[0] != part or command.id in ("file.quit", "file.external"):
+                    continue
+                await desk.do(command.id)
+                await desk.pilot.pause()
+                while isinstance(desk.app.screen, ModalScreen):
+                    await desk.press("escape")
+                    await desk.pilot.pause()
+                await desk.idle()
+                assert desk.app.is_running, command.id
+            if not round_:
+                await desk.do("run.start")
+                await desk.idle()
+        assert "fault of this program" not in desk.output
+
+
+async def test_keys_do_what_the_table_says(program):
+    """Each key, pressed, calls its action."""
+    async with desktop(program(OSCILLATOR)) as desk:
+        app = desk.app
+        done: list[str] = []
+        app.do = lambda command_id, argument="": done.append(command_id)  # type: ignore[method-assign]
+        app.editor.front.focus()
+        await desk.pilot.pause()
+        for command in COMMANDS:
+            for key in command.keys.split(","):
+                if key:
+                    done.clear()
+                    await desk.press(key)
+                    assert done == [command.id], key
+
+
+async def test_keys_can_be_remapped(program, tmp_path):
+    folder = tmp_path / "config" / "desire-tui"
+    folder.mkdir(parents=True)
+    (folder / "config.toml").write_text('[keys]\n"run.start" = "ctrl+j"\n')
+    async with desktop(program(OSCILLATOR)) as desk:
+        done: list[str] = []
+        desk.app.do = lambda command_id, argument="": done.append(command_id)  # type: ignore[method-assign]
+        await desk.press("ctrl+j", "f5")
+        assert done == ["run.start"]
+
+
+def test_bindings_have_priority_and_ids():
+    for binding in commands.bindings():
+        assert binding.priority
+        assert binding.id
