@@ -14,7 +14,7 @@ elements are assigned from the last index to the first, each drawing as it comes
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from desire_tui.engine.nodes import node
 from desire_tui.engine.source import Source, Span
@@ -125,8 +125,7 @@ Value = Const | Load | Op | Table1 | Table2 | Vec | Shifted | MatVec | RowOf | O
 # --------------------------------------------------------------------------------------------- statements
 
 
-@dataclass(frozen=True, slots=True)
-class Where:
+class Where(NamedTuple):
     """Place of the statement in the program, and of the invocation that expanded it (a submodel's body)."""
 
     span: Span

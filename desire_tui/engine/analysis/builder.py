@@ -163,7 +163,11 @@ class Builder:
 
     def is_second(self, slot: int, count: int) -> bool:
         """Whether this state already has a `d/dt` that could hold in the same pass (error 101)."""
-        paths = self.derivative_paths.setdefault((slot, count), [])
+        key = slot, count
+        paths = self.derivative_paths.get(key)
+        if paths is None:
+            self.derivative_paths[key] = [self.path if self.guards else ()]
+            return False
         path = self.path
         branches = dict(path)
         second = any(all(branches.get(s, b) == b for s, b in earlier) for earlier in paths)

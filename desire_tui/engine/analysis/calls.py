@@ -57,11 +57,10 @@ def _expanded(context: Context, node: Call, extent: Extent) -> Value:
             "function-arguments", node, name=node.name, wanted=len(dummies), given=len(node.args)
         )
     arguments = {d: Argument(a, frame) for d, a in zip(dummies, node.args, strict=True)}
-    context.frame = Frame(
-        function.at, {}, arguments, (*frame.invoked, context.span(node)), (*frame.calls, node.name)
-    )
+    invoked, called = (*frame.invoked, context.span(node)), (*frame.calls, node.name)
+    context.enter(Frame(function.at, {}, arguments, invoked, called))
     value = expressions.lower(context, function.node.body, extent)
-    context.frame = frame
+    context.enter(frame)
     return value
 
 

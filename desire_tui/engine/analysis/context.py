@@ -70,15 +70,22 @@ class Context:
         self.functions = functions
         self.flow = Flow()
         self.frame = Frame(0)
+        self.plain = True
+        """Names read as they are written: the frame replaces none."""
         self.problems: list[Diagnostic] = []
         self.assigned: dict[str, tuple[Span, ...]] = {}
-        self.assigned_slots: set[int] = set()
+        self.derivative_places: dict[int, Where] = {}
         self.assigned_arrays = False
         self.own: str | None = None
         """The scalar that the present statement assigns."""
         self.target: tuple[int, int] | None = None
         """Slots of the array that the present statement assigns; None where it may be read freely."""
         self.complained: set[str] = set()
+
+    def enter(self, frame: Frame) -> None:
+        """Go on in another text."""
+        self.frame = frame
+        self.plain = not (frame.rename or frame.arguments)
 
     # ------------------------------------------------------------------------------------------ places
 
@@ -153,7 +160,6 @@ class Context:
         if name == self.own and quantity is not None:
             # difference equation x = x + e whose target is new: starts at 0 [O]
             self.flow.read_slot(quantity.slot)
-            self.assigned_slots.add(quantity.slot)
             return Load(quantity.slot)
         if self.once(name):
             line = self.source.position(places[0].start).row

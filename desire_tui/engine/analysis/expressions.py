@@ -31,6 +31,10 @@ def lower(context: Context, node: Expr, extent: Extent = SCALAR) -> Value:
     """
     kind = node.__class__
     if kind is Name:
+        if context.plain:
+            load = context.flow.ready.get(node.name)  # type: ignore[union-attr]
+            if load is not None:
+                return load
         return name(context, node, extent)  # type: ignore[arg-type]
     if kind is Number:
         return Const(node.value)  # type: ignore[union-attr, arg-type]
@@ -55,16 +59,12 @@ def lower(context: Context, node: Expr, extent: Extent = SCALAR) -> Value:
 def name(context: Context, node: Name, extent: Extent) -> Value:
     """Lower a name: a scalar, a FUNCTION's dummy, or a whole array where the extent allows it."""
     frame = context.frame
-    if not frame.arguments and not frame.rename:
-        load = context.flow.ready.get(node.name)
-        if load is not None:
-            return load
     argument = frame.arguments.get(node.name)
     if argument is not None:
         if argument.value is None:
-            context.frame = argument.outer
+            context.enter(argument.outer)
             argument.value = lower(context, argument.node, extent)
-            context.frame = frame
+            context.enter(frame)
         return argument.value
     if extent:
         quantity = context.quantity(node.name)

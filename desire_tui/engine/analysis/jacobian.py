@@ -26,7 +26,7 @@ def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
     slot: int | None = None
     outer, builder.body = builder.body, []
     for node, frame in lines:
-        context.frame = frame
+        context.enter(frame)
         if not isinstance(node, Assign):
             context.report("illegal-in-jacobian", node)
             continue

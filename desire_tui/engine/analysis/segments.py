@@ -81,7 +81,7 @@ def lower_segment(
     builder = Builder(context, _states(context, lines), rule)
     _ready_from_start(builder, lines)
     for node, frame in lines:
-        context.frame = frame
+        context.enter(frame)
         handler = _HANDLERS.get(node.__class__)
         if handler is None:
             context.report("illegal-in-dynamic", node, word=source.text[slice(*context.span(node))].split(" ")[0])
@@ -104,7 +104,7 @@ def _collect_targets(context: Context, lines: Sequence[Line]) -> None:
     for node, frame in lines:
         get_targets = _SCALAR_TARGETS.get(node.__class__)
         if get_targets is not None:
-            context.frame = frame
+            context.enter(frame)
             for target in get_targets(node):
                 if isinstance(target, Element):
                     context.assigned_arrays = True
@@ -121,18 +121,19 @@ def _states(context: Context, lines: Sequence[Line]) -> StateTable:
     found: list[StateLine] = []
     for node, frame in lines:
         if isinstance(node, Derivative):
-            context.frame = frame
+            context.enter(frame)
             target = node.target
             if isinstance(target, Name):
                 name = frame.rename.get(target.name, target.name)
                 known = context.scope.names.get(name)
                 if known is None or not known.shape:
                     slot = context.scope.scalar(name, is_state=True).slot
-                    found.append(StateLine(name, slot, 1, context.where(node)))
+                    where = context.derivative_places[id(node)] = context.where(node)
+                    found.append(StateLine(name, slot, 1, where))
             else:
                 found.extend(_element_state(context, node, target))
         elif isinstance(node, VectorDerivative):
-            context.frame = frame
+            context.enter(frame)
             quantity = context.quantity(node.name)
             if quantity is not None and len(quantity.shape) == 1 and quantity.shape[0] != UNKNOWN:
                 quantity.is_state = True
@@ -171,7 +172,7 @@ def _ready_from_start(builder: Builder, lines: Sequence[Line]) -> None:
             builder.names[state.slot] = state.name
     for node, frame in lines:
         if isinstance(node, nodes.Request) and node.kind == "recover":
-            context.frame = frame
+            context.enter(frame)
             for item in node.items:
                 targets.mark_held(context, item)
 

@@ -32,12 +32,12 @@ def full_pass(segment: Segment) -> Actions:
 
 def step_slice(segment: Segment) -> Actions:
     """STEP without COMM: the start of a step inside a communication interval."""
-    return _needed(_resolve(segment.body, comm=False, step=True))
+    return needed(_resolve(segment.body, comm=False, step=True))
 
 
 def derivative_slice(segment: Segment) -> Actions:
     """Neither flag: the later stages of a step."""
-    return _needed(_resolve(segment.body, comm=False, step=False))
+    return needed(_resolve(segment.body, comm=False, step=False))
 
 
 def tail_pass(segment: Segment) -> Actions:
@@ -206,7 +206,8 @@ class _Reads:
             self.value(action.condition)
 
 
-def _needed(actions: Actions) -> Actions:
+def needed(actions: Actions) -> Actions:
+    """Leave out what no derivative, no persistent variable and no other kept statement uses."""
     return _backward(actions, _Reads())
 
 

@@ -43,7 +43,8 @@ def derivative(builder: Builder, node: nodes.Derivative) -> None:
         return
     if builder.is_second(slot, 1):
         context.report("state-twice", node.target, name=context.actual(node.target.name))
-    builder.derivative(slot, 1, value, context.where(node))
+    where = context.derivative_places.get(id(node)) if context.plain else None
+    builder.derivative(slot, 1, value, where or context.where(node))
 
 
 def term(builder: Builder, node: nodes.Term) -> None:

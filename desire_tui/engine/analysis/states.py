@@ -28,29 +28,14 @@ class StateTable:
     """Ranges of states. Targets that overlap (a vector and one of its elements, two views) are one range."""
 
     def __init__(self, lines: Sequence[StateLine]) -> None:
-        order = sorted(range(len(lines)), key=lambda i: (lines[i].slot, -lines[i].count))
-        merged: list[list[int]] = []  # first line, slot, end, line that gives the name
-        for i in order:
-            line = lines[i]
-            end = line.slot + max(line.count, 1)
-            if merged and line.slot < merged[-1][2]:
-                last = merged[-1]
-                last[0] = min(last[0], i)
-                if end > last[2]:
-                    last[2] = end
-            else:
-                merged.append([i, line.slot, end, i])
-        merged.sort()
-        self.ranges: list[StateRange] = []
-        first = 0
-        for _, slot, end, name_line in merged:
-            named = lines[name_line]
-            self.ranges.append(StateRange(named.name, slot, first, end - slot, named.where))
-            first += end - slot
-        self.order = first
+        if all(line.count == 1 for line in lines) and len({line.slot for line in lines}) == len(lines):
+            self.ranges = [StateRange(s.name, s.slot, i, 1, s.where) for i, s in enumerate(lines)]
+        else:
+            self.ranges = _merged(lines)
+        self.order = sum([r.count for r in self.ranges])
         self._by_slot = {r.slot: r.first for r in self.ranges}
-        self._sorted = sorted(self.ranges, key=lambda r: r.slot)
-        self._starts = [r.slot for r in self._sorted]
+        self._long = sorted((r for r in self.ranges if r.count > 1), key=lambda r: r.slot)
+        self._starts = [r.slot for r in self._long]
 
     def number(self, slot: int) -> int | None:
         """Return the number of the state in a slot; None if there is none."""
@@ -60,5 +45,28 @@ class StateTable:
         at = bisect_right(self._starts, slot) - 1
         if at < 0:
             return None
-        found = self._sorted[at]
+        found = self._long[at]
         return found.first + slot - found.slot if slot < found.slot + found.count else None
+
+
+def _merged(lines: Sequence[StateLine]) -> list[StateRange]:
+    order = sorted(range(len(lines)), key=lambda i: (lines[i].slot, -lines[i].count))
+    merged: list[list[int]] = []  # first line, slot, end, line that gives the name
+    for i in order:
+        line = lines[i]
+        end = line.slot + max(line.count, 1)
+        if merged and line.slot < merged[-1][2]:
+            last = merged[-1]
+            last[0] = min(last[0], i)
+            if end > last[2]:
+                last[2] = end
+        else:
+            merged.append([i, line.slot, end, i])
+    merged.sort()
+    ranges: list[StateRange] = []
+    first = 0
+    for _, slot, end, name_line in merged:
+        named = lines[name_line]
+        ranges.append(StateRange(named.name, slot, first, end - slot, named.where))
+        first += end - slot
+    return ranges

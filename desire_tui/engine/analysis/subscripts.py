@@ -110,9 +110,9 @@ def _named(context: Context, node: Name) -> float | None:
     argument = context.frame.arguments.get(name)
     if argument is not None:
         inner = context.frame
-        context.frame = argument.outer
+        context.enter(argument.outer)
         value = _value(context, argument.node)
-        context.frame = inner
+        context.enter(inner)
         return value
     quantity = context.quantity(name)
     if quantity is None or not (quantity.shape or context.scope.is_defined(quantity)):
@@ -134,9 +134,10 @@ def _called(context: Context, node: Call) -> float | None:
             context.report("function-recursion", node, name=node.name)
             return None
         arguments = {d: Argument(a, inner) for d, a in zip(function.node.dummies, node.args, strict=True)}
-        context.frame = Frame(function.at, {}, arguments, (*inner.invoked, context.span(node)), (*inner.calls, node.name))
+        invoked, called = (*inner.invoked, context.span(node)), (*inner.calls, node.name)
+        context.enter(Frame(function.at, {}, arguments, invoked, called))
         value = _value(context, function.node.body)
-        context.frame = inner
+        context.enter(inner)
         return value
     entry = LIBRARY.get(node.name)
     if entry is None or entry.value is None or entry.kind == "table" or "D" not in entry.where:
