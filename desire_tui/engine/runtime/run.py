@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 BLOCK_SECONDS = 0.02
 """How long a block of samples should take: short enough to look alive, long enough to cost nothing."""
+BLOCK_FIRST = 64
+"""Samples of the first block; should it take long, the ticker brings it back."""
 ROWS_BYTES_MAX = 1 << 30
 """Samples one run may keep: 10 million of 12 variables."""
 PICTURES_BYTES_MAX = 1 << 28
@@ -114,7 +116,7 @@ class Simulator:
         )  # fmt: skip
         memory.keep = (positions.counters, lag)  # ctypes holds addresses only
         for states in segment.states:
-            if states.count == 1:
+            if states.count == 1 and states.slot < len(values.defined):
                 values.defined[states.slot] = 1  # states start at 0 (an array's elements always are defined)
         return memory
 
@@ -122,7 +124,7 @@ class Simulator:
         self, model: Model, segment: Segment, memory: RunMemory, record: RunRecord, observer: Observer
     ) -> Ended:
         """Blocks of about BLOCK_SECONDS until the run ends; one sample each where SHOW wants pictures."""
-        block = 1.0
+        block = float(BLOCK_FIRST)
         while True:
             first = int(memory.row)
             if first >= len(record.rows):
