@@ -174,11 +174,8 @@ def time(site: Site) -> Operation:
 
 def trace(site: Site) -> Operation:
     """`trace`: single-step from here on; again: run freely."""
-
-    def action() -> None:
-        site.machine.stepping = not site.machine.stepping
-
-    return site.then(action)
+    following = site.next
+    return lambda: site.machine.turn_tracing(following)
 
 
 _IN_SCRIPTS = {"snapshot", "notebook", "help", "sh", "list", "list+", "compare", "bye"}

@@ -78,8 +78,10 @@ class Interpreter:
     def execute(self, statements: Sequence[Placed], source: Source | None = None) -> None:
         """Carry out a command line; loops must be complete in it. A FUNCTION line defines that function."""
         structure = script_structure(statements, source or Source("", "<command>"))
-        if structure.problems:
-            raise DesireError(*structure.problems)
+        # a call that stands alone is a mistake in a script; as a command it prints its value
+        problems = [problem for problem in structure.problems if problem.key != "call-missing"]
+        if problems:
+            raise DesireError(*problems)
         self._machine.define(structure.functions, source)
         machine = self._machine
         code = machine.link(statements, structure, machine.scope, source, 0, len(statements), is_command=True)

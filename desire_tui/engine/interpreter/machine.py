@@ -41,6 +41,14 @@ class Finished(Exception):  # noqa: N818 - control flow
     """The script (or command line) ended, or came to a STOP."""
 
 
+class Turned(Exception):  # noqa: N818 - control flow
+    """Tracing was turned on or off; `address` comes next."""
+
+    def __init__(self, address: int) -> None:
+        super().__init__()
+        self.address = address
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Stop:
     """Where `go` continues, and the open calls there."""
@@ -160,7 +168,11 @@ class Machine:
         self.refresh()
         before, self.returns = self.returns, returns if returns is not None else []
         try:
-            self._loop(address)
+            while True:
+                try:
+                    self._loop(address)
+                except Turned as turned:
+                    address = turned.address
         except Finished:
             pass
         finally:
@@ -180,7 +192,7 @@ class Machine:
                         self._address = address
                         host.before(code.placed[place])
                     address = operations[address]()
-        except (Finished, Interrupted):
+        except (Finished, Turned, Interrupted):
             raise
         except Exception as error:
             code, place = self.locate(address)
@@ -192,6 +204,11 @@ class Machine:
             if code.first <= address - code.base <= code.last:
                 return code, address - code.base
         raise IndexError(address)
+
+    def turn_tracing(self, address: int) -> NoReturn:
+        """`trace`: on, or off again; go on at `address`."""
+        self.stepping = not self.stepping
+        raise Turned(address)
 
     def check(self) -> None:
         """Let the user in: called at every jump back."""

@@ -1,0 +1,82 @@
+"""Random real expressions: the interpreter and plain Python agree to the last bit."""
+
+from __future__ import annotations
+
+import math
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from stand_in import World
+
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.library import LIBRARY, integer_power, power
+
+NAMES = {"x": 0.75, "y": -2.5, "z": 3.0, "big": 1e150}
+FUNCTIONS = ["sin", "cos", "sat", "lim", "deadz", "swtch", "sgn", "abs", "tanh", "sqrt", "ln", "exp", "tri", "round"]
+
+
+class Fails(Exception):
+    pass
+
+
+def leaf():
+    numbers = st.floats(0, 100, allow_subnormal=False).map(lambda v: (repr(v), v))
+    names = st.sampled_from([*NAMES.items()])
+    return numbers | names
+
+
+def combine(inner):
+    def binary(parts):
+        op, (a, va), (b, vb) = parts
+        return f"({a} {op} {b})", apply(op, va, vb)
+
+    def whole_power(parts):
+        (a, va), n = parts
+        return f"({a})^{n}", guard(integer_power, va, n)
+
+    def general_power(parts):
+        (a, va), (b, vb) = parts
+        return f"({a})^(1*{b})", guard(power, va, 1 * vb) if vb is not None else None
+
+    def function(parts):
+        name, (a, va) = parts
+        return f"{name}({a})", guard(LIBRARY[name].value, va)
+
+    return st.one_of(
+        st.tuples(st.sampled_from("+-*/"), inner, inner).map(binary),
+        st.tuples(inner, st.integers(0, 5)).map(whole_power),
+        st.tuples(inner, inner).map(general_power),
+        st.tuples(st.sampled_from(FUNCTIONS), inner).map(function),
+        inner.map(lambda p: (f"(-{p[0]})", None if p[1] is None else -p[1])),
+    )
+
+
+def guard(function, *args):
+    if any(a is None for a in args):
+        return None
+    try:
+        return function(*args)
+    except (ValueError, OverflowError, ZeroDivisionError):
+        return None
+
+
+def apply(op, a, b):
+    return guard({"+": float.__add__, "-": float.__sub__, "*": float.__mul__, "/": float.__truediv__}[op], a, b)
+
+
+WORLD = World()
+WORLD.run("\n".join(f"{name} = {value!r}" for name, value in NAMES.items()))
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.recursive(leaf(), combine, max_leaves=25))
+def test_interpreter_equals_python(pair):
+    text, expected = pair
+    try:
+        WORLD.execute(f"result = {text}")
+    except DesireError as error:
+        assert expected is None or not math.isfinite(expected), (text, error)
+        return
+    assert expected is not None, text
+    got = WORLD["result"]
+    assert got == expected or math.isnan(got), text

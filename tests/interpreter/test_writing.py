@@ -1,0 +1,127 @@
+"""The exact formats of `write`, files, console input."""
+
+from __future__ import annotations
+
+import pytest
+from stand_in import World, error_of, run
+
+
+@pytest.mark.parametrize(
+    ("script", "text"),
+    [
+        ("write 1/3", "0.333333\n"),
+        ("write", "\n"),
+        ("write 'a', 1, 2; 'b'", "a\t1\t2b\n"),
+        ("write 'one ';\nwrite 'line'", "one line\n"),
+        ("write 'x',\nwrite 2", "x\t2\n"),
+        ("write 1234567, 0.00001, -5", "1.23457e+06\t1e-05\t-5\n"),
+        ("INTEGER i | i = 1234567 | write i, i + i", "1234567\t2469134\n"),
+        ("COMPLEX z | z = 1.5 - j*2 | write z", "1.5 + j*( -2)\n"),
+        ("write $65; $66", "AB\n"),
+        ("write %12918, %%12918", "31166\t3276\n"),
+        ("write %%(-1)", "FFFF\n"),
+        ("write \"it's\"", "it's\n"),
+        ("kk = 7 | write kk; ' runs'", "7 runs\n"),
+        ("write 2 > 1", None),
+    ],
+)
+def test_write(script, text):
+    if text is None:
+        assert error_of(script)[0] in {10, 33}
+    else:
+        assert run(script).text == text
+
+
+def test_arrays_are_written_five_in_a_line():
+    world = run("ARRAY A[2,3]\nfor i = 1 to 2 | for k = 1 to 3 | A[i,k] = -i*k/7 | next | next\nwrite A")
+    lines = world.text.split("\n")
+    assert lines[:2] == ["", "A[2,3]  : REAL ARRAY (in ROW major sequence)"]
+    assert len(lines[2].split()) == 5
+    assert lines[3:] == ["-8.571429e-01", ""]
+    assert lines[2].split()[0] == "-1.428571e-01"
+
+
+def test_a_long_array_comes_in_pieces_and_can_be_broken_off():
+    world = run("ARRAY x[20000]\nwrite x")
+    assert world.text.count("\n") == 2 + 20000 / 5
+    assert len(world.written) > 3
+
+
+def test_files_keep_their_numbers(tmp_path):
+    world = run(
+        "ARRAY A[2,2]\ndata 1.5,-2,1/3,4E-9\nread A\nconnect 'numbers' as output 3\n"
+        "write ##3, A | write ##3, PI | write #3, 'text'; 5\ndisconnect 3\n"
+        "ARRAY B[2,2]\nconnect 'numbers' as input 4 | input #4, B, p\ndisconnect 4",
+        folder=tmp_path,
+    )
+    assert (world["B"] == world["A"]).all()
+    assert world["p"] == 3.141592653589793
+    assert (tmp_path / "numbers.dat").read_text().endswith("text5\n")
+
+
+def test_input_files_may_hold_expressions_with_any_separator(tmp_path):
+    (tmp_path / "in.txt").write_text("1, 2*3\t4\n\n5 6 7\n sqrt(16)\n")
+    world = run("ARRAY x[7]\nconnect 'in.txt' as input 2\ninput #2, x", folder=tmp_path)
+    assert world["x"].tolist() == [1, 6, 4, 5, 6, 7, 4]
+
+
+def test_channels_0_and_1_append_and_others_do_not(tmp_path):
+    for _ in range(2):
+        run("connect 'a' as output 1 | connect 'b' as output 2\nwrite #1, 5 | write #2, 6", folder=tmp_path)
+    assert (tmp_path / "a.dat").read_text() == "5\n5\n"
+    assert (tmp_path / "b.dat").read_text() == "6\n"
+
+
+@pytest.mark.parametrize(
+    ("script", "code", "piece"),
+    [
+        ("connect 'f' as output 11", 50, "connect 'f' as output 11"),
+        ("connect 'f' as output 2 | connect 'g' as output 2", 30, "connect 'g' as output 2"),
+        ("disconnect 5", 63, "disconnect 5"),
+        ("write #5, 1", 63, "write #5, 1"),
+        ("connect 'f' as output 2 | input #2, x", 64, "input #2, x"),
+        ("connect 'nothing' as input 2", 38, "connect 'nothing' as input 2"),
+        ("connect 'no/such/f' as output 2", 11, "connect 'no/such/f' as output 2"),
+        ("connect '' as output 2", 34, "connect '' as output 2"),
+    ],
+)
+def test_channel_errors(tmp_path, script, code, piece):
+    assert error_of(script, folder=tmp_path) == (code, piece)
+
+
+def test_reading_past_the_end_and_nonsense(tmp_path):
+    (tmp_path / "in.dat").write_text("1\n")
+    assert error_of("connect 'in' as input 2\ninput #2, x, y", folder=tmp_path)[0] == 18
+    (tmp_path / "in.dat").write_text("hello there\n")
+    assert error_of("connect 'in' as input 2\ninput #2, x", folder=tmp_path)[0] == 18
+
+
+def test_console_input_prompts_and_asks_again():
+    world = World()
+    world.answers = ["2*", "y", "2*3", "7, 8"]
+    world.run("ARRAY A[2]\ninput x, A")
+    assert world["x"] == 6
+    assert world["A"].tolist() == [7, 8]
+    assert world.text == "x ? x ? x ? A ? "
+    assert len(world.warnings) == 2
+
+
+def test_input_is_broken_off_by_an_exclamation_mark():
+    assert error_of("input x", "!") == (197, "input x")
+    assert error_of("input x") == (18, "input x")
+
+
+def test_dump_lists_scalars_then_arrays():
+    world = run("alpha = 2.5 | ARRAY v[2] | v[1] = 1\nINTEGER n | n = 12345678\ndump")
+    assert "alpha = 2.5\n" in world.text
+    assert "n = 12345678\n" in world.text
+    assert world.text.index("scale = 1\n") < world.text.index("v[2]  : REAL ARRAY")
+    assert "TMAX" not in world.text  # has no value
+
+
+def test_notes_and_shell_and_commands_go_to_the_host():
+    world = run("x = 3 | note 'x is '; x\nsh ls\nsnapshot 'f.png'\ndisplay N14 | display W 10,20")
+    assert world.calls == [
+        ("note", "x is 3\n"), ("shell", "ls"), ("command", "snapshot", "f.png"),
+        ("display", "N", 14), ("display", "W", 10, 20),
+    ]  # fmt: skip
