@@ -2,9 +2,9 @@
 
 Interpreter, compiled code and panes share it: a parameter never needs recompiling, `x` in the script and in a
 segment is the same number, overlays (`ARRAY a[n] + b[m] = ab`) are plain aliases. A large piece of address
-space is reserved once and pages are touched only as they are used, so **addresses never change** while a session
-lives and compiled code may keep them. Scalars stand in its first part, arrays behind: only scalars need to know
-whether they are defined, so an array costs nothing but its own numbers.
+space is reserved once and pages are touched only as they are used, so **addresses never change** while a
+session lives and compiled code may keep them. Scalars stand in its first part, arrays behind: only scalars
+need to know whether they are defined, so an array costs nothing but its own numbers.
 """
 
 from __future__ import annotations
@@ -78,8 +78,8 @@ class Values:
     """The session's quantities by name, and their numbers.
 
     `cells[slot]` reads and writes one number quickly; `data` is the same memory as a NumPy array;
-    `defined[slot]` is 0 for a scalar nobody has assigned yet (array elements are always defined, and their slots,
-    from `SCALAR_SLOTS` on, have no place in it: ask `is_defined`);
+    `defined[slot]` is 0 for a scalar nobody has assigned yet (array elements are always defined, and their
+    slots, from `SCALAR_SLOTS` on, have no place in it: ask `is_defined`);
     `random[0]` is the 48-bit state of `ran()`; `generation` counts how often all names were cleared.
     """
 
@@ -154,6 +154,12 @@ class Values:
         self._arrays = -(-(made.slot + made.slots) // _ALIGN) * _ALIGN
         self.names[name] = made
         return made
+
+    def room(self, count: int) -> int:
+        """Return the first of `count` new array slots without a name, filled with 0 (compiled code's own numbers)."""
+        slot = self.array("", (count,)).slot
+        del self.names[""]
+        return slot
 
     def zero(self, quantity: Quantity) -> None:
         """Fill with zeros (an array declared again)."""

@@ -1,9 +1,10 @@
 """Which derivatives depend on which states: the pattern of the Jacobian, found from the statements.
 
-What a vector depends on is kept as a few *bonds*, not element by element: a `diagonal` bond says that element i
-depends on state `first` + i, a `block` bond that every element depends on the states `first` … `last` − 1; both for
-lo ≤ i < hi. Elementwise operations keep bonds, shifts move them, products with matrices make blocks. So a heat
-equation over a million states has three bonds. The pattern may be larger than the truth, never smaller.
+What a vector depends on is kept as a few *bonds*, not element by element: a `diagonal` bond says that
+element i depends on state `first` + i, a `block` bond that every element depends on the states `first` …
+`last` − 1; both for lo ≤ i < hi. Elementwise operations keep bonds, shifts move them, products with
+matrices make blocks. So a heat equation over a million states has three bonds. The pattern may be larger
+than the truth, never smaller.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
 """Forward differentiation of a segment: statements that compute J·v for a direction v of the states.
 
 Every number that depends on the states gets a tangent beside it, every assignment one more that computes the
-tangent: first the tangent, from the old operands, then the number itself. The derivative statements give the tangents
-of the derivatives, so a back end compiles the result like any derivative pass and calls it once for each column
-(or group of columns, `integration.pattern`) of the Jacobian. Griewank and Walther, "Evaluating Derivatives", chapter 3.
+tangent: first the tangent, from the old operands, then the number itself. The derivative statements give
+the tangents of the derivatives, so a back end compiles the result like any derivative pass and calls it
+once for each column (or group of columns, `integration.pattern`) of the Jacobian. Griewank and Walther,
+"Evaluating Derivatives", chapter 3.
 """
 
 from __future__ import annotations
@@ -37,7 +38,8 @@ class Tangent:
 
 
 def differentiate(segment: Segment, room: Callable[[int], int]) -> Tangent:
-    """Differentiate a segment's derivative pass; `room(count)` gives the first of `count` fresh slots that are 0.
+    """Differentiate a segment's derivative pass; `room(count)` gives the first of `count` fresh slots that
+    are 0.
 
     NotDifferentiable: the pass draws random numbers, remembers, or uses a statement that has no derivative.
     """

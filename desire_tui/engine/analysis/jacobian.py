@@ -8,6 +8,7 @@ from desire_tui.engine.analysis.expressions import lower
 from desire_tui.engine.analysis.scope import UNKNOWN
 from desire_tui.engine.analysis.statements import assign
 from desire_tui.engine.analysis.subscripts import constant
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.lowered import Entry, Jacobian
 from desire_tui.engine.nodes import Assign, Element
 
@@ -16,6 +17,22 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.analysis.builder import Builder
     from desire_tui.engine.analysis.expansion import Line
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.values import Values
+
+
+def checked_array(segment: Segment, values: Values) -> int:
+    """Return the slot of a JACOBIAN segment's array. DesireError 230: it is not n by n."""
+    given, order = segment.jacobian, segment.order
+    assert given is not None
+    for quantity in values:
+        if quantity.slot == given.slot and len(quantity.shape) == 2:
+            if quantity.shape == (order, order):
+                return given.slot
+            shape = " by ".join(map(str, quantity.shape))
+            facts = {"name": quantity.name, "n": order, "shape": shape}
+            raise DesireError(Diagnostic("jacobian-shape", None, facts, segment.source))
+    raise DesireError(Diagnostic("jacobian-missing", None, {"n": order}, segment.source))
 
 
 def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:

@@ -1,9 +1,9 @@
 """Which statements a pass with given flags must execute (language.md 8.2).
 
-A pass is described by COMM (at a communication point) and STEP (at a step's start). What nobody can see is left
-out: a defined variable that no derivative, no persistent variable and no statement of this pass needs. Persistent
-assignments and random draws are never left out, so every back end changes the same numbers in the same passes.
-`Guard` remains for `if` and `sample` only; `out` and `step` are resolved.
+A pass is described by COMM (at a communication point) and STEP (at a step's start). What nobody can see is
+left out: a defined variable that no derivative, no persistent variable and no statement of this pass needs.
+Persistent assignments and random draws are never left out, so every back end changes the same numbers in
+the same passes. `Guard` remains for `if` and `sample` only; `out` and `step` are resolved.
 """
 
 from __future__ import annotations
@@ -43,11 +43,49 @@ def derivative_slice(segment: Segment) -> Actions:
 def tail_pass(segment: Segment) -> Actions:
     """COMM without STEP, after `term` fired between communication points.
 
-    The STEP pass has just been made with the same t and states. So only what it left out is caught up: pure defined
-    variables are computed, OUT code runs; unguarded persistent assignments, random draws, derivatives, `sample` and
-    `step` code are not repeated.
+    The STEP pass has just been made with the same t and states. So only what it left out is caught up: pure
+    defined variables are computed, OUT code runs; unguarded persistent assignments, random draws,
+    derivatives, `sample` and `step` code are not repeated.
     """
     return _tail(segment.body)
+
+
+def jacobian_pass(segment: Segment, stride: int) -> Actions:
+    """The JACOBIAN segment with the defined variables it uses; element (i, k) goes to `slot` + i·stride + k."""
+    given = segment.jacobian
+    assert given is not None
+    pure = _pure(_resolve(segment.body, comm=False, step=False))
+    where = segment.states[0].where
+    wanted = tuple(Deriv(number, entry.value, where) for number, entry in enumerate(given.entries))
+    helpers = needed(pure + given.body + wanted)[: -len(wanted) or None]
+    return helpers + tuple(
+        Set(given.slot + entry.row * stride + entry.column, entry.value, where) for entry in given.entries
+    )
+
+
+def acts_at_steps(segment: Segment) -> bool:
+    """Whether a pass at a step's start inside a communication interval does anything but compute derivatives."""
+    return not _is_pure(_resolve(segment.body, comm=False, step=True))
+
+
+def _is_pure(actions: Actions) -> bool:
+    return all(
+        _is_pure(a.body) and _is_pure(a.orelse)
+        if isinstance(a, Guard)
+        else isinstance(a, Deriv | DerivVec)
+        or (isinstance(a, Set | SetVec | SetMat | SetDot) and not a.persistent and not draws(a))
+        for a in actions
+    )
+
+
+def _pure(actions: Actions) -> Actions:
+    kept: list[Action] = []
+    for action in actions:
+        if isinstance(action, Guard):
+            kept.append(_with_bodies(action, _pure(action.body), _pure(action.orelse)))
+        elif not isinstance(action, Deriv | DerivVec) and _is_pure((action,)):
+            kept.append(action)
+    return tuple(kept)
 
 
 def _resolve(actions: Iterable[Action], *, comm: bool, step: bool) -> Actions:

@@ -21,9 +21,9 @@ class NotDifferentiable(Exception):  # noqa: N818 - the caller's cue to take dif
 class Tangents:
     """Tangent slots.
 
-    Memory is divided into regions: stretches that the segment's arrays and scalars overlap. A region is *active* if
-    it holds a state, or if a statement that reads an active region writes into it. States' tangents are the
-    direction v: `directions` and on, in the order of the states.
+    Memory is divided into regions: stretches that the segment's arrays and scalars overlap. A region is
+    *active* if it holds a state, or if a statement that reads an active region writes into it. States'
+    tangents are the direction v: `directions` and on, in the order of the states.
     """
 
     def __init__(

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 _MODELS_MOST = 32
+STIFF_RULES = range(9, 17)
 
 
 class NativeBackend:
@@ -43,8 +44,15 @@ class NativeBackend:
         if known is not None:
             self._models.move_to_end(key)
             return known[2]
-        made = NativeModel(self, segment, rule, values)
+        made = self._make(segment, rule, values)
         self._models[key] = (segment, values, made)  # the key's ids stay taken as long as these live
         while len(self._models) > _MODELS_MOST:
             self._models.popitem(last=False)
         return made
+
+    def _make(self, segment: Segment, rule: int, values: Values) -> Model:
+        if rule in STIFF_RULES and segment.order:
+            from desire_tui.engine.codegen.stiff import StiffModel
+
+            return StiffModel(self, segment, rule, values)
+        return NativeModel(self, segment, rule, values)

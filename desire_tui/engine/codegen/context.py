@@ -17,7 +17,8 @@ PASSES = ("derivative", "step", "full", "tail")
 class Context(ctypes.Structure):
     """One model's tables. A table of pieces is an array of function addresses that ends with 0.
 
-    The addresses in a table may be replaced at any moment by those of faster code that computes the same bits.
+    The addresses in a table may be replaced at any moment by those of faster code that computes the same
+    bits.
     """
 
     _fields_ = (
@@ -40,6 +41,8 @@ class Context(ctypes.Structure):
         ("k4", ctypes.c_uint64),
         ("columns", ctypes.c_uint64),  # int64 slot of each sampled column
         ("column_count", ctypes.c_int64),
+        ("interval", ctypes.c_uint64),  # rules 9 … 16: `stiff_interval` and its structure
+        ("problem", ctypes.c_uint64),
     )
 
 

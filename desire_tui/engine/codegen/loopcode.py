@@ -33,6 +33,12 @@ class Loops:
             piece = self._texts[key] = array_loop(rule, contiguous=contiguous)
         return self._store.fast(piece)
 
+    def stiff(self) -> Compiled:
+        """Return the loop of rules 9 … 16."""
+        from desire_tui.engine.codegen.stiff_loop import stiff_loop
+
+        return self._store.fast(stiff_loop())
+
 
 def array_loop(rule: int, *, contiguous: bool) -> Piece:
     """Write the loop over arrays."""
@@ -41,7 +47,7 @@ def array_loop(rule: int, *, contiguous: bool) -> Piece:
     stages = tableau.stages if tableau is not None else 1
     storage = ArrayStorage(text, stages, machine().width, contiguous=contiguous)
     Driver(text, storage, tableau, can_hurry=False).write()
-    return _named(text)
+    return named(text)
 
 
 def register_loop(
@@ -53,11 +59,12 @@ def register_loop(
     stages = tableau.stages if tableau is not None else 1
     storage = RegisterStorage(text, passes, states, columns, stages)
     Driver(text, storage, tableau, can_hurry=True).write()
-    return _named(text)
+    return named(text)
 
 
-def _named(text: Text) -> Piece:
+def named(text: Text) -> Piece:
+    """Make the loop's body a function, named by its content."""
     body = text.body()
     name = "r" + blake2b(body.encode(), digest_size=10).hexdigest()
-    function = f"define i32 @{name}(ptr noalias %m, ptr noalias %c) #0 {{\n{body}\n}}"
+    function = f"define i32 @{name}(ptr %m, ptr %c) #0 {{\n{body}\n}}"
     return Piece(name, function, frozenset(text.needs))

@@ -70,7 +70,7 @@ def _add_rhs(module: Any) -> None:
     f.store(f.get(problem, "values"), INT(T), t)
     scatter(f, problem, _numbers(f, y))
     f.add(problem, "derivative_calls", INT(1))
-    f.call(f.get(problem, "derivatives"), VOID, [f.get(problem, "memory"), k])
+    f.call(f.get(problem, "derivatives"), INT, [f.get(problem, "memory"), k])
     n = f.get(problem, "n")
     with f.build.if_then(_all_finite(f, k, n), likely=True):
         f.build.ret(INT32(0))
@@ -164,7 +164,7 @@ def _fill_by_tangent(f: Function, problem: Any, data: Any, column: Any) -> None:
     with f.loop(INT(0), f.get(problem, "colours")) as colour:
         with _slice(f, problem, "seed_starts", colour) as i:
             f.store(directions, f.load(seeds, i, INT32), REAL(1.0))
-        f.call(f.get(problem, "tangent"), VOID, [f.get(problem, "memory"), column])
+        f.call(f.get(problem, "tangent"), INT, [f.get(problem, "memory"), column])
         with _slice(f, problem, "seed_starts", colour) as i:
             f.store(directions, f.load(seeds, i, INT32), REAL(0.0))
         with _slice(f, problem, "entry_starts", colour) as i:
@@ -190,7 +190,7 @@ def _fill_by_differences(
             f.store(moved, state, to)
         scatter(f, problem, moved)
         f.add(problem, "derivative_calls", INT(1))
-        f.call(f.get(problem, "derivatives"), VOID, [f.get(problem, "memory"), column])
+        f.call(f.get(problem, "derivatives"), INT, [f.get(problem, "memory"), column])
         with _slice(f, problem, "seed_starts", colour) as i:
             state = f.load(seeds, i, INT32)
             f.store(moved, state, f.load(y, state))
@@ -202,7 +202,7 @@ def _fill_by_differences(
 
 
 def _fill_by_program(f: Function, problem: Any, data: Any) -> None:
-    f.call(f.get(problem, "jacobian"), VOID, [f.get(problem, "memory")])
+    f.call(f.get(problem, "jacobian"), INT, [f.get(problem, "memory"), data])
     array, sources, places = (f.get(problem, name) for name in ("array", "sources", "places"))
     with _slice(f, problem, "entry_starts", INT(0)) as i:
         f.store(data, f.load(places, i, INT32), f.load(array, f.load(sources, i, INT32)))

@@ -30,7 +30,7 @@ def add_interval(module: Any) -> None:
 
 
 def _add_gather(module: Any) -> None:
-    """The states' values → CVODE's vector."""
+    """Copy the states' values to CVODE's vector."""
     f = Function(module, "desire_gather", VOID, [POINTER])
     (problem,) = f.arguments
     values, ranges, states = (f.get(problem, name) for name in ("values", "ranges", "states"))
@@ -97,9 +97,9 @@ def _add_interval(module: Any) -> None:
     build.position_at_end(start)  # pass(-, STEP) at a step's start
     build.cbranch(build.icmp_unsigned("==", build.ptrtoint(step, INT), INT(0)), go, again)
     build.position_at_end(again)
-    fired = f.call(step, INT32, [memory])
-    with build.if_then(build.icmp_signed("!=", fired, INT32(0)), likely=False):
-        f.put(memory, "which", build.sext(build.sub(fired, INT32(1)), INT), RunMemory)
+    fired = f.call(step, INT, [memory, states])
+    with build.if_then(build.icmp_signed("!=", fired, INT(0)), likely=False):
+        f.put(memory, "which", build.sub(fired, INT(1)), RunMemory)
         build.ret(INT32(Ended.TERM.value))
     f.outside("desire_sync", INT32, [problem])
     f.outside("CVodeSetStopTime", INT32, [solver, t_next])

@@ -78,25 +78,17 @@ class StiffSystem:
         self.largest, self.last, own, spare = self._buffers
         problem.values = values
         problem.n, problem.range_count, problem.ranges = n, len(self._ranges), self._ranges.ctypes.data
-        problem.states = own.ctypes.data  # not the values themselves: CVODE works in it while callbacks
-        write
-        those
-        problem.last, problem.largest, problem.spare = (a.ctypes.data for a in (self.last, self.largest,
-        spare))
+        problem.states = own.ctypes.data  # not the values: CVODE works in it while callbacks write those
+        problem.last, problem.largest, problem.spare = (
+            a.ctypes.data for a in (self.last, self.largest, spare)
+        )
         problem.derivatives, problem.tangent = functions.derivatives, functions.tangent
-        problem.jacobian, problem.step = functions.jacobian,
-        functions.step
+        problem.jacobian, problem.step = functions.jacobian, functions.step
         problem.directions, problem.array = values + 8 * directions, values + 8 * array
         self._connect_matrix()
         linear = plan.linear
-        if
-        plan.method
-        is
-        not
-        Matrix.NONE:
-            linear
-            =
-            replace(linear, jacobian=natives.jacobian)
+        if plan.method is not Matrix.NONE:
+            linear = replace(linear, jacobian=natives.jacobian)
         callbacks = Callbacks(natives.rhs, natives.weights, ctypes.addressof(problem))
         self.solver = Solver(rule, n, problem.states, callbacks, linear)
         problem.solver, problem.vector = self.solver.memory, self.solver.vector
@@ -120,9 +112,8 @@ class StiffSystem:
         problem.memory = ctypes.addressof(memory)  # type: ignore[arg-type]
         problem.tolerance = memory.error_max
         problem.first_step = first_step
-        problem.started = problem.failed = problem.jacobian_calls = problem.derivative_calls
-        =
-        problem.restarts = 0
+        problem.started = problem.failed = problem.restarts = 0
+        problem.jacobian_calls = problem.derivative_calls = 0
         problem.suspect = -1
         self.largest[:] = 0.0
         self.solver.limit(memory.dt_max)

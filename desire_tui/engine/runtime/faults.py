@@ -37,7 +37,7 @@ def fault(ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values:
         }  # fmt: skip
         return _placed("variable-step-deadlock", facts, segment, where)
     if ended is Ended.SOLVER:
-        name, where = state_name(segment, 0)
+        name, where = state_name(segment, int(memory.suspect))
         facts = {"t": t, "dt": cells[DT], "rule": plan.rule, "state": name, "flag": which}
         return _placed(_SOLVER_KEYS.get(which, "solver-broken"), facts, segment, where)
     if which >= 0:

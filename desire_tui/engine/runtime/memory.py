@@ -1,8 +1,9 @@
 """What a run knows between two native calls: one C structure that both back ends read and write.
 
-A back end's `advance(memory)` runs language.md 8.2 from where `memory` stands until `row_limit` rows of samples are
-written, `stop` is set, the run ends, or a fault shows. Everything it needs to go on later is here or in the values
-(states, t, DT, hold variables), so that one back end may take over from another at any return.
+A back end's `advance(memory)` runs language.md 8.2 from where `memory` stands until `row_limit` rows of
+samples are written, `stop` is set, the run ends, or a fault shows. Everything it needs to go on later is
+here or in the values (states, t, DT, hold variables), so that one back end may take over from another at
+any return.
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ class Phase(IntEnum):
     """Inside a communication interval at a step's start: pass(-, STEP) comes next."""
     ENDED = 2
     AFTER_POINT = 3
-    """Behind a communication point whose row filled the rows: the first step of the interval comes next. The values
-    are as sampled; k1 is kept by the back end that ran the pass, which must also be the one to go on."""
+    """Behind a communication point whose row filled the rows: the first step of the interval comes next.
+    The values are as sampled; k1 is kept by the back end that ran the pass, which must also be the one to
+    go on."""
 
 
 class Ended(IntEnum):
@@ -80,5 +82,5 @@ class RunMemory(ctypes.Structure):
         ("phase", ctypes.c_int32),
         ("stop", ctypes.c_int32),  # polled at every step; set from another thread
         ("order", ctypes.c_int32),  # last order of a variable-order rule
-        ("spare", ctypes.c_int32),
+        ("suspect", ctypes.c_int32),  # SOLVER: number of the state that it is about
     )

@@ -1,0 +1,145 @@
+"""A segment as native code under a rule 9 … 16: passes compiled here, steps made by CVODE, no Python between."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.analysis.dependence import dependence
+from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.analysis.jacobian import checked_array
+from desire_tui.engine.analysis.slices import acts_at_steps, jacobian_pass
+from desire_tui.engine.codegen.context import PASSES, Context
+from desire_tui.engine.codegen.natives import PassFunctions
+from desire_tui.engine.codegen.model import passes_of
+from desire_tui.engine.codegen.stiff_library import stiff_functions
+from desire_tui.engine.codegen.tables import Tables
+from desire_tui.engine.integration.pattern import Pattern
+from desire_tui.engine.integration.plan import kind_of, plan
+from desire_tui.engine.integration.system import Functions, Natives, StiffSystem
+from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
+from desire_tui.engine.values import DT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from desire_tui.engine.codegen.backend import NativeBackend
+    from desire_tui.engine.integration.plan import Plan
+    from desire_tui.engine.lowered import Action, Segment
+    from desire_tui.engine.values import Values
+
+_RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
+
+
+class StiffModel:
+    """Implements `runtime.backend.Model`. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
+
+    def __init__(self, backend: NativeBackend, segment: Segment, rule: int, values: Values) -> None:
+        self._values = values
+        passes = passes_of(segment)
+        extra, directions, array = _jacobian_passes(segment, rule, values)
+        self._array = array
+        natives = stiff_functions()
+        inner = {"derivative": passes["derivative"]} | extra
+        if acts_at_steps(segment):
+            inner["step"] = passes["step"]
+        own = frozenset({"step", "jacobian"})
+        self._functions = functions = PassFunctions(backend.store, values, segment.order, inner, own)
+        addresses = {name: functions.address(name) for name in inner}
+        if "derivative" in addresses:
+            addresses["derivatives"] = addresses.pop("derivative")
+        self.system = StiffSystem(
+            rule,
+            _plan(segment, rule, extra),
+            values.address,
+            [(s.slot, s.first, s.count) for s in segment.states],
+            Functions(**addresses),
+            Natives(natives.rhs, natives.weights, natives.jacobian),
+            directions=directions,
+            array=array,
+        )
+        self._tables = Tables(backend.store, passes)
+        self._fill_context(segment, natives.interval)
+        self._loop = backend.loops.stiff()
+        self._run = _RUN(self._loop.address)
+        backend.improver.add(self)
+        backend.improver.add(functions)
+
+    def _fill_context(self, segment: Segment, interval: int) -> None:
+        order = segment.order
+        self._slots = np.concatenate([np.arange(s.slot, s.slot + s.count) for s in segment.states]).astype(np.int64)
+        self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
+        self._temps, self._k1 = np.zeros(self._tables.temps), np.zeros(order)
+        self.context = context = Context(values=self._values.address, states=order)
+        for kind in PASSES:
+            setattr(context, kind, self._tables.addresses[kind])
+        context.temps, context.k1 = self._temps.ctypes.data, self._k1.ctypes.data
+        context.x0 = self._k1.ctypes.data  # saved by the loop, never used: k1 is not either
+        context.state_slots = self._slots.ctypes.data
+        context.columns, context.column_count = self._columns.ctypes.data, self._columns.size
+        context.interval = interval
+        context.problem = ctypes.addressof(self.system.problem)
+
+    def improve(self) -> Iterator[None]:
+        """Compile fast code (`background.Improvable`)."""
+        return self._tables.improve()
+
+    def advance(self, memory: RunMemory) -> Ended:
+        """Run on (`runtime.memory`)."""
+        system = self.system
+        if memory.phase == Phase.AT_POINT and memory.point == 0:
+            system.begin(memory, self._values.cells[DT])
+            self._clear_array()
+        system.problem.memory = self.context.memory = ctypes.addressof(memory)
+        ended = Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
+        system.report(memory)
+        if ended is Ended.SOLVER:
+            memory.suspect = system.suspect()
+        elif ended is Ended.NOT_FINITE:
+            memory.which = self._first_wild()
+        return ended
+
+    def _clear_array(self) -> None:
+        """Elements of J that JACOBIAN does not assign are 0, whatever the script left there."""
+        if self._array:
+            self._values.data[self._array : self._array + self.system.n**2] = 0.0
+
+    def _first_wild(self) -> int:
+        data = self._values.data
+        for number, slots in enumerate((self._slots, self._columns)):
+            wild = np.flatnonzero(~np.isfinite(data[slots]))
+            if wild.size:
+                return int(wild[0]) if number == 0 else -1 - int(wild[0])
+        return 0
+
+
+def _jacobian_passes(
+    segment: Segment, rule: int, values: Values
+) -> tuple[dict[str, tuple[Action, ...]], int, int]:
+    """Return the pass that a rule with a Jacobian needs, and the slots of the directions and of the array."""
+    if kind_of(rule) != "jacobian":
+        return {}, 0, 0
+    if segment.jacobian is not None:
+        slot = checked_array(segment, values)
+        return {"jacobian": jacobian_pass(segment, segment.order)}, 0, slot
+    try:
+        tangent = differentiate(segment, values.room)
+    except NotDifferentiable:
+        return {}, 0, 0
+    return {"tangent": tangent.body}, tangent.directions, 0
+
+
+def _plan(segment: Segment, rule: int, extra: Mapping[str, object]) -> Plan:
+    order = segment.order
+    if kind_of(rule) in {"fixed-point", "diagonal"}:
+        pattern = Pattern.of(order, np.zeros(0, np.int32), np.zeros(0, np.int32))
+    elif "jacobian" in extra:
+        assert segment.jacobian is not None
+        rows, columns = ([getattr(e, side) for e in segment.jacobian.entries] for side in ("row", "column"))
+        pattern = Pattern.of(order, np.array(rows, np.int32), np.array(columns, np.int32))
+    else:
+        pattern = Pattern.of(order, *dependence(segment))
+    return plan(rule, pattern, program="jacobian" in extra, tangent="tangent" in extra)
+

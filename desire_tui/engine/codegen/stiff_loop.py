@@ -1,0 +1,50 @@
+"""The run loop of rules 9 … 16: language.md 8.2 as `driver` writes it, its step a whole communication interval."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.arrays import ArrayStorage
+from desire_tui.engine.codegen.driver import Driver
+from desire_tui.engine.codegen.loopcode import named
+from desire_tui.engine.codegen.text import Text
+from desire_tui.engine.integration import TABLEAUS
+from desire_tui.engine.runtime.memory import Ended, Phase
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.pieces import Piece
+    from desire_tui.engine.integration.tableaus import Tableau
+
+
+class StiffDriver(Driver):
+    """Calls `desire_interval` where other rules make a step; step passes inside the interval are its business."""
+
+    def _step(self, tableau: Tableau) -> None:  # noqa: ARG002 - CVODE has its own coefficients
+        text = self.text
+        text.begin("step")
+        call = f"call i32 {self.context.load('interval')}("
+        ended = text.op(
+            f"{call}ptr {self.context.load('problem')}, ptr %m, double {self.get('t_next')}, i32 1)"
+        )
+        others = (Ended.STOPPED, Ended.TERM, Ended.SOLVER)
+        cases = " ".join(f"i32 {int(e)}, label %interval.{e.name.lower()}" for e in others)
+        text.do(f"switch i32 {ended}, label %interval.done [ {cases} ]")
+        for name, reached, stop in (("done", 1, 0), ("stopped", 0, 1)):
+            text.begin(f"interval.{name}")
+            self.put("reached", str(reached))
+            self.put("stop", str(stop))
+            text.jump("attend")
+        text.begin("interval.term")
+        self.context.store("term", self.memory.load("which"))
+        text.jump("tail")
+        text.begin("interval.solver")
+        self.leave(Ended.SOLVER, Phase.ENDED)
+
+
+def stiff_loop() -> Piece:
+    """Write the loop; it is the same for all models and all eight rules."""
+    text = Text()
+    tableau = TABLEAUS[2]  # one stage: what the loop wants to know is only that there are steps of constant rule
+    storage = ArrayStorage(text, 1, 1, contiguous=False)
+    StiffDriver(text, storage, tableau, can_hurry=False).write()
+    return named(text)
