@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 
 
-def peak(x: np.ndarray) -> float:
-    """Return the maximum between equidistant samples: the top of a quartic through the five around the largest."""
+def peak(x: np.ndarray, t: np.ndarray) -> float:
+    """Return the maximum between samples: the top of a quartic through the five around the largest."""
     k = int(np.argmax(x))
     assert 2 <= k <= len(x) - 3, "the largest sample stands at the border"
-    quartic = np.polynomial.Polynomial.fit(np.arange(-2, 3), x[k - 2 : k + 3], 4)
-    return float(quartic(np.linspace(-1, 1, 20001)).max())
+    quartic = np.polynomial.Polynomial.fit(t[k - 2 : k + 3] - t[k], x[k - 2 : k + 3], 4)
+    return float(quartic(np.linspace(t[k - 1] - t[k], t[k + 1] - t[k], 20001)).max())
 
 
 FUNCTIONS = {
@@ -27,7 +27,6 @@ FUNCTIONS = {
     "last": lambda x: float(x[-1]),
     "nth": lambda x, k: float(x[k - 1]),
     "list": lambda *x: np.array(x[0] if len(x) == 1 else x, dtype=float),
-    "peak": peak,
     "changes": lambda x: int(np.count_nonzero(np.diff(x))),
     "max": np.max, "min": np.min, "sum": np.sum, "mean": np.mean, "argmin": np.argmin, "argmax": np.argmax,
     "diff": np.diff, "abs": np.abs, "sqrt": np.sqrt, "exp": np.exp, "sin": np.sin, "cos": np.cos, "log": np.log,
@@ -81,6 +80,7 @@ class Names(dict[str, object]):
             self[column.name] = run.values(column.name)
         t = run.t
         self.update(t=t, scale=run.scale, ended=run.ended, count=len(t))
+        self["peak"] = lambda x: peak(x, t)
         self["at"] = lambda x, when: float(np.interp(when, t, x))
 
 
@@ -136,7 +136,7 @@ def disagreements(native: Outcome, reference: Outcome, expected: Expectations) -
         if a.count != b.count or a.ended != b.ended:
             wrong.append(f"run {number}: {a.count} samples, {a.ended}; reference {b.count}, {b.ended}")
             continue
-        for k, name in enumerate(["t", *(column.name for column in a.columns)]):
+        for k, name in enumerate(["t", *(column.name for column in a.columns)] if a.count else []):
             worst = difference(a.rows[: a.count, k], b.rows[: b.count, k])
             if not worst <= expected.compare:
                 wrong.append(f"run {number}: {name} differs by {worst:.3g}")
