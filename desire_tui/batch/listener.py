@@ -18,17 +18,23 @@ CONSOLE_CHARACTERS_MAX = 100_000_000
 
 
 class BatchListener(Listener):
-    """Passes console text to `show` as it comes and keeps it; reads answers line by line."""
+    """Passes console text to `show` as it comes and keeps it; reads answers line by line.
+
+    `echo` writes each answer behind its question, as a terminal does.
+    """
 
     def __init__(
         self,
         show: Callable[[str], None],
         answers: Iterator[str],
         show_problems: Callable[[Sequence[Diagnostic]], None],
+        *,
+        echo: bool = True,
     ) -> None:
         self._show = show
         self._answers = answers
         self._show_problems = show_problems
+        self._echo = echo
         self._parts: list[str] = []
         self._size = 0
         self.warnings: list[Diagnostic] = []
@@ -59,7 +65,10 @@ class BatchListener(Listener):
             raise Interrupted from None
         finally:
             self.reading.clear()
-        return line.rstrip("\r\n")
+        line = line.rstrip("\r\n")
+        if self._echo:
+            self.console_text(line + "\n")
+        return line
 
     def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Show warnings as they come."""

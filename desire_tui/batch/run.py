@@ -58,7 +58,13 @@ def run_file(name: str, orders: Orders, wanted: Wanted, answers: str | None, *, 
         complain(error.diagnostics)
         return USAGE
     console = _Console(sys.stderr if wanted.takes_stdout else sys.stdout, quiet=quiet)
-    listener = BatchListener(console.write, lines, lambda problems: (console.settle(), complain(problems)))
+
+    def show_problems(problems: Sequence[Diagnostic]) -> None:
+        console.settle()
+        complain(problems)
+
+    echo = answers is not None or not sys.stdin.isatty()
+    listener = BatchListener(console.write, lines, show_problems, echo=echo)
     work = Work(source, orders, listener)
     if sys.stderr.isatty() and not quiet:
         console.progress = Progress(work.session, sys.stderr)

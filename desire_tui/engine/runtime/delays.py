@@ -33,13 +33,28 @@ _OPERATIONS: dict[str, Callable[..., float]] = {
 }
 
 
-def lags(segment: Segment, plan: Plan, values: Values) -> dict[int, int]:
-    """Return the lag of each delay line by its counter. DesireError 105: buffer too short; 122: DT not constant."""
+class Delays:
+    """The delay lines of segments, looked for once."""
+
+    def __init__(self) -> None:
+        self._found: dict[int, tuple[Segment, tuple[DelayLine, ...], bool]] = {}
+
+    def lags(self, segment: Segment, plan: Plan, values: Values) -> dict[int, int]:
+        """Return the lag of each delay line by its counter. DesireError 105: buffer too short; 122: DT varies."""
+        known = self._found.get(id(segment))
+        if known is None or known[0] is not segment:
+            lines = tuple(a for a in actions(segment.body) if isinstance(a, DelayLine))
+            changes_dt = any(isinstance(a, Set) and a.slot == DT for a in actions(segment.body))
+            known = self._found[id(segment)] = (segment, lines, changes_dt)
+        _, lines, changes_dt = known
+        return _lags(segment, lines, changes_dt, plan, values) if lines else {}
+
+
+def _lags(
+    segment: Segment, lines: tuple[DelayLine, ...], changes_dt: bool, plan: Plan, values: Values
+) -> dict[int, int]:
     found: dict[int, int] = {}
-    changes_dt = any(isinstance(a, Set) and a.slot == DT for a in actions(segment.body))
-    for line in actions(segment.body):
-        if not isinstance(line, DelayLine):
-            continue
+    for line in lines:
         if line.per_step and (changes_dt or plan.rule in VARIABLE_STEP | VARIABLE_ORDER):
             raise _error("delay-variable-step", segment, line, rule=plan.rule)
         per_step = line.per_step and plan.rule != DUMMY

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.runtime.delays import lags
+from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.runtime.faults import fault
 from desire_tui.engine.runtime.history import History
 from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
@@ -55,6 +55,7 @@ class Simulator:
         self._values = values
         self._control = control
         self._ticker = Ticker(control)
+        self._delays = Delays()
         self.memory: RunMemory | None = None
         """The run's memory while one goes on."""
         self._began = 0.0
@@ -75,7 +76,7 @@ class Simulator:
         began = self._began = perf_counter()
         positions = self.history.begin(segment)
         lag = np.zeros(max(segment.counters, 1), dtype=np.int64)
-        for counter, records in lags(segment, plan, self._values).items():
+        for counter, records in self._delays.lags(segment, plan, self._values).items():
             lag[counter] = records
         memory = self._set_up(segment, plan, positions, lag)
         record.rows = _rows(plan, record)

@@ -30,7 +30,8 @@ def compare_rules(session: Session, world: World, desk: Desk, rule: int) -> str:
         world.reset()
         program, script = desk.runnable()
         segment = desk.segments.lowered(program, script, last.segment, rule)
-        segment = desk.segments.recovering(segment, desk.stash_path)
+        if segment.recover:
+            segment = desk.segments.recovering(segment, desk.stash_path)
         plan = world.simulator.defaults.plan(segment, rule, desk.source, None)
         record = RunRecord(
             number=0, segment=last.segment, line=0, requests=segment.requests, columns=segment.columns,

@@ -77,9 +77,7 @@ class Segments:
         return self.backend.model(segment, rule, self._values)
 
     def recovering(self, segment: Segment, stash: Path) -> Segment:
-        """Return a segment whose `recover` line reads the stash file: itself where it has none."""
-        if not segment.recover:
-            return segment
+        """Return a segment with a `recover` line as one that reads the stash file as it is now."""
         histories = read_stash(stash, segment.recover, segment)
         known = self._histories.get(segment.label)
         if known is None or known[2] != len(histories):

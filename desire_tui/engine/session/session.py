@@ -239,8 +239,7 @@ class Session:
         self._clear()
         self.values.assign(SCALE, scale)
         self._stopped, self._edited = None, False
-        self._world.runs.clear()
-        self._world.runs_made = 0
+        self._world.forget_runs()
         tracing = self._interpreter is not None and self._interpreter.stepping
         self._interpreter = None
         self._desk.journal.program(program.source)

@@ -50,6 +50,7 @@ class World:
         self.state = State.IDLE
         self.runs: list[RunRecord] = []
         self.runs_made = 0
+        self._runs_bytes = 0  # of all but the newest
         self.stop_here: Callable[[], None] = _nothing
         self.step_allowed = False
         """The traced script may carry out the statement it stands at (`go` was given)."""
@@ -73,7 +74,8 @@ class World:
             segment = desk.segments.lowered(program, structure, label, self.rule)
         except DesireError as error:
             raise _placed_at(error, desk, placed) from None
-        segment = desk.segments.recovering(segment, desk.stash_path)
+        if segment.recover:
+            segment = desk.segments.recovering(segment, desk.stash_path)
         plan = self.simulator.defaults.plan(segment, self.rule, desk.source_of(placed), placed.span())
         model = desk.segments.model(segment, plan.rule)
         self.runs_made += 1
@@ -108,13 +110,16 @@ class World:
         write_stash(self._desk.stash_path, record.rows[: record.count, first:])
 
     def _keep(self, record: RunRecord) -> None:
+        if self.runs:
+            self._runs_bytes += self.runs[-1].rows.nbytes
         self.runs.append(record)
-        total = 0
-        for place in range(len(self.runs) - 1, -1, -1):
-            total += self.runs[place].rows.nbytes
-            if total > RUNS_BYTES_MAX:
-                del self.runs[: place + 1]
-                break
+        while self._runs_bytes > RUNS_BYTES_MAX:
+            self._runs_bytes -= self.runs.pop(0).rows.nbytes
+
+    def forget_runs(self) -> None:
+        """A program starts: its runs count from 1."""
+        self.runs.clear()
+        self.runs_made = self._runs_bytes = 0
 
     def reset(self) -> None:
         """Restore t, DT and states to the start of the last run."""

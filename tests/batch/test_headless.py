@@ -1,0 +1,337 @@
+"""`desire run` as a process: streams, files, exit statuses (desktop.md, Headless)."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from time import monotonic, sleep
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+DECAY = """TMAX = 1 | DT = 0.1 | NN = 11 | x = 1 | a = 1
+drun
+write "done, x = "; x
+DYNAMIC
+d/dt x = -a*x
+dispt x
+"""
+
+
+def desire(*args, cwd=None, text_in="", timeout=60):
+    """Run the command; returns status, stdout, stderr."""
+    done = subprocess.run(
+        [sys.executable, "-m", "desire_tui", *map(str, args)], cwd=cwd, input=text_in, capture_output=True,
+        text=True, timeout=timeout, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert "Traceback" not in done.stderr, done.stderr
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.fixture
+def decay(tmp_path):
+    path = tmp_path / "decay.src"
+    path.write_text(DECAY)
+    return path
+
+
+def test_console_text_to_stdout_and_nothing_else(decay):
+    status, out, err = desire("run", decay)
+    assert (status, err) == (0, "")
+    assert out.startswith("done, x = 0.3685")
+
+
+def test_quiet(decay):
+    assert desire("run", decay, "--quiet") == (0, "", "")
+
+
+def test_problems_to_stderr_and_status_1(tmp_path):
+    path = tmp_path / "wrong.src"
+    path.write_text("TMAX = 1\nwrite 'before'\ndrun\nDYNAMIC\nd/dt x = -aa*x\ndispt x\n")
+    status, out, err = desire("run", path)
+    assert status == 1
+    assert out == "before\n"
+    assert err.startswith(f"{path}:5:11: error 200: ")
+    assert "^^" in err
+
+
+def test_all_files_at_once(decay, tmp_path):
+    status, _, _ = desire(
+        "run", decay, "--png", tmp_path / "g.png", "--svg", tmp_path / "g.svg", "--pdf", tmp_path / "g.pdf",
+        "--csv", tmp_path / "g.csv", "--json", tmp_path / "g.json",
+    )  # fmt: skip
+    assert status == 0
+    assert (tmp_path / "g.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert (tmp_path / "g.pdf").read_bytes()[:5] == b"%PDF-"
+    assert "<svg" in (tmp_path / "g.svg").read_text()
+    rows = (tmp_path / "g.csv").read_text().split("\n")
+    assert rows[0] == "run,t,x"
+    assert rows[1] == "1,0.0,1.0"
+    assert len(rows) == 13  # header, eleven samples, the end of the last line
+    last = rows[11].split(",")
+    assert float(last[1]) == pytest.approx(1.0)
+    assert float(last[2]) == pytest.approx(0.3685409848, abs=1e-9)  # rule 1, ten steps: models.md 1.2.5
+
+
+def test_json_layout(decay, tmp_path):
+    desire("run", decay, "--json", tmp_path / "g.json")
+    data = json.loads((tmp_path / "g.json").read_text())
+    assert list(data) == ["desire", "program", "status", "problems", "console", "runs", "plots", "quantities", "timings"]
+    assert (data["status"], data["problems"], data["plots"]) == ("done", [], [])
+    assert data["program"] == str(decay)
+    (run,) = data["runs"]
+    assert list(run) == [
+        "segment", "line", "request", "overlay", "rule", "scale", "t0", "tmax", "nn", "dt", "t", "curves", "ended",
+        "end_time", "steps", "rejected", "derivative_calls", "seconds",
+    ]  # fmt: skip
+    assert (run["segment"], run["line"], run["request"], run["overlay"]) == (None, 2, "dispt", False)
+    assert (run["rule"], run["nn"], run["dt"], run["ended"], run["steps"]) == (1, 11, 0.1, "tmax", 10)
+    (curve,) = run["curves"]
+    assert (curve["name"], curve["x"], len(curve["values"])) == ("x", None, 11)
+    assert data["quantities"]["a"] == 1.0
+    assert set(data["timings"]) == {"parse_s", "compile_s", "run_s"}
+    assert data["console"].startswith("done, x = 0.3685")
+
+
+def test_json_of_everything_odd(tmp_path):
+    path = tmp_path / "odd.src"
+    path.write_text(
+        "COMPLEX z | z = [3, 4]\nARRAY A[2,2] | A[1,2] = 7\nNN = 3 | y = 1.0E+200 | big = 1/1.0E-300*1.0E-5\n"
+        "drun\nDYNAMIC\nx = t | w = 2*t | v = 1.0E+300*10\ndispxy x, w, v\n"
+    )
+    status, _, err = desire("run", path, "--json", "-")
+    assert (status, err) == (0, "")
+    _, out, _ = desire("run", path, "--json", "-")
+    data = json.loads(out)
+    assert data["quantities"]["z"] == [3.0, 4.0]
+    assert data["quantities"]["A"] == [[0.0, 7.0], [0.0, 0.0]]
+    assert [(c["name"], c["x"]) for c in data["runs"][0]["curves"]] == [("x", None), ("w", "x"), ("v", "x")]
+
+
+def test_json_of_problems_has_places(tmp_path):
+    path = tmp_path / "wrong.src"
+    path.write_text("TMAX = 1\ny = 1 + xdto\n")
+    status, out, _ = desire("run", path, "--json", "-")
+    assert status == 1
+    data = json.loads(out)
+    assert data["status"] == "failed"
+    (problem,) = data["problems"]
+    assert list(problem) == ["code", "severity", "message", "file", "line", "column", "end_line", "end_column", "hint"]
+    assert (problem["code"], problem["line"], problem["column"], problem["end_column"]) == (200, 2, 9, 13)
+
+
+def test_inf_in_a_curve_is_a_string():
+    from desire_tui.engine.outputs.results import Result
+    from desire_tui.engine.outputs.tables import as_json
+
+    result = Result("0", "p", quantities={"a": float("inf"), "b": float("nan"), "c": -float("inf")})
+    assert json.loads(as_json(result))["quantities"] == {"a": "inf", "b": "nan", "c": "-inf"}
+
+
+def test_several_graphs_are_numbered(tmp_path):
+    path = tmp_path / "two.src"
+    path.write_text("TMAX = 1 | drunr | drunr\nDYNAMIC\nd/dt x = 1\ndispt x\n")
+    assert desire("run", path, "--svg", tmp_path / "g.svg")[0] == 0
+    assert sorted(p.name for p in tmp_path.glob("*.svg")) == ["g-1.svg", "g-2.svg"]
+
+
+def test_picture_without_a_graph(tmp_path):
+    path = tmp_path / "none.src"
+    path.write_text("x = 1\n")
+    status, _, err = desire("run", path, "--png", tmp_path / "g.png")
+    assert status == 1
+    assert "error 471" in err
+
+
+def test_plot_is_text_with_frame_and_caption(decay):
+    status, out, _ = desire("run", decay, "--plot", "--quiet")
+    assert status == 0
+    assert "scale = 1" in out
+    assert "x vs. t" in out
+    assert any(0x2800 < ord(c) <= 0x28FF for c in out)
+    assert max(len(line) for line in out.split("\n")) <= 80
+    assert "\x1b" not in out  # no colours into a file
+
+
+def test_set_overrides_the_script(decay):
+    _, out, _ = desire("run", decay, "--set", "a=0", "--set", "x = 2.5E0")
+    assert out == "done, x = 2.5\n"
+
+
+@pytest.mark.parametrize("setting", ["a", "a=b", "=3", "3=4", "a[1]=2"])
+def test_wrong_settings_are_wrong_usage(decay, setting):
+    status, out, err = desire("run", decay, "--set", setting)
+    assert (status, out) == (2, "")
+    assert "NAME=NUMBER" in err
+
+
+def test_stop_ends_unless_go(tmp_path):
+    path = tmp_path / "stop.src"
+    path.write_text("write 1\nSTOP\nwrite 2\nSTOP\nwrite 3\n")
+    status, out, err = desire("run", path)
+    assert (status, out) == (0, "1\n")
+    assert "stopped at STOP" in err
+    assert desire("run", path, "--go") == (0, "1\n2\n3\n", "")
+
+
+def test_input_from_standard_input_and_from_a_file(tmp_path):
+    path = tmp_path / "ask.src"
+    path.write_text("input x, y\nwrite x + y\n")
+    status, out, _ = desire("run", path, text_in="2\n3*4\n")
+    assert status == 0
+    assert out == "x ? 2\ny ? 3*4\n14\n"
+    (tmp_path / "answers").write_text("1, 2\n")
+    assert desire("run", path, "--input", tmp_path / "answers")[1].endswith("3\n")
+
+
+def test_no_more_input_is_a_message(tmp_path):
+    path = tmp_path / "ask.src"
+    path.write_text("input x\n")
+    status, _, err = desire("run", path)
+    assert status == 1
+    assert f"{path}:1:1: error 18: there is no more input" in err
+
+
+def test_timeout_is_status_3(tmp_path):
+    path = tmp_path / "long.src"
+    path.write_text("TMAX = 1.0E+09 | DT = 0.001 | drun\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n")
+    began = monotonic()
+    status, _, err = desire("run", path, "--timeout", "1", "--json", tmp_path / "g.json")
+    assert status == 3
+    assert monotonic() - began < 20
+    assert "stopped after 1 seconds" in err
+    data = json.loads((tmp_path / "g.json").read_text())
+    assert data["status"] == "limit"
+    assert data["runs"][0]["ended"] == "stopped"
+    assert len(data["runs"][0]["t"]) >= 1
+
+
+def test_ctrl_c_ends_with_status_3(tmp_path):
+    path = tmp_path / "long.src"
+    path.write_text("write 'started'\nTMAX = 1.0E+09 | DT = 0.001 | drun\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "desire_tui", "run", str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert process.stdout.readline() == "started\n"
+    sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == 3
+    assert "stopped by the user" in err
+    assert "Traceback" not in err
+
+
+def test_ctrl_c_while_waiting_for_input(tmp_path):
+    path = tmp_path / "ask.src"
+    path.write_text("write 'started'\ninput x\n")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "desire_tui", "run", str(path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert process.stdout.readline() == "started\n"
+    sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=20) == 3
+    assert "Traceback" not in process.stderr.read()
+
+
+@pytest.mark.parametrize("what", ["missing", "folder", "binary", "unreadable"])
+def test_files_that_are_no_programs(tmp_path, what):
+    path = tmp_path / "p.src"
+    if what == "folder":
+        path.mkdir()
+    elif what == "binary":
+        path.write_bytes(b"\x7fELF\x00\x01")
+    elif what == "unreadable":
+        path.symlink_to(path)  # a loop, so that root meets an error too
+    for command in ("run", "check"):
+        status, out, err = desire(command, path)
+        assert (status, out) == (2, "")
+        assert "error 38" in err
+        assert str(path) in err
+
+
+def test_output_that_cannot_be_written(decay, tmp_path):
+    for option in ("--png", "--csv", "--json"):
+        status, _, err = desire("run", decay, option, tmp_path / "no" / f"such.{option[2:]}")
+        assert status == 1
+        assert "error 106" in err
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_is_a_message(decay):
+    status, _, err = desire("run", decay, "--csv", "/dev/full")
+    assert status == 1
+    assert "error 106" in err
+    assert "No space left" in err
+
+
+def test_a_reader_that_leaves(tmp_path):
+    path = tmp_path / "much.src"
+    path.write_text("for k = 1 to 200000\nwrite k\nnext\n")
+    done = subprocess.run(
+        f"{sys.executable} -m desire_tui run {path} | head -n 1", shell=True, capture_output=True, text=True,
+        timeout=60, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert done.stdout == "1\n"
+    assert "Traceback" not in done.stderr
+
+
+def test_check(tmp_path):
+    good, bad = tmp_path / "good.src", tmp_path / "bad.src"
+    good.write_text(DECAY)
+    bad.write_text("TMAX = 1\nfor k = 1 to\ndrun\nDYNAMIC\nd/dt x = nope\n")
+    assert desire("check", good) == (0, "", "")
+    status, out, err = desire("check", good, bad)
+    assert (status, out) == (1, "")
+    assert f"{bad}:2:" in err
+    assert f"{bad}:5:" in err
+
+
+def test_usage():
+    assert desire("--version")[1].startswith("desire")
+    status, out, _ = desire("--help")
+    assert status == 0
+    assert "run" in out
+    assert desire("run")[0] == 2
+    assert desire("run", "x", "--nonsense")[0] == 2
+    status, _, err = desire()
+    assert status == 2
+    assert "terminal" in err
+
+
+def test_a_program_from_standard_input():
+    assert desire("run", "-", text_in="write 6*7\n") == (0, "42\n", "")
+
+
+def test_shell_and_files_need_flags(tmp_path):
+    path = tmp_path / "home" / "p.src"
+    path.parent.mkdir()
+    path.write_text("sh echo hi\n")
+    assert desire("run", path)[0] == 1
+    assert desire("run", path, "--allow-shell") == (0, "hi\n", "")
+    path.write_text("connect '../out.txt' as output 2\nwrite #2, 5\n")
+    assert desire("run", path)[0] == 1
+    assert not (tmp_path / "out.txt").exists()
+    assert desire("run", path, "--allow-write")[0] == 0
+    assert (tmp_path / "out.txt").read_text() == "5\n"
+
+
+def test_headless_runs_load_neither_textual_nor_matplotlib(decay):
+    code = (
+        "import sys\nfrom desire_tui.__main__ import main\n"
+        f"try: main(['run', {str(decay)!r}])\nexcept SystemExit: pass\n"
+        "bad = [m for m in ('textual', 'rich', 'matplotlib', 'plotext', 'scipy') if m in sys.modules]\n"
+        "sys.exit(repr(bad) if bad else 0)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
