@@ -29,7 +29,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     "array-as-number": Wording(69, "'{name}' is an array: subscripts are missing", "write {name}[i]"),
     "vector-as-number": Wording(
-        75, "'{name}' is a whole vector, a number is expected here", "use Vector y = …, or DOT for sums of products"
+        75, "'{name}' is a whole vector, a number is expected here", "use Vector y =, or DOT for sums of products"
     ),
     "number-as-array": Wording(19, "'{name}' is a number, an array is expected here", _DECLARE),
     "array-not-declared": Wording(19, "'{name}' is not declared as an array", _DECLARE),
@@ -38,7 +38,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     "subscript-count": Wording(69, "'{name}' has {count} subscript(s)", "write as many as its declaration has"),
     "subscript-out-of-range": Wording(
-        2, "subscript {number} of '{name}' is {value}, it may be 1 … {size}", "subscripts start at 1"
+        2, "subscript {number} of '{name}' is {value}, it may be 1 to {size}", "subscripts start at 1"
     ),
     "constant-not-computable": Wording(
         44, "this number must be known when the run starts, and cannot be worked out",
@@ -128,7 +128,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     "second-sample": Wording(8, "a second SAMPLE", "one SAMPLE in a segment"),
     "sample-below-one": Wording(44, "SAMPLE {value}: at least 1 is needed", "SAMPLE m runs at every m-th point"),
-    "pairs-expected": Wording(14, "DISPXY needs pairs: x1, y1, x2, y2 …", "add or remove a name"),
+    "pairs-expected": Wording(14, "DISPXY needs pairs of names: x1, y1, x2, y2 and so on", "add or remove a name"),
     "abscissa-and-ordinate": Wording(14, "dispxy needs an abscissa and a curve", "write dispxy x, y"),
     "array-in-request": Wording(
         69, "'{name}' is an array: one of its elements can be shown", "write {name}[i], or SHOW {name}"
