@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration import TABLEAUS
 from desire_tui.engine.reference.model import ReferenceModel
 
@@ -20,10 +19,10 @@ class ReferenceBackend:
     name = "reference"
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
-        """Prepare `segment` for integration rule 0 … 5, 7, 8. DesireError: another rule."""
-        if rule == 0:
-            return ReferenceModel(segment, None, values)
+        """Prepare `segment` for an integration rule. DesireError 460, 461: rules 9 … 16 want SUNDIALS."""
         tableau = TABLEAUS.get(rule)
-        if tableau is None:
-            raise DesireError(Diagnostic("rule-needs-native", facts={"rule": rule}, source=segment.source))
-        return ReferenceModel(segment, tableau, values)
+        if rule == 0 or tableau is not None:
+            return ReferenceModel(segment, tableau, values)
+        from desire_tui.engine.reference.stiff import StiffReferenceModel
+
+        return StiffReferenceModel(segment, rule, values)

@@ -148,7 +148,4 @@ MESSAGES: dict[str, Wording] = {
         230, "this element is outside of the Jacobian of {order} state(s)",
         "rows and columns are numbered in the order of the d/dt lines",
     ),
-    "rule-needs-native": Wording(
-        411, "integration rule {rule} is not available on the reference back end", "use the native one, or rules 1 … 8"
-    ),
 }

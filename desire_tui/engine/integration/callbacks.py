@@ -1,0 +1,165 @@
+"""CVODE's callbacks in Python, for the reference back end and for tests.
+
+They do what `codegen.stiff_callbacks` does natively, to the same `problem.Problem`, with the same formulas.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from desire_tui.engine.integration.problem import Matrix
+from desire_tui.engine.integration.sundials.library import libraries
+from desire_tui.engine.integration.sundials.signatures import JacobianFunction, RhsFunction, WeightFunction
+from desire_tui.engine.integration.system import Natives
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.integration.system import StiffSystem
+
+    Array = NDArray[np.float64]
+
+DIFFERENCE = 2.0**-26
+"""Square root of the machine's epsilon."""
+LEAST = 1e-3
+"""A difference is at least as large as this part of the largest value so far would give."""
+
+_GO_BACK, _GIVE_UP = 1, -1
+
+
+class PythonModel(Protocol):
+    """What the callbacks ask of a model; arrays have n elements."""
+
+    def derivatives(self, t: float, y: Array, out: Array) -> None:
+        """Write the derivatives to `out`."""
+
+    def tangent(self, t: float, y: Array, direction: Array, out: Array) -> None:
+        """Write J·direction to `out`."""
+
+    def jacobian(self, t: float, y: Array) -> Array:
+        """Return the JACOBIAN segment's array, flat, row after row."""
+        ...
+
+
+class PythonCallbacks:
+    """Function objects and their addresses. An exception in the model is kept in `failure`; CVODE then gives up."""
+
+    def __init__(self, model: PythonModel) -> None:
+        self._model = model
+        self.system: StiffSystem | None = None
+        self.failure: BaseException | None = None
+        self._functions = (
+            RhsFunction(self._rhs), WeightFunction(self._weights), JacobianFunction(self._jacobian)
+        )  # fmt: skip
+        addresses = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self._functions)
+        self.natives = Natives(*addresses)
+
+    def _rhs(self, t: float, y: int, ydot: int, _user: int) -> int:
+        out = numbers(ydot)
+        if not self._evaluate(t, numbers(y), out):
+            return _GIVE_UP
+        finite = np.isfinite(out)
+        if finite.all():
+            return 0
+        assert self.system is not None
+        self.system.problem.suspect = int(np.argmin(finite))
+        return _GO_BACK
+
+    def _evaluate(self, t: float, y: Array, out: Array) -> bool:
+        assert self.system is not None
+        self.system.problem.derivative_calls += 1
+        try:
+            self._model.derivatives(t, y, out)
+        except BaseException as failure:  # noqa: BLE001 - nothing may pass through CVODE's frames
+            self.failure = failure
+            return False
+        return True
+
+    def _weights(self, y: int, weights: int, _user: int) -> int:
+        assert self.system is not None
+        largest = self.system.largest
+        np.maximum(largest, np.abs(numbers(y)), out=largest)
+        numbers(weights)[:] = 1.0 / (self.system.problem.tolerance * np.where(largest == 0.0, 1.0, largest))
+        return 0
+
+    def _jacobian(self, t: float, y: int, fy: int, matrix: int, _user: int, *_spare: int) -> int:
+        system = self.system
+        assert system is not None
+        system.problem.jacobian_calls += 1
+        data = self._matrix_data(system, matrix)
+        method = system.plan.method
+        try:
+            if method is Matrix.PROGRAM:
+                tables = system.plan.tables
+                assert tables is not None
+                data[tables.places] = self._model.jacobian(t, numbers(y))[tables.sources]
+            elif method is Matrix.TANGENT:
+                self._fill_by_tangent(t, numbers(y), data)
+            elif not self._fill_by_differences(t, numbers(y), numbers(fy), data):
+                return _GIVE_UP
+        except BaseException as failure:  # noqa: BLE001 - as above
+            self.failure = failure
+            return _GIVE_UP
+        return 0
+
+    def _fill_by_tangent(self, t: float, y: Array, data: Array) -> None:
+        system = self.system
+        assert system is not None
+        tables = system.plan.tables
+        assert tables is not None
+        column = np.zeros(system.n)
+        for colour in range(len(tables.seed_starts) - 1):
+            direction = np.zeros(system.n)
+            direction[tables.seeds[slice(*tables.seed_starts[colour : colour + 2])]] = 1.0
+            self._model.tangent(t, y, direction, column)
+            entries = slice(*tables.entry_starts[colour : colour + 2])
+            data[tables.places[entries]] = column[tables.rows[entries]]
+
+    def _fill_by_differences(self, t: float, y: Array, fy: Array, data: Array) -> bool:
+        system = self.system
+        assert system is not None
+        tables = system.plan.tables
+        assert tables is not None
+        scale = np.maximum(np.abs(y), system.largest)
+        size = np.maximum(np.abs(y), LEAST * np.where(scale == 0.0, 1.0, scale))
+        change = (y + DIFFERENCE * size) - y
+        column = np.zeros(system.n)
+        for colour in range(len(tables.seed_starts) - 1):
+            seeds = tables.seeds[slice(*tables.seed_starts[colour : colour + 2])]
+            moved = y.copy()
+            moved[seeds] = y[seeds] + change[seeds]
+            if not self._evaluate(t, moved, column):
+                return False
+            entries = slice(*tables.entry_starts[colour : colour + 2])
+            rows = tables.rows[entries]
+            data[tables.places[entries]] = (column[rows] - fy[rows]) / change[tables.columns[entries]]
+        return True
+
+    @staticmethod
+    def _matrix_data(system: StiffSystem, matrix: int) -> Array:
+        """View a matrix' numbers; write a sparse one's pattern, which CVODE has cleared."""
+        library, linear, tables = libraries().cvode, system.plan.linear, system.plan.tables
+        assert tables is not None
+        if linear.kind == "dense":
+            return _view(library.SUNDenseMatrix_Data(matrix), system.n**2)
+        if linear.kind == "band":
+            return _view(library.SUNBandMatrix_Data(matrix), system.n * library.SUNBandMatrix_LDim(matrix))
+        ctypes.memmove(library.SUNSparseMatrix_IndexValues(matrix), tables.row_indices.ctypes.data,
+                       tables.row_indices.nbytes)  # fmt: skip
+        ctypes.memmove(library.SUNSparseMatrix_IndexPointers(matrix), tables.column_starts.ctypes.data,
+                       tables.column_starts.nbytes)  # fmt: skip
+        return _view(library.SUNSparseMatrix_Data(matrix), linear.nonzeros)
+
+
+def numbers(vector: int) -> Array:
+    """View the numbers of a serial N_Vector: `{content, …}`, `{int32 length; int32 own; double* data}`."""
+    content = ctypes.c_uint64.from_address(vector).value
+    length = ctypes.c_int32.from_address(content).value
+    return _view(ctypes.c_uint64.from_address(content + 8).value, length)
+
+
+def _view(address: int, count: int) -> Array:
+    return np.ctypeslib.as_array((ctypes.c_double * count).from_address(address))

@@ -1,0 +1,163 @@
+"""Rules 9 … 16 in the reference back end: CVODE with Python callbacks, one step at a time."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.analysis.dependence import dependence
+from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.analysis.jacobian import checked_array
+from desire_tui.engine.analysis.slices import acts_at_steps, jacobian_pass
+from desire_tui.engine.integration import TABLEAUS
+from desire_tui.engine.integration.callbacks import PythonCallbacks
+from desire_tui.engine.integration.pattern import Pattern
+from desire_tui.engine.integration.plan import kind_of, plan
+from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
+from desire_tui.engine.integration.system import Functions, StiffSystem
+from desire_tui.engine.reference.model import ReferenceModel, _note_extremes
+from desire_tui.engine.reference.statements import Statements
+from desire_tui.engine.runtime.memory import Ended, Phase
+from desire_tui.engine.values import DT, T
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.integration.plan import Plan
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.runtime.memory import RunMemory
+    from desire_tui.engine.values import Values
+
+    Array = NDArray[np.float64]
+
+
+class StiffReferenceModel(ReferenceModel):
+    """A segment under a rule 9 … 16. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
+
+    def __init__(self, segment: Segment, rule: int, values: Values) -> None:
+        super().__init__(segment, TABLEAUS[2], values)
+        self._segment = segment
+        self._directions = self._array = 0
+        self._others = Statements(values, segment.order)
+        self._acts = acts_at_steps(segment)
+        self._callbacks = PythonCallbacks(self)
+        self.system = self._callbacks.system = StiffSystem(
+            rule, self._plan(rule), values.address, self.ranges, Functions(), self._callbacks.natives
+        )  # fmt: skip
+
+    def _plan(self, rule: int) -> Plan:
+        segment = self._segment
+        order, kind, given = segment.order, kind_of(rule), segment.jacobian
+        program = tangent = False
+        if kind == "jacobian" and given is not None:
+            self._array, program = checked_array(segment, self.values), True
+            self._jacobian = self._others.compile(jacobian_pass(segment, order))
+            rows, columns = ([getattr(e, side) for e in given.entries] for side in ("row", "column"))
+            pattern = Pattern.of(order, np.array(rows, np.int32), np.array(columns, np.int32))
+        elif kind in {"jacobian", "differences"}:
+            pattern = Pattern.of(order, *dependence(segment))
+        else:
+            pattern = Pattern.of(order, np.zeros(0, np.int32), np.zeros(0, np.int32))
+        if kind == "jacobian" and not program:
+            try:
+                found = differentiate(segment, self.values.room)
+                self._directions, tangent = found.directions, True
+                self._tangent = self._others.compile(found.body)
+            except NotDifferentiable:
+                pass
+        return plan(rule, pattern, program=program, tangent=tangent)
+
+    # ------------------------------------------------------------------ what the callbacks ask
+
+    def derivatives(self, t: float, y: Array, out: Array) -> None:
+        """Run the derivative pass."""
+        self._place(t, y)
+        for run in self.stage:
+            run()
+        out[:] = self.statements.derivatives
+
+    def tangent(self, t: float, y: Array, direction: Array, out: Array) -> None:
+        """Run the tangent pass."""
+        self._place(t, y)
+        place = self.data[self._directions : self._directions + self.order]
+        place[:] = direction
+        for run in self._tangent:
+            run()
+        place[:] = 0.0
+        out[:] = self._others.derivatives
+
+    def jacobian(self, t: float, y: Array) -> Array:
+        """Run the JACOBIAN segment."""
+        self._place(t, y)
+        for run in self._jacobian:
+            run()
+        return self.data[self._array : self._array + self.order**2]
+
+    def _place(self, t: float, y: Array) -> None:
+        self.cells[T] = t
+        self._put(y)
+
+    # ------------------------------------------------------------------ the run
+
+    def advance(self, memory: RunMemory) -> Ended:
+        """Run on; see `ReferenceModel`."""
+        system = self.system
+        if memory.phase == Phase.AT_POINT and memory.point == 0:
+            self._before = int(memory.derivative_calls)
+            system.begin(memory, self.cells[DT])
+            if self._array:
+                self.data[self._array : self._array + self.order**2] = 0.0
+        ended = super().advance(memory)
+        system.report(memory)
+        if ended is Ended.SOLVER:
+            memory.suspect = system.suspect()
+        return ended
+
+    def _step(self, memory: RunMemory) -> Ended | None:
+        """Go to the next communication point, or one step if there is something to do at steps' starts."""
+        memory.phase = Phase.IN_STEP
+        system, cells = self.system, self.cells
+        problem, solver = system.problem, system.solver
+        t_next = memory.t_start + memory.point * memory.comint
+        while True:
+            self._follow()
+            problem.suspect = -1
+            flag, t = solver.step(t_next)
+            if self._callbacks.failure is not None:
+                failure, self._callbacks.failure = self._callbacks.failure, None
+                raise failure
+            done = flag == TSTOP_RETURN or t >= t_next
+            t = t_next if done else t
+            y = self._solution()
+            self._place(t, y)
+            system.last[:] = y
+            problem.t = t
+            if flag < 0:
+                memory.which, memory.phase = flag, Phase.ENDED
+                return Ended.SOLVER
+            cells[DT] = solver.last_step
+            memory.steps += 1
+            _note_extremes(memory, cells[DT])
+            if done:
+                memory.phase = Phase.AT_POINT
+                return None
+            if self._acts or memory.stop:
+                return None
+
+    def _follow(self) -> None:
+        """Begin anew if t or a state is not what CVODE left."""
+        problem, x = self.system.problem, self._states()
+        t = self.cells[T]
+        self._solution()[:] = x
+        if problem.started and t == problem.t and np.array_equal(x, self.system.last):
+            return
+        if problem.started:
+            problem.failed += self.system.solver.counts().failed
+            problem.restarts += 1
+        self.system.solver.restart(t, 0.0 if problem.started else problem.first_step)
+        problem.started, problem.t = 1, t
+
+    def _solution(self) -> Array:
+        return np.ctypeslib.as_array((ctypes.c_double * self.order).from_address(self.system.problem.states))
