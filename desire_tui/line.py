@@ -12,8 +12,7 @@ from desire_tui.engine.session import State
 from desire_tui.panes.quantities import value_text
 
 _NAMES = re.compile(r"(?:write\s+)?[A-Za-z][\w$]*(?:\s*[,;]\s*[A-Za-z][\w$]*)*\s*$")
-ALWAYS = {"run.start", "run.again", "run.proceed", "run.live", "file.quit"}
-"""Actions that a waiting list of lines does not hold up."""
+DURING_A_RUN = "During a run names alone show their values. Ctrl+C pauses, Space Enter ends it."
 
 
 class CommandLine(Controller):
@@ -31,6 +30,9 @@ class CommandLine(Controller):
             else:
                 app.run_actions.resume()
             return
+        if state in (State.RUNNING, State.PAUSED) and len(lines) == 1 and parse_line(lines[0]) is None:
+            self._during_a_run(lines[0])
+            return
         self._queue.extend(line for line in lines if line.strip())
         self.next()
 
@@ -43,42 +45,34 @@ class CommandLine(Controller):
     def next(self) -> None:
         """Carry out lines that wait, as far as the engine is free for them."""
         while self._queue:
-            line = self._queue[0]
-            own = parse_line(line)
-            if self.app.engine.is_busy and own is None and not self._answer(line):
-                if len(self._queue) == 1:
-                    self._queue.clear()
-                    self._echo(line)
-                    self.app.command.console.add(
-                        "A program is running: Ctrl+C pauses it, then Space Enter ends it. Names alone show values.",
-                        "notice",
-                    )
+            own = parse_line(self._queue[0])
+            if own is None and self.app.engine.is_busy:
                 return
-            self._queue.popleft()
+            line = self._queue.popleft()
             self._echo(line)
             if own is not None:
                 command, argument = own
                 self.app.do(command.id, argument)
-            elif self.app.engine.is_busy:
-                self._show_values(line)
             else:
                 self.app.engine.submit(partial(self.app.session.execute, line))
+
+    def forget(self) -> None:
+        """Drop the lines that wait."""
+        self._queue.clear()
+
+    def _during_a_run(self, line: str) -> None:
+        """Show the values of names; anything else has to wait for the end of the run."""
+        self._echo(line)
+        words = re.findall(r"[A-Za-z][\w$]*", line) if _NAMES.match(line.strip()) else []
+        names = words[1:] if words[:1] == ["write"] and len(words) > 1 else words
+        values = self.app.session.values
+        found = [quantity for name in names if (quantity := values.find(name)) is not None]
+        if found and len(found) == len(names):
+            text = "\t".join(value_text(values, quantity) for quantity in found)
+            self.app.command.console.add(text, "output")
+        else:
+            self.app.command.console.add(DURING_A_RUN, "notice")
 
     def _echo(self, line: str) -> None:
         self.app.news.flush()
         self.app.command.console.add(f"> {line}", "command")
-
-    def _answer(self, line: str) -> bool:
-        """Whether a line can be answered during a run: names whose values are wanted."""
-        if _NAMES.match(line.strip()) is None:
-            return False
-        words = re.findall(r"[A-Za-z][\w$]*", line)
-        names = words[1:] if words[0] == "write" and len(words) > 1 else words
-        return all(self.app.session.values.find(name) is not None for name in names)
-
-    def _show_values(self, line: str) -> None:
-        words = re.findall(r"[A-Za-z][\w$]*", line)
-        names = words[1:] if words[0] == "write" and len(words) > 1 else words
-        values = self.app.session.values
-        found = [quantity for name in names if (quantity := values.find(name)) is not None]
-        self.app.command.console.add("\t".join(value_text(values, quantity) for quantity in found), "output")

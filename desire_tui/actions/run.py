@@ -107,6 +107,7 @@ class RunActions(Controller):
         app = self.app
         if app.engine.is_busy:
             app.engine.forget_waiting()
+            app.line.forget()
             app.session.end()
         if app.command.is_asking:
             app.command.stop_asking()

@@ -27,7 +27,8 @@ d/dt x = v
 d/dt v = -x
 dispt x, v
 """
-LONG = OSCILLATOR.replace("TMAX = 6", "TMAX = 60000").replace("NN = 301", "NN = 100001")
+LONG = OSCILLATOR.replace("TMAX = 6", "TMAX = 1E7").replace("NN = 301", "NN = 1000001")
+"""Goes on for minutes."""
 
 
 @pytest.fixture(autouse=True)
