@@ -37,6 +37,12 @@ _VARIABLES = {
 }  # fmt: skip
 
 
+_KEPT = {
+    "k": "k", "t_base": "t_base", "dt_base": "dt_base", "phase": "phase", "steps": "steps", "calls": "derivative_calls",
+}  # fmt: skip
+"""Variables of the loop that live on in the run's memory, by their fields there."""
+
+
 class Storage(Protocol):
     """Where states, derivatives and scalars are: stack cells (`registers`) or arrays (`arrays`)."""
 
@@ -106,10 +112,8 @@ class Driver:
         for name, kind in _VARIABLES.items():
             text.alloca(kind, f"%{name}")
         storage.enter()
-        for name in ("k", "t_base", "dt_base", "phase"):
-            self.put(name, self.memory.load(name))
-        self.put("steps", "0")
-        self.put("calls", "0")
+        for name, field in _KEPT.items():
+            self.put(name, self.memory.load(field))
         self._next_point()
         text.branch(self._rows_full(), "full", "enter")
         text.begin("enter")
@@ -161,10 +165,8 @@ class Driver:
         text = self.text
         text.begin("exit")
         self.storage.leave()
-        for name in ("k", "t_base", "dt_base", "phase"):
-            self.memory.store(name, self.get(name))
-        for field, name in (("steps", "steps"), ("derivative_calls", "calls")):
-            self.memory.store(field, text.op(f"add i64 {self.memory.load(field)}, {self.get(name)}"))
+        for name, field in _KEPT.items():
+            self.memory.store(field, self.get(name))
         text.do(f"ret i32 {self.get('ended')}")
 
     def _next_point(self) -> None:
@@ -324,6 +326,8 @@ class Driver:
         self.put("ended", text.op(f"select i1 {stop}, i32 {int(Ended.STOPPED)}, i32 {int(Ended.RUNNING)}"))
         text.branch(text.op(f"or i1 {stop}, {self._hurry()}"), "exit", "attend.on")
         text.begin("attend.on")
+        self.storage.leave()  # others watch the values while the run goes on
+        self.memory.store("steps", self.get("steps"))
         text.branch(reached, "point", "again")
 
     def _counted_time(self, c: float, dt: str) -> str:

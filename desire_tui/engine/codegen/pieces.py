@@ -10,8 +10,9 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.cells import MemoryCells
-from desire_tui.engine.codegen.statements import ScalarStatements
+from desire_tui.engine.codegen.compiler import machine
 from desire_tui.engine.codegen.text import Text
+from desire_tui.engine.codegen.vectors import Statements
 from desire_tui.engine.lowered import Guard
 
 if TYPE_CHECKING:
@@ -58,7 +59,8 @@ def _weight(action: Action) -> int:
 def write(actions: list[Action]) -> Piece:
     """Write one piece."""
     text = Text()
-    ScalarStatements(text, MemoryCells(text)).write(actions)
+    statements = Statements(text, MemoryCells(text), machine().width)
+    statements.write(actions)
     body = "\n".join(text.lines)
     start = ["entry:", *text.allocas]
     if "ptr %m," in body or "ptr %random" in body:
@@ -71,7 +73,7 @@ def write(actions: list[Action]) -> Piece:
     function = (
         f"define void @{name}(ptr noalias %v, ptr noalias %dx, ptr noalias %c) #0 {{\n{whole}\n}}"
     )
-    return Piece(name, function, frozenset(text.needs))
+    return Piece(name, function, frozenset(text.needs), statements.temps)
 
 
 def _random_offset() -> int:

@@ -1,0 +1,138 @@
+"""Values of array statements, a strip of elements at a time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen import draws
+from desire_tui.engine.codegen.expressions import Expressions
+from desire_tui.engine.codegen.reach import draws as draws_of
+from desire_tui.engine.codegen.reach import walk
+from desire_tui.engine.lowered import Const, MatVec, Op, Outer, RowOf, Shifted, Table1, Table2, Vec
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.cells import Cells
+    from desire_tui.engine.codegen.lanes import Lanes
+    from desire_tui.engine.codegen.strips import Strip
+    from desire_tui.engine.lowered import Value
+
+
+class Prepared:
+    """What a statement's loop needs from before it: invariants in every lane, bases, products, the random state.
+
+    `states` is a stack cell with the random state of each lane *before* its first draw; `per_element` numbers are
+    taken for each element.
+    """
+
+    def __init__(self) -> None:
+        self.splats: dict[int, str] = {}
+        self.bases: dict[int, str] = {}
+        self.states = ""
+        self.per_element = 0
+
+
+def is_invariant(node: Value) -> bool:
+    """Whether a value is one number for all elements: no operand over elements, no draw."""
+    return not any(
+        isinstance(n, Vec | Shifted | MatVec | RowOf | Outer) or (isinstance(n, Op) and n.name in draws.DRAWS)
+        for n in walk(node)
+    )
+
+
+def invariants(node: Value) -> list[Value]:
+    """Return the largest parts that are the same for all elements, numbers apart."""
+    if isinstance(node, Const):
+        return []
+    if is_invariant(node):
+        return [node]
+    if isinstance(node, Op):
+        return [part for arg in node.args for part in invariants(arg)]
+    if isinstance(node, Table1):
+        return invariants(node.x)
+    if isinstance(node, Table2):
+        return invariants(node.x) + invariants(node.y)
+    return []
+
+
+def needed_draws(*values: Value | None) -> int:
+    """Numbers that one element of a statement takes from the random sequence."""
+    return sum(draws_of(v) for v in values if v is not None)
+
+
+class ElementExpressions(Expressions):
+    """Evaluates one statement for one strip."""
+
+    def __init__(self, strip: Strip, cells: Cells, prepared: Prepared) -> None:
+        super().__init__(strip.lanes, cells)
+        self.strip = strip
+        self.prepared = prepared
+        self._drawn = 0
+        self._state = ""
+
+    def value(self, node: Value) -> str:
+        """Write what computes `node`."""
+        return self.prepared.splats.get(id(node)) or super().value(node)
+
+    def load(self, slot: int) -> str:
+        """Scalars were read before the loop."""
+        raise AssertionError(f"slot {slot} was not prepared")
+
+    def operand(self, node: Value) -> str:
+        """Read the strip's elements of an operand."""
+        base = self.prepared.bases[id(node)]
+        strip = self.strip
+        match node:
+            case Vec() | MatVec():
+                return strip.fetch(base)
+            case Shifted():
+                return strip.fetch_shifted(base, node.by, node.count)
+            case RowOf():
+                return strip.fetch(base)
+            case Outer():
+                return self._outer(node, base)
+        raise TypeError(type(node).__name__)
+
+    def _outer(self, node: Outer, v_base: str) -> str:
+        text, lanes, strip = self.text, self.lanes, self.strip
+        u_base = text.op(f"getelementptr double, ptr %v, i64 {node.u_slot}")
+        at = text.op(f"getelementptr double, ptr {u_base}, i64 {strip.row}")
+        u = lanes.splat(text.op(f"load double, ptr {at}"))
+        v = strip.fetch(v_base, strip.column)
+        if node.op == "mul":
+            return lanes.mul(u, v)
+        return lanes.choose(lanes.compare("olt", v, u), v, u)
+
+    def draw(self, name: str) -> str:
+        """Take the next number(s) of each element."""
+        first = self._next()
+        if name == "ran":
+            return draws.uniform(self.lanes, first)
+        return draws.normal(self.lanes, first, self._next())
+
+    def _next(self) -> str:
+        if not self._state:
+            self._state = self.text.op(f"load {self.lanes.integers}, ptr {self.prepared.states}")
+        self._drawn += 1
+        return draws.advance(self.lanes, self._state, self._drawn)
+
+    def finish(self) -> None:
+        """Move the lanes' random states on to the next strip (backwards: elements draw from the last one down)."""
+        if self.prepared.per_element:
+            assert self._drawn == self.prepared.per_element
+            moved = draws.advance(self.lanes, self._state, -self.strip.active * self.prepared.per_element)
+            self.text.do(f"store {self.lanes.integers} {moved}, ptr {self.prepared.states}")
+
+
+def lane_states(lanes: Lanes, start: str, count: int, per_element: int) -> str:
+    """Write each lane's random state before it draws for element `lane` of `count`; `start` is the sequence's."""
+    jumps = [draws.jump((count - 1 - lane) * per_element) for lane in range(lanes.width)]
+    a = ", ".join(f"i64 {jump[0]}" for jump in jumps)
+    c = ", ".join(f"i64 {jump[1]}" for jump in jumps)
+    text = lanes.text
+    one = text.op(f"insertelement {lanes.integers} poison, i64 {start}, i64 0")
+    zeros = f"<{lanes.width} x i32> zeroinitializer"
+    all_same = text.op(f"shufflevector {lanes.integers} {one}, {lanes.integers} poison, {zeros}")
+    grown = text.op(f"mul {lanes.integers} {all_same}, <{a}>")
+    moved = text.op(f"add {lanes.integers} {grown}, <{c}>")
+    return text.op(f"and {lanes.integers} {moved}, {lanes.whole(draws.MASK)}")
+

@@ -1,0 +1,162 @@
+"""What array statements read and write, element by element or otherwise, and which may share a loop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.draws import DRAWS
+from desire_tui.engine.lowered import (
+    Const, DerivVec, Load, MatVec, Op, Outer, RowOf, SetVec, Shifted, Table1, Table2, Vec,
+)  # fmt: skip
+from desire_tui.engine.values import IROW
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from desire_tui.engine.lowered import Action, Value
+
+Range = tuple[int, int]
+_FUSED_MOST = 16
+"""Statements in one loop: more would only spill registers."""
+
+
+@dataclass(slots=True)
+class Reach:
+    """Ranges (slot, end). `same`: read at the element's own index; `other`: read anyhow else."""
+
+    same: set[Range] = field(default_factory=set)
+    other: set[Range] = field(default_factory=set)
+    writes: set[Range] = field(default_factory=set)
+
+    def absorb(self, more: Reach) -> None:
+        """Add another statement's."""
+        self.same |= more.same
+        self.other |= more.other
+        self.writes |= more.writes
+
+
+def overlap(a: Range, b: Range) -> bool:
+    """Whether two ranges share a slot."""
+    return a[0] < b[1] and b[0] < a[1]
+
+
+def touches(ranges: Iterable[Range], others: Iterable[Range]) -> bool:
+    """Whether any two overlap."""
+    listed = list(others)
+    return any(overlap(a, b) for a in ranges for b in listed)
+
+
+def _crosses(ranges: Iterable[Range], others: Iterable[Range]) -> bool:
+    """Whether any two overlap without being the same range."""
+    listed = list(others)
+    return any(a != b and overlap(a, b) for a in ranges for b in listed)
+
+
+def walk(node: Value) -> Iterator[Value]:
+    """Every node of an expression, shared ones once."""
+    seen: set[int] = set()
+    stack: list[Value] = [node]
+    while stack:
+        top = stack.pop()
+        if id(top) in seen:
+            continue
+        seen.add(id(top))
+        yield top
+        if isinstance(top, Op):
+            stack.extend(reversed(top.args))
+        elif isinstance(top, Table1):
+            stack.append(top.x)
+        elif isinstance(top, Table2):
+            stack.extend((top.y, top.x))
+
+
+def draws(node: Value) -> int:
+    """Random numbers that one element takes."""
+    return sum(DRAWS.get(n.name, 0) for n in walk(node) if isinstance(n, Op))
+
+
+def value_reach(node: Value) -> Reach:
+    """Return what an expression reads."""
+    reach = Reach()
+    for n in walk(node):
+        match n:
+            case Vec():
+                reach.same.add((n.slot, n.slot + n.count))
+            case Load():
+                reach.other.add((n.slot, n.slot + 1))
+            case Shifted():
+                reach.other.add((n.slot, n.slot + n.count))
+            case MatVec():
+                reach.other.add((n.slot, n.slot + n.rows * n.cols))
+                reach.other.add((n.x_slot, n.x_slot + (n.rows if n.transposed else n.cols)))
+            case RowOf():
+                reach.other.update(((n.slot, n.slot + n.rows * n.cols), (IROW, IROW + 1)))
+            case Outer():
+                reach.other.update(((n.u_slot, n.u_slot + n.u_count), (n.v_slot, n.v_slot + n.v_count)))
+            case Table1():
+                reach.other.add((n.slot, n.slot + 2 * n.count))
+            case Table2():
+                reach.other.update(
+                    (
+                        (n.f_slot, n.f_slot + n.rows * n.cols),
+                        (n.x_slot, n.x_slot + n.rows),
+                        (n.y_slot, n.y_slot + n.cols),
+                    )
+                )
+            case Const() | Op():
+                pass
+    return reach
+
+
+def statement_reach(action: SetVec | DerivVec) -> Reach:
+    """Return what an elementwise statement reads and writes (derivatives are nobody's operand)."""
+    reach = value_reach(action.value)
+    if isinstance(action, SetVec):
+        reach.writes.add((action.slot, action.slot + action.count))
+        if action.mask_slot is not None:
+            reach.same.add((action.mask_slot, action.mask_slot + action.count))
+    return reach
+
+
+def needs_copy(reach: Reach) -> bool:
+    """Whether a statement would read elements that it has already changed."""
+    return touches(reach.writes, reach.other) or _crosses(reach.writes, reach.same)
+
+
+def groups(actions: Iterable[Action]) -> Iterator[list[Action]]:
+    """Group neighbouring statements that may share one loop; all others stand alone."""
+    group: list[Action] = []
+    total = Reach()
+    count = 0
+    for action in actions:
+        if not isinstance(action, SetVec | DerivVec) or (isinstance(action, SetVec) and action.mode == "largest"):
+            if group:
+                yield group
+                group = []
+            yield [action]
+            continue
+        reach = statement_reach(action)
+        joins = (
+            group
+            and count == action.count
+            and len(group) < _FUSED_MOST
+            and not needs_copy(reach)
+            and not touches(reach.other, total.writes)
+            and not touches(reach.writes, total.other)
+            and not _crosses(reach.same | reach.writes, total.writes)
+            and not _crosses(reach.writes, total.same)
+        )
+        if joins:
+            group.append(action)
+            total.absorb(reach)
+            continue
+        if group:
+            yield group
+            group = []
+        if needs_copy(reach):
+            yield [action]
+            continue
+        group, total, count = [action], reach, action.count
+    if group:
+        yield group
