@@ -156,7 +156,7 @@ class Values:
         return made
 
     def room(self, count: int) -> int:
-        """Return the first of `count` new array slots without a name, filled with 0 (compiled code's own numbers)."""
+        """Return the first of `count` new, nameless array slots, filled with 0 (compiled code's own numbers)."""
         slot = self.array("", (count,)).slot
         del self.names[""]
         return slot

@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter import builder as py
-from desire_tui.engine.interpreter.builder import at
+from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.scope import Reference
 from desire_tui.engine.interpreter.translate import literal
+from desire_tui.engine.interpreter.tree import at
 from desire_tui.engine.nodes import Assign, Name
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
 
@@ -69,7 +69,7 @@ def _assignment(site: Site, target: Target, slot: ast.expr, kind: Kind, value: E
 
         return constant
     body = store_code(site, target, slot, kind, value)
-    return site.function([*body, ast.Return(py.number(site.next))])
+    return site.function([*body, py.give(py.number(site.next))])
 
 
 def store_code(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Expr) -> list[ast.stmt]:
@@ -78,18 +78,18 @@ def store_code(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Ex
     if given is Kind.COMPLEX and kind is not Kind.COMPLEX:
         raise Fault("complex-to-real", value, name=target.name)
     if kind is Kind.COMPLEX:
-        body: list[ast.stmt] = [ast.Expr(at(py.call("set_complex", slot, code), value))]
+        body: list[ast.stmt] = [py.carry_out(at(py.call("set_complex", slot, code), value))]
     elif kind is Kind.INTEGER:
         body = [py.set_cell(slot, at(py.call("to_integer", code), value))]
     elif literal(value) is not None:
         body = [py.set_cell(slot, code)]
     else:
-        difference = ast.BinOp(py.load("v"), ast.Sub(), py.load("v"))  # 0 but for inf and nan
-        failed: ast.stmt = ast.Expr(at(py.call("overflow"), value))
-        body = [py.store("v", code), ast.If(difference, [failed], []), py.set_cell(slot, py.load("v"))]
+        difference = py.binary(py.load("v"), py.SUBTRACT, py.load("v"))  # 0 but for inf and nan
+        failed: ast.stmt = py.carry_out(at(py.call("overflow"), value))
+        body = [py.store("v", code), py.when(difference, failed), py.set_cell(slot, py.load("v"))]
     meaning = site.scope.dummies.get(target.name)
     if isinstance(target, Name) and isinstance(meaning, Reference):
-        body.append(ast.Expr(py.call("mark", py.load(meaning.variable))))
+        body.append(py.carry_out(py.call("mark", py.load(meaning.variable))))
     return body
 
 

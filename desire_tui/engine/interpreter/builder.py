@@ -1,78 +1,25 @@
-"""Python syntax trees made by hand, each carrying the place of the Desire node it comes from."""
+"""Trees become functions over the values; what all generated code may use."""
 
 from __future__ import annotations
 
-import ast
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any
 
+from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault, Origins
 from desire_tui.engine.interpreter.noise import Noise
 from desire_tui.engine.library import integer_power, power, rounded
 from desire_tui.engine.values import SCALAR_SLOTS
 
 if TYPE_CHECKING:
+    import ast
     from collections.abc import Callable
 
-    from desire_tui.engine.nodes import Node, Placed
+    from desire_tui.engine.nodes import Placed
     from desire_tui.engine.source import Source
-    from desire_tui.engine.values import Kind, Values
-
-Expression = TypeVar("Expression", bound=ast.expr)
+    from desire_tui.engine.values import Values
 
 WHOLE_LIMIT = 9007199254740992.0
 """INTEGER values stay within ±2^53, where doubles hold every whole number."""
-
-_LOAD, _STORE = ast.Load(), ast.Store()
-
-
-def number(value: float) -> ast.expr:
-    """Return a constant."""
-    return ast.Constant(value)
-
-
-def constant_slot(slot: ast.Constant) -> int:
-    """Return the slot that a constant expression stands for."""
-    assert isinstance(slot.value, int)
-    return slot.value
-
-
-def load(variable: str) -> ast.expr:
-    """Return a variable that is read."""
-    return ast.Name(variable, _LOAD)
-
-
-def store(variable: str, value: ast.expr) -> ast.stmt:
-    """Return `variable = value`."""
-    return ast.Assign([ast.Name(variable, _STORE)], value)
-
-
-def call(function: str, *args: ast.expr) -> ast.Call:
-    """Return a call."""
-    return ast.Call(load(function), list(args), [])
-
-
-def cell(slot: ast.expr) -> ast.expr:
-    """Return `c[slot]`, the number in a slot."""
-    return ast.Subscript(load("c"), slot, _LOAD)
-
-
-def set_cell(slot: ast.expr, value: ast.expr) -> ast.stmt:
-    """Return `c[slot] = value`."""
-    return ast.Assign([ast.Subscript(load("c"), slot, _STORE)], value)
-
-
-def at(made: Expression, node: Node) -> Expression:
-    """Give generated code its place in the statement (offsets as columns) and return it."""
-    made.lineno = made.end_lineno = 1
-    made.col_offset, made.end_col_offset = node.start, node.end
-    return made
-
-
-class Typed(NamedTuple):
-    """A translated expression and the kind of its value."""
-
-    code: ast.expr
-    kind: Kind
 
 
 class Builder:
@@ -102,20 +49,15 @@ class Builder:
         self, body: list[ast.stmt], placed: Placed, source: Source | None, parameters: tuple[str, ...] = ()
     ) -> Callable[..., Any]:
         """Compile statements to a function."""
-        arguments = ast.arguments([], [ast.arg(p) for p in parameters], None, [], [], None, [])
-        definition = ast.FunctionDef("s", arguments, body, [], None)
-        whole = placed.node
-        definition.lineno, definition.col_offset = 1, whole.start
-        definition.end_lineno, definition.end_col_offset = 1, whole.end
-        ast.fix_missing_locations(definition)
-        code = compile(ast.Module([definition], []), self.origins.file_name(placed, source), "exec")
+        module = py.function("s", parameters, body)
+        code = compile(module, self.origins.file_name(placed, source), "exec")
         exec(code, self.names)  # noqa: S102 - our own code, made from a parsed expression
         made: Callable[..., Any] = self.names.pop("s")
         return made
 
     def evaluate(self, code: ast.expr, placed: Placed, source: Source | None) -> Any:
         """Evaluate an expression once."""
-        return self.function([ast.Return(code)], placed, source)()
+        return self.function([py.give(code)], placed, source)()
 
 
 def helpers(values: Values) -> dict[str, Any]:

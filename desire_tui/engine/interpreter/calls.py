@@ -7,9 +7,9 @@ import time
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.interpreter import builder as py
-from desire_tui.engine.interpreter.builder import Typed, at
+from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.tree import Typed, at
 from desire_tui.engine.library import LIBRARY, LibraryFunction
 from desire_tui.engine.nodes import Name
 from desire_tui.engine.values import Kind

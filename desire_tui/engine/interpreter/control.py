@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import ast
 from math import floor
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter import builder as py
+from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.library import rounded
@@ -14,6 +13,8 @@ from desire_tui.engine.nodes import For, GoTo, If, Name, Until, While
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
+    import ast
+
     from desire_tui.engine.interpreter.machine import Operation
     from desire_tui.engine.interpreter.site import Site
 
@@ -44,9 +45,9 @@ def until(site: Site) -> Operation:
     node = site.node
     assert isinstance(node, Until)
     again = site.partner + 1
-    leave = ast.If(site.translator.condition(node.condition), [ast.Return(py.number(site.next))], [])
-    check = ast.Expr(py.call("check"))
-    return site.function([leave, check, ast.Return(py.number(again))])
+    leave = py.when(site.translator.condition(node.condition), py.give(py.number(site.next)))
+    check = py.carry_out(py.call("check"))
+    return site.function([leave, check, py.give(py.number(again))])
 
 
 def _behind(site: Site) -> int:
@@ -55,7 +56,7 @@ def _behind(site: Site) -> int:
 
 
 def _choose(site: Site, condition: ast.expr, yes: int, no: int) -> Operation:
-    return site.function([ast.Return(ast.IfExp(condition, py.number(yes), py.number(no)))])
+    return site.function([py.give(py.choice(condition, py.number(yes), py.number(no)))])
 
 
 def end_while(site: Site) -> Operation:

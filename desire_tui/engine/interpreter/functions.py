@@ -6,17 +6,18 @@ array where the body uses its dummy as one (`func1`, subscripts).
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter import builder as py
-from desire_tui.engine.interpreter.builder import Typed, at
+from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.scope import Local, Meaning, Scope
+from desire_tui.engine.interpreter.tree import Typed, at
 from desire_tui.engine.nodes import Function, Name
 from desire_tui.engine.values import Quantity
 
 if TYPE_CHECKING:
+    import ast
+
     from desire_tui.engine.interpreter.builder import Builder
     from desire_tui.engine.interpreter.translate import Translator
     from desire_tui.engine.nodes import Call, Expr, Placed
@@ -89,7 +90,7 @@ class Functions:
         finally:
             self._open.pop()
         parameters = tuple(m.variable for m in meanings if isinstance(m, Local))
-        made = self._build.function([ast.Return(code)], placed, source, parameters)
+        made = self._build.function([py.give(code)], placed, source, parameters)
         name = self._build.share("u", made)
         self._compiled[key] = name, kind
         return name, kind

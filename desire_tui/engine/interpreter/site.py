@@ -5,12 +5,13 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine.interpreter import builder as py
-from desire_tui.engine.interpreter.builder import at
+from desire_tui.engine.interpreter import tree as py
+from desire_tui.engine.interpreter.builder import WHOLE_LIMIT
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.scope import Reference
 from desire_tui.engine.interpreter.subscripts import element_slot
 from desire_tui.engine.interpreter.translate import literal, scalar_quantity
+from desire_tui.engine.interpreter.tree import at
 from desire_tui.engine.nodes import Element, Name
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
 
@@ -73,14 +74,14 @@ class Site:
         if quantity is not None:
             cells, slot = self.values.cells, quantity.slot
             return lambda: cells[slot]
-        return self.function([ast.Return(self.translator.real(node))])
+        return self.function([py.give(self.translator.real(node))])
 
     def value(self, node: Expr) -> tuple[Callable[[], complex], Kind]:
         """Return a function that evaluates any scalar expression, and the kind of its value."""
         if literal(node) is not None:
             return self.real(node), Kind.REAL
         code, kind = self.translator.expression(node)
-        return self.function([ast.Return(code)]), kind
+        return self.function([py.give(code)]), kind
 
     def whole(self, node: Expr) -> Callable[[], int]:
         """Return a function that evaluates an expression and truncates its value."""
@@ -88,7 +89,7 @@ class Site:
 
         def evaluate() -> int:
             number = value()
-            if not abs(number) < py.WHOLE_LIMIT:
+            if not abs(number) < WHOLE_LIMIT:
                 raise Fault("integer-overflow", node, value=f"{number:g}")
             return int(number)
 
@@ -107,10 +108,10 @@ class Site:
                 return slot
 
             return constant, kind
-        body: list[ast.stmt] = [ast.Return(code)]
+        body: list[ast.stmt] = [py.give(code)]
         meaning = self.scope.dummies.get(target.name)
         if isinstance(meaning, Reference):
-            body.insert(0, ast.Expr(py.call("mark", py.load(meaning.variable))))
+            body.insert(0, py.carry_out(py.call("mark", py.load(meaning.variable))))
         return self.function(body), kind
 
     def slot_code(self, target: Target) -> tuple[ast.expr, Kind]:
@@ -120,7 +121,7 @@ class Site:
             return element_slot(self.translator, target, quantity), quantity.kind
         meaning = self.scope.assigned(target)
         if isinstance(meaning, Reference):
-            box = ast.Subscript(py.load(meaning.variable), py.number(0), ast.Load())
+            box = py.index(meaning.variable, py.number(0))
             return at(box, target), meaning.kind
         if meaning.shape:
             raise Fault("array-without-subscripts", target, name=target.name, dimensions=len(meaning.shape))

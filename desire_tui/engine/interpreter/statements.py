@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from desire_tui.engine import nodes as n
+from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter import algebra, control, devices, procedures, reading, writing
 from desire_tui.engine.interpreter.assignment import assign
 from desire_tui.engine.interpreter.declarations import declare
@@ -70,6 +71,18 @@ _WORDS: dict[str, Maker] = {
     "trace": devices.trace,
 }
 
+_COMMANDS = [
+    *_WORDS,
+    *get_args(n.Word),
+    "write",
+    "drun",
+    "snapshot",
+    "notebook",
+    "help",
+    "load",
+    "keep",
+    "note",
+]
 _SEGMENT_WORDS = {"OUT", "step", "JACOBIAN", "end if", "DYNAMIC"}
 _SCRIPT_ONLY = (n.Label, n.GoTo, n.Procedure, n.Submodel, n.Data)
 _SCRIPT_ONLY_WORDS = {"STOP", "end"}
@@ -110,5 +123,10 @@ def _bare(site: Site, node: n.Bare) -> Operation:
     """Print an expression that stands alone as a command."""
     if not site.code.is_command:
         raise Fault("bare-expression", node)
-    line = writing.line_of(site, (n.WriteItem(node.value, "", "", node.start, node.end),))
+    try:
+        line = writing.line_of(site, (n.WriteItem(node.value, "", "", node.start, node.end),))
+    except Fault as fault:
+        if fault.key == "undefined-variable" and isinstance(node.value, n.Name):
+            fault.facts["close"] = fault.facts["close"] or closest(node.value.name, _COMMANDS)
+        raise
     return site.then(lambda: site.host.write("".join(line())))

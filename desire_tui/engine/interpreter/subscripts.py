@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import ast
 from math import prod
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter import builder as py
-from desire_tui.engine.interpreter.builder import at
+from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.tree import at
 from desire_tui.engine.nodes import Number
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
+    import ast
+
     from desire_tui.engine.interpreter.translate import Translator
     from desire_tui.engine.nodes import Element, Expr
     from desire_tui.engine.values import Quantity
@@ -34,11 +35,11 @@ def element_slot(translator: Translator, node: Element, quantity: Quantity) -> a
         constant -= stride
         part = _subscript(translator, subscript, size, place)
         if stride != 1:
-            part = ast.BinOp(part, ast.Mult(), py.number(stride))
-        moving = part if moving is None else ast.BinOp(moving, ast.Add(), part)
+            part = py.binary(part, py.MULTIPLY, py.number(stride))
+        moving = part if moving is None else py.binary(moving, py.ADD, part)
     if moving is None:
         return py.number(constant)
-    return ast.BinOp(moving, ast.Add(), py.number(constant))
+    return py.binary(moving, py.ADD, py.number(constant))
 
 
 def _checked(node: Number, size: int, place: int) -> int:
@@ -50,7 +51,7 @@ def _checked(node: Number, size: int, place: int) -> int:
 def _subscript(translator: Translator, node: Expr, size: int, place: int) -> ast.expr:
     """`int(v) if 1 <= (v := …) <= size else bad_subscript(v, size, place)`."""
     variable = translator.build.fresh("s")
-    value = ast.NamedExpr(ast.Name(variable, ast.Store()), translator.real(node))
-    inside = ast.Compare(py.number(1), [ast.LtE(), ast.LtE()], [value, py.number(size)])
+    value = py.named(variable, translator.real(node))
+    inside = py.compare(py.number(1), [py.AT_MOST, py.AT_MOST], [value, py.number(size)])
     failed = py.call("bad_subscript", py.load(variable), py.number(size), py.number(place))
-    return at(ast.IfExp(inside, py.call("int", py.load(variable)), at(failed, node)), node)
+    return at(py.choice(inside, py.call("int", py.load(variable)), at(failed, node)), node)

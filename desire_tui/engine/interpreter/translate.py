@@ -9,12 +9,12 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter import builder as py
-from desire_tui.engine.interpreter.builder import Typed, at
+from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.calls import CallTranslator
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.scope import Local, Reference, Scope
 from desire_tui.engine.interpreter.subscripts import element_slot
+from desire_tui.engine.interpreter.tree import Typed, at
 from desire_tui.engine.nodes import (
     Binary,
     Call,
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.functions import Functions
     from desire_tui.engine.nodes import Condition, Expr, Node
 
-_ARITHMETIC: dict[str, ast.operator] = {"+": ast.Add(), "-": ast.Sub(), "*": ast.Mult(), "/": ast.Div()}
+_ARITHMETIC: dict[str, ast.operator] = {"+": py.ADD, "-": py.SUBTRACT, "*": py.MULTIPLY, "/": py.DIVIDE}
 _RELATIONS: dict[str, ast.cmpop] = {
     "=": ast.Eq(), "<": ast.Lt(), ">": ast.Gt(), "<=": ast.LtE(), ">=": ast.GtE(), "<>": ast.NotEq(),
 }  # fmt: skip
@@ -73,7 +73,7 @@ class Translator:
                 return self._arithmetic(node, op, self.expression(left), self.expression(right))
             case Unary(op, operand):
                 code, kind = self.expression(operand)
-                return Typed(code if op == "+" else at(ast.UnaryOp(ast.USub(), code), node), kind)
+                return Typed(code if op == "+" else at(py.unary(py.MINUS, code), node), kind)
             case Pair(re, im):
                 return Typed(at(py.call("complex", self.real(re), self.real(im)), node), Kind.COMPLEX)
             case Call():
@@ -87,12 +87,12 @@ class Translator:
                 (a, kind_a), (b, kind_b) = self.expression(left), self.expression(right)
                 if Kind.COMPLEX in {kind_a, kind_b} and op not in {"=", "<>"}:
                     raise Fault("complex-not-ordered", node, operator=op)
-                return at(ast.Compare(a, [_RELATIONS[op]], [b]), node)
+                return at(py.compare(a, [_RELATIONS[op]], [b]), node)
             case Logical(op, first, second):
                 joint: ast.boolop = ast.And() if op == "and" else ast.Or()
-                return at(ast.BoolOp(joint, [self.condition(first), self.condition(second)]), node)
+                return at(py.joined(joint, [self.condition(first), self.condition(second)]), node)
             case Not(operand):
-                return at(ast.UnaryOp(ast.Not(), self.condition(operand)), node)
+                return at(py.unary(py.NOT, self.condition(operand)), node)
 
     def _name(self, node: Name) -> Typed:
         meaning = self.scope.read(node)
@@ -105,12 +105,11 @@ class Translator:
         return self.stored(node, py.number(meaning.slot), meaning.kind)
 
     def _reference(self, node: Name, meaning: Reference) -> Typed:
-        box = py.load(meaning.variable)
-        slot = ast.Subscript(box, py.number(0), ast.Load())
-        flag = ast.Subscript(py.load(meaning.variable), py.number(1), ast.Load())
-        missing = at(py.call("undefined", ast.Constant(node.name)), node)
+        slot = py.index(meaning.variable, py.number(0))
+        flag = py.index(meaning.variable, py.number(1))
+        missing = at(py.call("undefined", py.text(node.name)), node)
         value, kind = self.stored(node, slot, meaning.kind)
-        return Typed(at(ast.IfExp(flag, value, missing), node), kind)
+        return Typed(at(py.choice(flag, value, missing), node), kind)
 
     def _element(self, node: Element) -> Typed:
         quantity = self.scope.array(node)
@@ -129,7 +128,7 @@ class Translator:
             kind = Kind.COMPLEX
         elif kinds == {Kind.INTEGER} and op != "/":
             kind = Kind.INTEGER
-        return Typed(at(ast.BinOp(left.code, _ARITHMETIC[op], right.code), node), kind)
+        return Typed(at(py.binary(left.code, _ARITHMETIC[op], right.code), node), kind)
 
     def _power(self, node: Binary) -> Typed:
         base, kind = self.expression(node.left)
@@ -139,10 +138,10 @@ class Translator:
                 return Typed(base, kind)
             if exponent == 2:
                 once = self.build.fresh("v")
-                first = ast.NamedExpr(ast.Name(once, ast.Store()), base)
-                return Typed(at(ast.BinOp(first, ast.Mult(), py.load(once)), node), kind)
+                first = py.named(once, base)
+                return Typed(at(py.binary(first, py.MULTIPLY, py.load(once)), node), kind)
             result = kind if exponent > 0 else Kind.COMPLEX if kind is Kind.COMPLEX else Kind.REAL
-            return Typed(at(py.call("integer_power", base, ast.Constant(exponent)), node), result)
+            return Typed(at(py.call("integer_power", base, py.number(exponent)), node), result)
         if kind is Kind.COMPLEX:
             raise Fault("complex-power", node)
         return Typed(at(py.call("power", base, self.real(node.right)), node), Kind.REAL)

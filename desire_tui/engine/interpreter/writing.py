@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.quantities import value_text
 from desire_tui.engine.interpreter.text import (
     array_text,
     hexadecimal,
@@ -14,7 +15,7 @@ from desire_tui.engine.interpreter.text import (
     scalar_text,
 )
 from desire_tui.engine.nodes import Dump, Name, Note, Text, Write
-from desire_tui.engine.values import Kind, Quantity
+from desire_tui.engine.values import Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -143,11 +144,3 @@ def all_text(values: Values) -> Iterator[str]:
     for quantity in known:
         if quantity.shape:
             yield from array_text(values, quantity, quantity.name)
-
-
-def value_text(values: Values, quantity: Quantity) -> str:
-    """Return a scalar's value as `write` shows it."""
-    slot = quantity.slot
-    if quantity.kind is Kind.COMPLEX:
-        return scalar_text(complex(values.cells[slot], values.cells[slot + 1]), quantity.kind)
-    return scalar_text(values.cells[slot], quantity.kind)

@@ -7,7 +7,9 @@ from desire_tui.engine.diagnostics.wording.entry import Wording
 MESSAGES: dict[str, Wording] = {
     # ------------------------------------------------------------------------------ names and values
     "undefined-variable": Wording(200, "undefined variable '{name}'", "assign it a value before this line"),
-    "undefined-function": Wording(200, "there is no function '{name}'", "an array needs square brackets: {name}[…]"),
+    "undefined-function": Wording(
+        200, "there is no function '{name}'", "an array needs square brackets: {name}[…]"
+    ),
     "function-without-arguments": Wording(
         200, "'{name}' is a function and needs its arguments here", "write {name}(…)"
     ),
@@ -17,20 +19,28 @@ MESSAGES: dict[str, Wording] = {
     "constant-assigned": Wording(55, "'{name}' is a constant", "choose another name"),
     "name-of-something-else": Wording(73, "'{name}' is {what} already", "choose another name"),
     "script-subscript-out-of-range": Wording(
-        2, "subscript {value} is outside 1 … {size}", "this is subscript number {place}"
+        2, "subscript {value} is not between 1 and {size}", "this is subscript number {place}"
     ),
-    "script-subscript-count": Wording(53, "'{name}' has {needed} subscripts, not {given}", "give one for each dimension"),
+    "script-subscript-count": Wording(
+        53, "'{name}' has {needed} subscripts, not {given}", "give one for each dimension"
+    ),
     "not-an-array": Wording(19, "'{name}' is not an array", "declare it first: ARRAY {name}[n]"),
     "array-without-subscripts": Wording(
-        53, "'{name}' is an array; a single number is needed here", "choose an element with {dimensions} subscript(s)"
+        53,
+        "'{name}' is an array; a single number is needed here",
+        "choose an element with {dimensions} subscript(s)",
     ),
-    "array-name-expected": Wording(19, "the name of a whole array is needed here", "write it without subscripts"),
+    "array-name-expected": Wording(
+        19, "the name of a whole array is needed here", "write it without subscripts"
+    ),
     # ------------------------------------------------------------------------------ arithmetic
     "division-by-zero": Wording(5, "division by zero", "test the divisor before this line"),
     "overflow": Wording(3, "the result is too large for a number", "numbers end at about 1.8E+308"),
     "integer-overflow": Wording(20, "{value} is too large for a whole number", "whole numbers end at 2^53"),
     "logarithm-argument": Wording(9, "{function} needs a positive number", "check its argument"),
-    "root-of-negative": Wording(47, "square root of a negative number", "check the argument, or take sqrt(abs(x))"),
+    "root-of-negative": Wording(
+        47, "square root of a negative number", "check the argument, or take sqrt(abs(x))"
+    ),
     "power-argument": Wording(
         9, "a power that is no whole number needs a positive base", "whole powers are written as numbers: x^2"
     ),
@@ -40,27 +50,39 @@ MESSAGES: dict[str, Wording] = {
         56, "'{name}' is called with {given} arguments, but has {needed}", "give one for each dummy argument"
     ),
     "table-shape": Wording(
-        44, "'{name}' cannot be a function table", "a table has an even number of elements: breakpoints, then values"
+        44,
+        "'{name}' cannot be a function table",
+        "a table has an even number of elements: breakpoints, then values",
     ),
     "table2-shape": Wording(
-        44, "'{name}' does not fit its breakpoints", "{rows} and {columns} breakpoints need {name}[{rows},{columns}]"
+        44,
+        "'{name}' does not fit its breakpoints",
+        "{rows} and {columns} breakpoints need {name}[{rows},{columns}]",
     ),
     "script-function-recursion": Wording(52, "FUNCTION '{name}' uses itself", "write a loop instead"),
     "too-deep": Wording(52, "expressions are nested too deeply", "use intermediate variables"),
     # ------------------------------------------------------------------------------ kinds
-    "complex-not-possible": Wording(84, "a COMPLEX value is not possible here", "take Re(z), Im(z), Cabs(z) or Arg(z)"),
+    "complex-not-possible": Wording(
+        84, "a COMPLEX value is not possible here", "take Re(z), Im(z), Cabs(z) or Arg(z)"
+    ),
     "complex-to-real": Wording(
         84, "a COMPLEX value does not fit into the real '{name}'", "declare: COMPLEX {name}, or take Re(…)"
     ),
-    "complex-not-ordered": Wording(84, "COMPLEX values cannot be compared with {operator}", "compare Cabs(z)"),
+    "complex-not-ordered": Wording(
+        84, "COMPLEX values cannot be compared with {operator}", "compare Cabs(z)"
+    ),
     "complex-power": Wording(75, "a COMPLEX value can be raised to whole powers only", "write products: z*z"),
     "not-in-scalar-expression": Wording(
         209, "this belongs into vector and matrix statements", "use elements, or Vector, MATRIX, DOT"
     ),
     "matrix-operator": Wording(209, "'{operator}' belongs into MATRIX statements", "use min(x, y)"),
     # ------------------------------------------------------------------------------ declarations
-    "declared-twice": Wording(28, "'{name}' is declared already, as {before}", "use clear, or choose another name"),
-    "bad-dimension": Wording(32, "'{name}' cannot have {value} elements in a row", "dimensions are 1 or more"),
+    "declared-twice": Wording(
+        28, "'{name}' is declared already, as {before}", "use clear, or choose another name"
+    ),
+    "bad-dimension": Wording(
+        32, "'{name}' cannot have {value} elements in a row", "dimensions are 1 or more"
+    ),
     "too-many-dimensions": Wording(32, "'{name}' has {given} dimensions", "10 are possible"),
     "array-too-large": Wording(
         40, "no room for {elements} elements of '{name}'", "this machine has room for about {room}"
@@ -70,19 +92,33 @@ MESSAGES: dict[str, Wording] = {
     # ------------------------------------------------------------------------------ control
     "step-is-zero": Wording(23, "the step is 0, so the loop would never end", "give a step that is not 0"),
     "loop-variable": Wording(48, "'{name}' cannot count a loop", "loop variables are real"),
-    "procedure-recursion": Wording(52, "PROCEDURE '{name}' is being executed already", "write a loop instead"),
-    "end-without-call": Wording(4, "nothing to return to: no PROCEDURE was called", "remove it, or call the PROCEDURE"),
-    "reference-expected": Wording(56, "behind the ; only names and elements can stand", "assign it to a variable first"),
-    "clear-in-procedure": Wording(22, "'clear' would take away the PROCEDURE's own arguments", "clear outside of it"),
+    "procedure-recursion": Wording(
+        52, "PROCEDURE '{name}' is being executed already", "write a loop instead"
+    ),
+    "end-without-call": Wording(
+        4, "nothing to return to: no PROCEDURE was called", "remove it, or call the PROCEDURE"
+    ),
+    "reference-expected": Wording(
+        56, "behind the ; only names and elements can stand", "assign it to a variable first"
+    ),
+    "clear-in-procedure": Wording(
+        22, "'clear' would take away the PROCEDURE's own arguments", "clear outside of it"
+    ),
     "not-a-command": Wording(22, "'{word}' works in programs only", "put it into the program"),
     "command-only": Wording(199, "'{word}' is a command, not a statement", "type it at the prompt"),
-    "not-in-script": Wording(300, "this statement belongs behind DYNAMIC", "scripts end where DYNAMIC stands"),
-    "bare-expression": Wording(1, "an expression alone does nothing in a program", "write {name} = …, or write …"),
+    "not-in-script": Wording(
+        300, "this statement belongs behind DYNAMIC", "scripts end where DYNAMIC stands"
+    ),
+    "bare-expression": Wording(
+        1, "an expression alone does nothing in a program", "write {name} = …, or write …"
+    ),
     # ------------------------------------------------------------------------------ data, files, console
     "out-of-data": Wording(51, "no data left to read", "add items to a data line, or restore"),
     "channel-number": Wording(50, "there is no channel {channel}", "channels are numbered from 0 to 10"),
     "channel-connected": Wording(
-        30, "channel {channel} is connected already, to '{file}'", "disconnect {channel}, or take another channel"
+        30,
+        "channel {channel} is connected already, to '{file}'",
+        "disconnect {channel}, or take another channel",
     ),
     "channel-not-connected": Wording(
         63, "channel {channel} is not connected", "connect a file: connect 'name' as output {channel}"
@@ -94,26 +130,42 @@ MESSAGES: dict[str, Wording] = {
     "file-ended": Wording(18, "'{file}' has no more values", "count its values, or read fewer"),
     "cannot-read": Wording(18, "cannot read '{file}': {reason}", "check the file"),
     "cannot-write": Wording(106, "cannot write '{file}': {reason}", "is the disk full?"),
-    "bad-entry": Wording(18, "'{entry}' from {origin} is no value: {reason}", "values are separated by commas, tabs, lines"),
-    "entry-not-a-value": Wording(18, "'{entry}' is no value", "enter a number or an expression, or ! to break off"),
+    "bad-entry": Wording(
+        18, "'{entry}' from {origin} is no value: {reason}", "values are separated by commas, tabs, lines"
+    ),
+    "entry-not-a-value": Wording(
+        18, "'{entry}' is no value", "enter a number or an expression, or ! to break off"
+    ),
     "input-broken-off": Wording(197, "input broken off", "nothing was assigned by this entry"),
     "input-ended": Wording(18, "there is no more input", "an input statement waits for a value"),
-    "character-code": Wording(44, "{value} is no character's number", "ordinary characters are 32 … 126"),
+    "character-code": Wording(44, "{value} is no character's number", "ordinary characters are 32 to 126"),
     # ------------------------------------------------------------------------------ arrays
     "nonconformable": Wording(74, "sizes do not fit: {have} and {want}", "check the arrays' dimensions"),
     "not-a-matrix": Wording(74, "'{name}' is not a matrix", "a matrix has two dimensions"),
     "not-a-vector": Wording(74, "'{name}' is not a vector", "a vector has one dimension"),
     "not-square": Wording(74, "only a square matrix has an inverse, not {have}", "check the dimensions"),
     "singular-matrix": Wording(123, "the matrix is singular: it has no inverse", "are its rows independent?"),
-    "matrix-from-number": Wording(75, "a matrix cannot be set to this number", "= 0 gives zeroes, = 1 the identity"),
-    "not-in-array-expression": Wording(75, "this is not possible in a script's vector or matrix expression", ""),
+    "matrix-from-number": Wording(
+        75, "a matrix cannot be set to this number", "= 0 gives zeroes, = 1 the identity"
+    ),
+    "not-in-array-expression": Wording(
+        75, "this is not possible in a script's vector or matrix expression", ""
+    ),
     "script-dot-term": Wording(75, "a DOT term is u*v, u*1, u*A*v or u*A%*v", "operands are names"),
-    "fft-arguments": Wording(72, "FFT {kind} needs {needed} arrays", "FFT F, n, x, y or FFT R, n, x, y, u, v"),
+    "fft-arguments": Wording(
+        72, "FFT {kind} needs {needed} arrays", "FFT F, n, x, y or FFT R, n, x, y, u, v"
+    ),
     "fft-array": Wording(61, "'{name}' is not a vector", "FFT works on one-dimensional arrays"),
-    "fft-array-short": Wording(61, "'{name}' has {size} elements, fewer than {n}", "declare it at least that long"),
+    "fft-array-short": Wording(
+        61, "'{name}' has {size} elements, fewer than {n}", "declare it at least that long"
+    ),
     "fft-length": Wording(72, "a transform of length {n} is not possible", "the length is 2 or more"),
     # ------------------------------------------------------------------------------ devices
     "no-such-rule": Wording(86, "there is no integration rule {rule}", "rules are 0 … 5 and 7 … 16"),
-    "plot-arguments": Wording(44, "plot takes x, y and a colour, or a COMPLEX z and a colour", "plot x, y, 14"),
-    "script-show-columns": Wording(112, "SHOW cannot make {columns} columns of {size} elements", "SHOW A, columns"),
-}  # fmt: skip
+    "plot-arguments": Wording(
+        44, "plot takes x, y and a colour, or a COMPLEX z and a colour", "plot x, y, 14"
+    ),
+    "script-show-columns": Wording(
+        112, "SHOW cannot make {columns} columns of {size} elements", "SHOW A, columns"
+    ),
+}

@@ -1,0 +1,133 @@
+"""Python syntax trees made by hand, each carrying the place of the Desire node it comes from.
+
+Every node gets a place when it is made (`ast.fix_missing_locations` would take longer than compiling).
+"""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+if TYPE_CHECKING:
+    from desire_tui.engine.nodes import Node
+    from desire_tui.engine.values import Kind
+
+Expression = TypeVar("Expression", bound=ast.expr)
+
+_LOAD, _STORE = ast.Load(), ast.Store()
+_P: dict[str, Any] = {"lineno": 1, "col_offset": 0, "end_lineno": 1, "end_col_offset": 0}
+"""No place: a fault there is reported for the whole statement."""
+
+ADD, SUBTRACT, MULTIPLY, DIVIDE = ast.Add(), ast.Sub(), ast.Mult(), ast.Div()
+NOT, MINUS = ast.Not(), ast.USub()
+AT_MOST = ast.LtE()
+
+
+class Typed(NamedTuple):
+    """A translated expression and the kind of its value."""
+
+    code: ast.expr
+    kind: Kind
+
+
+def at(made: Expression, node: Node) -> Expression:
+    """Give generated code its place in the statement (offsets as columns) and return it."""
+    made.col_offset, made.end_col_offset = node.start, node.end
+    return made
+
+
+def number(value: float) -> ast.expr:
+    """Return a constant."""
+    return ast.Constant(value, **_P)
+
+
+def text(value: str) -> ast.expr:
+    """Return a constant string."""
+    return ast.Constant(value, **_P)
+
+
+def constant_slot(slot: ast.Constant) -> int:
+    """Return the slot that a constant expression stands for."""
+    assert isinstance(slot.value, int)
+    return slot.value
+
+
+def load(variable: str) -> ast.expr:
+    """Return a variable that is read."""
+    return ast.Name(variable, _LOAD, **_P)
+
+
+def call(function: str, *args: ast.expr) -> ast.Call:
+    """Return a call."""
+    return ast.Call(load(function), list(args), [], **_P)
+
+
+def index(variable: str, place: ast.expr) -> ast.expr:
+    """Return `variable[place]`."""
+    return ast.Subscript(load(variable), place, _LOAD, **_P)
+
+
+def cell(slot: ast.expr) -> ast.expr:
+    """Return `c[slot]`, the number in a slot."""
+    return index("c", slot)
+
+
+def binary(left: ast.expr, operator: ast.operator, right: ast.expr) -> ast.expr:
+    """Return an arithmetic operation."""
+    return ast.BinOp(left, operator, right, **_P)
+
+
+def unary(operator: ast.unaryop, operand: ast.expr) -> ast.expr:
+    """Return a sign or `not`."""
+    return ast.UnaryOp(operator, operand, **_P)
+
+
+def compare(left: ast.expr, operators: list[ast.cmpop], right: list[ast.expr]) -> ast.expr:
+    """Return a (chained) comparison."""
+    return ast.Compare(left, operators, right, **_P)
+
+
+def joined(operator: ast.boolop, parts: list[ast.expr]) -> ast.expr:
+    """Return conditions joined by `and` or `or`."""
+    return ast.BoolOp(operator, parts, **_P)
+
+
+def choice(condition: ast.expr, yes: ast.expr, no: ast.expr) -> ast.expr:
+    """Return `yes if condition else no`."""
+    return ast.IfExp(condition, yes, no, **_P)
+
+
+def named(variable: str, value: ast.expr) -> ast.expr:
+    """Return `(variable := value)`."""
+    return ast.NamedExpr(ast.Name(variable, _STORE, **_P), value, **_P)
+
+
+def store(variable: str, value: ast.expr) -> ast.stmt:
+    """Return `variable = value`."""
+    return ast.Assign([ast.Name(variable, _STORE, **_P)], value, **_P)
+
+
+def set_cell(slot: ast.expr, value: ast.expr) -> ast.stmt:
+    """Return `c[slot] = value`."""
+    return ast.Assign([ast.Subscript(load("c"), slot, _STORE, **_P)], value, **_P)
+
+
+def carry_out(expression: ast.expr) -> ast.stmt:
+    """Return an expression as a statement."""
+    return ast.Expr(expression, **_P)
+
+
+def give(value: ast.expr) -> ast.stmt:
+    """Return `return value`."""
+    return ast.Return(value, **_P)
+
+
+def when(condition: ast.expr, *body: ast.stmt) -> ast.stmt:
+    """Return `if condition: body`."""
+    return ast.If(condition, list(body), [], **_P)
+
+
+def function(name: str, parameters: tuple[str, ...], body: list[ast.stmt]) -> ast.Module:
+    """Return a module that defines one function."""
+    arguments = ast.arguments([], [ast.arg(p, **_P) for p in parameters], None, [], [], None, [])
+    return ast.Module([ast.FunctionDef(name, arguments, body, [], None, **_P)], [])

@@ -1,0 +1,125 @@
+"""Users' mistakes: the error's number and the exact piece of text it points at."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from stand_in import World, error_of, run
+
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.diagnostics.wording.script import MESSAGES
+
+
+@pytest.mark.parametrize(
+    ("script", "code", "piece"),
+    [
+        ("y = 2 + 1/(3 - 3)*4", 5, "1/(3 - 3)"),
+        ("x = 0\ny = 5*(1 + 2/x)", 5, "2/x"),
+        ("x = 0 | y = x^-2", 5, "x^-2"),
+        ("y = 1 + ln(0)", 9, "ln(0)"),
+        ("y = log(-1) + 2", 9, "log(-1)"),
+        ("y = 2*sqrt(-4)", 47, "sqrt(-4)"),
+        ("y = 3 + (-8)^0.5", 9, "(-8)^0.5"),
+        ("y = exp(1000)", 3, "exp(1000)"),
+        ("y = 1E300*1E300", 3, "1E300*1E300"),
+        ("y = asin(2)", 44, "asin(2)"),
+        ("x = 1 | y = x + nosuch", 200, "nosuch"),
+        ("y = nosuch(3)", 200, "nosuch(3)"),
+        ("y = sin + 2", 200, "sin"),
+        ("y = sin(1, 2)", 44, "sin(1, 2)"),
+        ("call nobody()", 201, "call nobody()"),
+        ("ARRAY A[3,2] | k = 3\nA[k, k] = 5", 2, "k"),
+        ("ARRAY x[3]\ny = x[0]", 2, "0"),
+        ("ARRAY x[3]\ny = x[3.5]", 2, "3.5"),
+        ("ARRAY x[3]\ny = x[1,2]", 53, "x[1,2]"),
+        ("ARRAY x[3]\ny = 2*x", 53, "x"),
+        ("ARRAY x[3]\nx = 2", 53, "x"),
+        ("x = 1\ny = x[1]", 19, "x[1]"),
+        ("ARRAY x[3] | ARRAY x[4]", 28, "x[4]"),
+        ("x = 1 | ARRAY x[4]", 73, "x[4]"),
+        ("ARRAY TMAX[4]", 73, "TMAX[4]"),
+        ("FUNCTION f(a) = a\nf = 3", 73, "f"),
+        ("FUNCTION f(a) = a\ny = f(1, 2)", 56, "f(1, 2)"),
+        ("FUNCTION f(a) = g(a)\nFUNCTION g(a) = f(a)\ny = f(1)", 52, "f(a)"),
+        ("FUNCTION f(a) = 1/a\nx = 2 | y = f(x - 2)", 5, "1/a"),
+        ("FUNCTION f(a) = a + nosuch\ny = f(1)", 200, "nosuch"),
+        ("PROCEDURE p()\ncall p()\nend\ncall p()", 52, "call p()"),
+        ("PROCEDURE p(a;b)\nend\ncall p(1)", 56, "call p(1)"),
+        ("PROCEDURE p(;b)\nend\ncall p(;1 + 2)", 56, "1 + 2"),
+        ("PI = 3", 55, "PI"),
+        ("ARRAY x[0]", 32, "0"),
+        ("ARRAY x[1,1,1,1,1,1,1,1,1,1,1]", 32, "x[1,1,1,1,1,1,1,1,1,1,1]"),
+        ("for k = 1 to 5 step 0\nnext", 23, "0"),
+        ("COMPLEX z\nfor z = 1 to 2\nnext", 48, "z"),
+        ("COMPLEX z\nx = 2*z", 84, "2*z"),
+        ("COMPLEX z\nz = z^0.5", 75, "z^0.5"),
+        ("COMPLEX z\nx = sin(z)", 84, "z"),
+        ("COMPLEX z\nif z < 2 then | x = 1 | proceed", 84, "z < 2"),
+        ("INTEGER i\ni = 1E20", 20, "1E20"),
+        ("read x", 51, "read x"),
+        ("data 1, 2/0\nread x, y", 5, "2/0"),
+        ("data 1, nosuch\nread x, y", 200, "nosuch"),
+        ("irule 6", 86, "6"),
+        ("irule 17", 86, "17"),
+        ("ARRAY A[2,2]\nMATRIX A = $In(A)", 123, "$In(A)"),
+        ("ARRAY A[3,3]\ndata 1,2,3,4,5,6,7,8,9\nread A\nMATRIX A = $In(A)", 123, "$In(A)"),
+        ("ARRAY A[2,3]\nMATRIX A = $In(A)", 74, "$In(A)"),
+        ("ARRAY A[2,3], B[2,3]\nMATRIX A = A*B", 74, "A*B"),
+        ("ARRAY A[2,3], b[2]\nVector b = A*b", 74, "A*b"),
+        ("ARRAY u[2], v[3]\nDOT s = u*v", 74, "u*v"),
+        ("ARRAY A[2,2]\nMATRIX A = 5", 75, "5"),
+        ("ARRAY x[8], y[4]\nFFT F, 8, x, y", 61, "y"),
+        ("ARRAY x[8], y[8]\nFFT F, 1, x, y", 72, "1"),
+        ("ARRAY A[8,8], y[8]\nFFT F, 8, A, y", 61, "A"),
+        ("ARRAY F[3]\ny = func1(1; F)", 44, "F"),
+        ("ARRAY A[4]\nSHOW A, 9", 112, "SHOW A, 9"),
+        ("write $(-5)", 44, None),
+        ("store X = x", 300, "store X = x"),
+        ("OUT", 300, "OUT"),
+    ],
+)
+def test_error(script, code, piece):
+    found = error_of(script)
+    assert found == (code, piece) if piece else found[0] == code
+
+
+def test_a_huge_array_is_refused_at_once():
+    began = time.perf_counter()
+    assert error_of("ARRAY x[1E+12]") == (40, "x[1E+12]")
+    assert error_of("ARRAY x[1E6,1E6]")[0] == 40
+    assert time.perf_counter() - began < 1
+
+
+def test_misspelt_names_get_a_suggestion():
+    for script, close in [("velocity = 1 | y = velocty", "velocity"), ("y = sqr(2)", "sqrt")]:
+        with pytest.raises(DesireError) as caught:
+            run(script)
+        assert caught.value.diagnostics[0].hint == f"did you mean '{close}'?"
+
+
+def test_a_misspelt_command_gets_a_suggestion():
+    with pytest.raises(DesireError) as caught:
+        World().execute("snapsho")
+    assert caught.value.diagnostics[0].hint == "did you mean 'snapshot'?"
+
+
+def test_problems_of_the_host_get_a_place():
+    world = World()
+
+    def permit(path, mode):
+        from desire_tui.engine.diagnostics import Diagnostic
+
+        raise DesireError(Diagnostic("channel-number", facts={"channel": 1}))
+
+    world.permit = permit
+    with pytest.raises(DesireError) as caught:
+        world.run("x = 1\nconnect 'f' as input 3")
+    problem = caught.value.diagnostics[0]
+    assert problem.source.text[slice(*problem.span)] == "connect 'f' as input 3"
+
+
+def test_messages_are_plain_sentences():
+    for key, wording in MESSAGES.items():
+        assert not wording.message.endswith("."), key
+        assert "Python" not in wording.message, key
