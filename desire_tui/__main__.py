@@ -147,6 +147,7 @@ def _guarded(work: Any) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except KeyboardInterrupt:
+        sys.stderr.write("stopped by the user\n")
         return 3
     except OSError as reason:
         sys.stderr.write(f"error 106: cannot write: {reason.strerror or reason}\n")

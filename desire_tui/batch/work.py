@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import signal
 import threading
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from math import inf
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -11,7 +14,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.session import Permissions, Session
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
     from desire_tui.batch.listener import BatchListener
@@ -53,6 +56,7 @@ class Work:
         self.problems: list[Diagnostic] = []
         self.status: StatusWord = "done"
         self._crash: BaseException | None = None
+        self._interrupted = threading.Event()
         self.abandoned = False
         """The program did not end when told to; its thread still runs."""
 
@@ -60,32 +64,45 @@ class Work:
         """Run the program, calling `watch` now and then; Ctrl-C in the main thread ends it."""
         thread = threading.Thread(target=self._script, name="desire-batch", daemon=True)
         began = monotonic()
-        limit = began + self._orders.timeout if self._orders.timeout is not None else None
-        thread.start()
-        while thread.is_alive():
-            try:
+        limit = inf if self._orders.timeout is None else began + self._orders.timeout
+        with self._interrupts():
+            thread.start()
+            while thread.is_alive():
                 thread.join(POLL_SECONDS)
                 if watch is not None:
                     watch()
-                if limit is not None and monotonic() > limit and thread.is_alive():
-                    facts = {"seconds": self._orders.timeout}
-                    self._end(thread, Diagnostic("time-limit", facts=facts, source=self._source))
+                if self._interrupted.is_set():
+                    self._end(thread, "stopped-by-user")
                     break
-            except KeyboardInterrupt:
-                self._end(thread, None)
-                break
+                if monotonic() > limit and thread.is_alive():
+                    self._end(thread, "time-limit", seconds=self._orders.timeout)
+                    break
         if self._crash is not None:
             raise self._crash
         return self._result()
 
-    def _end(self, thread: threading.Thread, why: Diagnostic | None) -> None:
-        self.status = "limit"
-        self.session.end()
-        thread.join(ENDING_SECONDS)
+    @contextmanager
+    def _interrupts(self) -> Iterator[None]:
+        """Hear Ctrl-C as a wish, not as an exception in the middle of something."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = signal.signal(signal.SIGINT, lambda *_: self._interrupted.set())
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+    def _end(self, thread: threading.Thread, key: str, **facts: object) -> None:
+        """End the program, again and again until it is heard; one that waits for input is left alone."""
+        deadline = monotonic() + ENDING_SECONDS
+        while thread.is_alive() and monotonic() < deadline and not self._listener.reading.is_set():
+            self.session.end()
+            thread.join(POLL_SECONDS)
         self.abandoned = thread.is_alive()
-        if why is not None:
-            self.problems = [p for p in self.problems if p.code != _USER_ENDED]
-            self.problems.append(why)
+        self.status = "limit"
+        self.problems = [p for p in self.problems if p.code != _USER_ENDED]
+        self.problems.append(Diagnostic(key, facts=facts, source=self._source))
 
     def _script(self) -> None:
         session = self.session
