@@ -1,0 +1,310 @@
+"""The editor: typing, colours, marks, tabs, files."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from desire_tui.actions.file import numbered
+from desire_tui.dialogs import Choice
+from desire_tui.editor import indent
+from desire_tui.editor.completion import offers, prefix_of
+from desire_tui.editor.highlighting import LineHighlights
+from desire_tui.editor.marks import Marks
+
+from .conftest import OSCILLATOR, desktop
+
+# ----------------------------------------------------------------------------------------------- text alone
+
+
+@pytest.mark.parametrize(
+    ("line", "blanks"),
+    [
+        ("for i = 1 to 3", 2),
+        ("  while x > 0", 4),
+        ("if x > 0 then", 2),
+        ("if x > 0 then y = 1 | proceed", 0),
+        ("for i = 1 to 3 | x = i | next", 0),
+        ("for = 3", 0),
+        ("x = 1", 0),
+        ("  else -- otherwise", 4),
+    ],
+)
+def test_indent_after(line: str, blanks: int):
+    assert indent.indent_after(line) == " " * blanks
+
+
+@given(st.lists(st.text(st.characters(blacklist_categories=("Cc", "Cs", "Zl", "Zp")), max_size=20), min_size=1))
+def test_commenting_twice_gives_the_lines_back(lines: list[str]):
+    once = indent.toggle_comment(lines)
+    if any(line.strip() for line in lines) and not all(
+        indent.COMMENT.match(line) for line in lines if line.strip()
+    ):
+        assert all(indent.COMMENT.match(line) for line in once if line.strip())
+        assert indent.toggle_comment(once) == lines
+
+
+@given(st.sets(st.integers(0, 50)), st.integers(0, 50), st.integers(1, 10))
+def test_marks_below_an_insertion_move_and_come_back(rows: set[int], at: int, lines: int):
+    marks = Marks(breakpoints=set(rows))
+    marks.shift(at, lines)
+    assert marks.breakpoints == {row if row <= at else row + lines for row in rows}
+    marks.shift(at, -lines)
+    assert marks.breakpoints == rows
+
+
+def test_numbered_lines():
+    assert numbered("x = 1\ny = 2\n") == "10 x = 1\n20 y = 2\n"
+
+
+def test_completion_offers_own_names_functions_and_statements():
+    text = "omega = 2\n-- comment_word\nwrite 'string_word'"
+    words = {offer.word: offer.about for offer in offers("om", [text], {})}
+    assert "omega" in words
+    assert not {o.word for o in offers("comment_w", [text], {})}
+    assert not {o.word for o in offers("string_w", [text], {})}
+    found = {offer.word: offer.about for offer in offers("si", [], {})}
+    assert "sine" in found["sin"]
+    assert "dispt" in {o.word for o in offers("disp", [], {})}
+    assert "zz" in {o.word for o in offers("z", [], {}, commands=True)}
+    assert offers("om", [text], {"omega": "= 2"})[0].about == "= 2"
+
+
+def test_no_completion_inside_comments_and_strings():
+    assert prefix_of("x = sig", 7) == "sig"
+    assert prefix_of("-- sig", 6) == ""
+    assert prefix_of("write 'sig", 10) == ""
+
+
+def test_highlight_ranges_are_bytes():
+    from textual.document._document import Document
+
+    highlights = LineHighlights()
+    highlights.document = Document("write 'größe' -- é\nsin(1)")
+    line = "write 'größe' -- é"
+    pieces = {line.encode()[a:b].decode(): name for a, b, name in highlights[0]}
+    assert pieces["write"] == "keyword"
+    assert pieces["'größe'"] == "string"
+    assert pieces["-- é"] == "comment"
+
+
+# ---------------------------------------------------------------------------------------------- on screen
+
+
+async def test_typing_indents_and_dedents(program):
+    async with desktop(program("")) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        for text in ("for i = 1 to 3", "x = i", "next", "y = 1"):
+            for key in text:
+                await desk.press({" ": "space", "=": "equals_sign"}.get(key, key))
+            desk.app.completer.close()
+            await desk.press("enter")
+        assert area.text == "for i = 1 to 3\n  x = i\nnext\ny = 1\n"
+
+
+async def test_tab_indents_rows_and_undo_takes_it_back(program):
+    async with desktop(program("a = 1\nb = 2\nc = 3\n")) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        before = area.text
+        await desk.press("shift+down", "shift+down", "tab")
+        assert area.text == "  a = 1\n  b = 2\nc = 3\n"
+        await desk.press("shift+tab")
+        assert area.text == before
+        await desk.press("ctrl+underscore")
+        assert area.text == "-- a = 1\n-- b = 2\nc = 3\n"
+        await desk.press("ctrl+z")
+        assert area.text == before
+        await desk.press("ctrl+y")
+        assert area.text.startswith("-- a")
+
+
+async def test_find_and_replace(program):
+    async with desktop(program("x = 1\nX = 2\nxx = x\n")) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        await desk.press("ctrl+f", "x")
+        assert area.selection == ((0, 0), (0, 1))
+        assert "1 of 5" in str(desk.app.editor.query_one("#found").content)
+        await desk.press("enter")
+        assert area.selection == ((1, 0), (1, 1))
+        await desk.press("escape")
+        assert desk.app.focused is area
+        await desk.press("f3")
+        assert area.selection == ((2, 0), (2, 1))
+        await desk.press("shift+f3", "shift+f3")
+        assert area.selection == ((0, 0), (0, 1))
+        await desk.press("escape", "ctrl+r")
+        desk.app.editor.query_one("#wanted").value = "X"  # a capital letter: case counts
+        desk.app.editor.query_one("#replacement").value = "omega"
+        desk.app.editor.query_one("#replacement").focus()
+        await desk.press("alt+a")
+        assert area.text == "x = 1\nomega = 2\nxx = x\n"
+        area.focus()
+        await desk.press("ctrl+z")
+        assert area.text == "x = 1\nX = 2\nxx = x\n"
+
+
+async def test_go_to_line(program):
+    async with desktop(program(OSCILLATOR)) as desk:
+        desk.app.editor.front.focus()
+        await desk.press("ctrl+g", "4", "enter")
+        await desk.pilot.pause()
+        assert desk.app.editor.front.cursor_location == (3, 0)
+        await desk.do("edit.goto", "7:4")
+        await desk.pilot.pause()
+        assert desk.app.editor.front.cursor_location == (6, 3)
+        await desk.do("edit.goto", "zwei")
+        await desk.pilot.pause()
+        assert desk.app.editor.front.cursor_location == (6, 3)
+
+
+async def test_completion_popup(program):
+    async with desktop(program("omega = 1\n")) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        area.go_to(1)
+        await desk.press("o", "m", "e")
+        popup = desk.app.desk.query_one("#completion")
+        assert popup.is_open
+        await desk.press("tab")
+        assert area.text == "omega = 1\nomega"
+        assert not popup.is_open
+        await desk.press("space", "s", "i", "n")
+        assert popup.is_open
+        words = [offer.word for offer in popup.offered]
+        await desk.press("down", "escape")
+        assert not popup.is_open
+        assert area.text.endswith(" sin")
+        assert "sinh" in words
+        await desk.press("enter")
+        assert area.text.endswith("sin\n")
+
+
+async def test_f1_explains_the_word_at_the_cursor(program):
+    async with desktop(program("x = sin(1)\n")) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        area.go_to(0, 5)
+        await desk.press("f1")
+        await desk.pilot.pause()
+        assert desk.app.desk.side == "help"
+        assert "sin" in desk.app.help_pane.query_one("Markdown").source
+
+
+async def test_tabs_dirty_marks_and_close_guard(program, tmp_path):
+    async with desktop(program("x = 1\n")) as desk:
+        editor = desk.app.editor
+        await desk.press("ctrl+n")
+        await desk.until(lambda: len(editor.areas) == 2)
+        await desk.press("y")
+        assert editor.front.is_dirty
+        await desk.press("ctrl+w")
+        await desk.until(lambda: isinstance(desk.app.screen, Choice))
+        await desk.press("escape")
+        assert len(editor.areas) == 2
+        await desk.press("ctrl+w")
+        await desk.until(lambda: isinstance(desk.app.screen, Choice))
+        await desk.press("d")
+        await desk.until(lambda: len(editor.areas) == 1)
+        assert editor.front.buffer.name == "osc.src"
+        await desk.press("ctrl+q")
+        await desk.until(lambda: not desk.app.is_running)
+
+
+async def test_save_keeps_line_ends_and_notices_changes_on_disk(tmp_path):
+    path = tmp_path / "dos.src"
+    path.write_bytes(b"x = 1\r\ny = 2\r\n")
+    async with desktop(path) as desk:
+        area = desk.app.editor.front
+        assert area.text == "x = 1\ny = 2\n"
+        area.focus()
+        await desk.press("z")
+        await desk.press("ctrl+s")
+        await desk.until(lambda: not area.is_dirty)
+        assert path.read_bytes() == b"zx = 1\r\ny = 2\r\n"
+        time.sleep(0.01)
+        path.write_text("other = 1\n")
+        await desk.press("q", "ctrl+s")
+        await desk.until(lambda: isinstance(desk.app.screen, Choice))
+        assert path.read_text() == "other = 1\n"
+        await desk.press("r")  # read it
+        await desk.until(lambda: area.text == "other = 1\n")
+        assert not area.is_dirty
+
+
+async def test_keep_under_a_name_and_load(program, tmp_path):
+    async with desktop(program("x = 1\n")) as desk:
+        await desk.line("keep 'copy'")
+        await desk.until((tmp_path / "copy.src").exists)
+        assert desk.app.editor.front.buffer.name == "copy.src"
+        await desk.line("keep+ 'num'")
+        await desk.until((tmp_path / "num.src").exists)
+        assert (tmp_path / "num.src").read_text() == "10 x = 1\n"
+        await desk.line("load 'osc'")
+        await desk.until(lambda: desk.app.editor.front.buffer.name == "osc.src")
+        await desk.line("ed")
+        await desk.until(lambda: len(desk.app.editor.areas) == 3)
+        assert desk.app.editor.front.text == "x = 1\n"
+
+
+async def test_a_read_only_folder_and_a_vanished_file_lose_nothing(program, tmp_path, monkeypatch):
+    path = program("x = 1\n")
+    async with desktop(path) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        await desk.press("y")
+
+        def refuse(*_: object) -> None:
+            raise PermissionError(13, "Permission denied")
+
+        monkeypatch.setattr("desire_tui.actions.file.write_safely", refuse)
+        await desk.press("ctrl+s")
+        await desk.until(lambda: "error 106" in desk.output)
+        assert area.is_dirty
+        monkeypatch.undo()
+        path.unlink()
+        await desk.press("ctrl+s")
+        await desk.until(lambda: not area.is_dirty)
+        assert path.read_text() == "yx = 1\n"
+
+
+async def test_binary_and_missing_files_are_refused_with_a_reason(program, tmp_path):
+    (tmp_path / "blob.src").write_bytes(b"\x7fELF\0\0")
+    async with desktop(program("x = 1\n")) as desk:
+        await desk.line("load 'blob.src'")
+        await desk.until(lambda: "not a text file" in desk.output)
+        await desk.line("load 'nowhere.src'")
+        await desk.until(lambda: "error 38" in desk.output)
+        assert len(desk.app.editor.areas) == 1
+
+
+async def test_two_tabs_side_by_side(program):
+    async with desktop(program("x = 1\n", "a.src"), program("y = 1\n", "b.src")) as desk:
+        editor = desk.app.editor
+        assert [area.display for area in editor.areas] == [True, False]
+        await desk.press("ctrl+backslash")
+        assert [area.display for area in editor.areas] == [True, True]
+        editor.areas[1].focus()
+        await desk.until(lambda: editor.front is editor.areas[1])
+        assert all(area.display for area in editor.areas)
+        await desk.press("ctrl+backslash")
+        assert [area.display for area in editor.areas] == [False, True]
+
+
+async def test_a_key_in_a_thousand_lines_is_cheap(program, monkeypatch):
+    text = "".join(f"y{n} = sin({n})*x + 0.5 -- line {n}\n" for n in range(1000))
+    async with desktop(program(text)) as desk:
+        area = desk.app.editor.front
+        drawn: list[int] = []
+        original = LineHighlights.__missing__
+        monkeypatch.setattr(LineHighlights, "__missing__", lambda s, row: (drawn.append(row), original(s, row))[1])
+        area.focus()
+        await desk.press("a")
+        await desk.pilot.pause()
+        # only lines on screen are coloured: the cost of a key does not grow with the program
+        assert 0 < len(set(drawn)) <= area.size.height + 1

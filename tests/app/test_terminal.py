@@ -1,0 +1,221 @@
+"""The real program in a real (pseudo-)terminal, as a user meets it."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import termios
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pexpect
+import pyte
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+ROOT = Path(__file__).parents[2]
+PROGRAM = """\
+TMAX = 1E7 | DT = 0.001 | NN = 1000001
+irule 3 | x = 1
+drun
+DYNAMIC
+d/dt x = v
+d/dt v = -x
+dispt x, v
+"""
+F5, F10, CTRL_N, CTRL_Q, CTRL_L = "\x1b[15~", "\x1b[21~", "\x0e", "\x11", "\x0c"
+PATIENCE_S = 30
+
+
+class Terminal:
+    """Desire in a pseudo-terminal, its screen followed by pyte."""
+
+    def __init__(self, folder: Path, *files: str, rows: int = 30, columns: int = 100) -> None:
+        env = {
+            **os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", "XDG_CONFIG_HOME": str(folder / "config"),
+            "XDG_STATE_HOME": str(folder / "state"), "PYTHONPATH": str(ROOT),
+        }  # fmt: skip
+        env.pop("TMUX", None)
+        self.screen = pyte.Screen(columns, rows)
+        self.stream = pyte.ByteStream(self.screen)
+        self.raw = bytearray()
+        self.child = pexpect.spawn(
+            sys.executable, ["-m", "desire_tui", *files], env=env, cwd=str(folder), dimensions=(rows, columns)
+        )
+        self.child.delaybeforesend = None
+        self.modes_before = termios.tcgetattr(self.child.child_fd)
+
+    def read(self, seconds: float = 0.05) -> None:
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0:
+            try:
+                data = self.child.read_nonblocking(65536, timeout=left)
+            except pexpect.TIMEOUT:
+                return
+            except pexpect.EOF:
+                return
+            self.raw += data
+            self.stream.feed(data)
+
+    @property
+    def text(self) -> str:
+        return "\n".join(self.screen.display)
+
+    def until(self, condition: Callable[[], object]) -> None:
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < end, self.text
+            self.read()
+
+    def send(self, text: str) -> None:
+        self.child.send(text)
+
+    def resize(self, rows: int, columns: int) -> None:
+        self.screen.resize(rows, columns)
+        self.child.setwinsize(rows, columns)
+
+    @property
+    def dots(self) -> int:
+        """Cells with braille dots."""
+        return sum("\u2801" <= character <= "\u28ff" for character in self.text)
+
+
+@pytest.fixture
+def terminal(tmp_path: Path) -> Iterator[Callable[..., Terminal]]:
+    opened: list[Terminal] = []
+
+    def start(*files: str, **size: int) -> Terminal:
+        opened.append(Terminal(tmp_path, *files, **size))
+        return opened[-1]
+
+    yield start
+    for one in opened:
+        one.child.close(force=True)
+
+
+def children_of(pid: int) -> list[str]:
+    found = subprocess.run(["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True, check=False)
+    return found.stdout.split()
+
+
+def test_a_session(terminal: Callable[..., Terminal], tmp_path: Path):
+    (tmp_path / "empty.src").write_text("")
+    screen = terminal("empty.src")
+    screen.until(lambda: "empty.src" in screen.text and "F5" in screen.text)
+    screen.read(0.3)
+
+    # type a program; the editor has the keys because the tab is empty
+    for line in PROGRAM.splitlines():
+        screen.send(line + "\x1b[D\x1b[C" + "\r")  # left, right: closes completions that opened by themselves
+        screen.read(0.05)
+    screen.until(lambda: "dispt x, v" in screen.text)
+
+    # run it: the curve grows before the run ends
+    screen.send(F5)
+    screen.until(lambda: screen.dots > 3)
+    before = screen.dots
+    screen.until(lambda: screen.dots > before + 3)
+    assert re.search(r"running 1 ", screen.text)
+
+    # pause: nothing grows any more; resume: it does; end
+    screen.send("\x03")
+    screen.until(lambda: "Paused" in screen.text)
+    screen.read(0.3)
+    paused = screen.dots
+    screen.read(0.5)
+    assert screen.dots == paused
+    screen.send("\r")
+    screen.until(lambda: screen.dots > paused)
+    screen.send("\x03")
+    screen.until(lambda: "Paused" in screen.text)
+    screen.send(" \r")
+    screen.until(lambda: "ended" in screen.text)
+
+    # resize
+    screen.resize(24, 80)
+    screen.until(lambda: "F5" in screen.screen.display[23] and "vs. t" in screen.text)
+    assert "empty.src" in screen.screen.display[0]
+
+    # edit and run again
+    screen.send("\x1be")  # Alt+E: the editor
+    screen.send("\x1b[1;5H")  # Ctrl+Home does nothing harmful
+    screen.send("\x1b[5~\x1b[5~\x1b[H-- edited\r")
+    screen.until(lambda: "-- edited" in screen.text)
+    screen.send(F5)
+    screen.until(lambda: re.search(r"running 1 ", screen.text))
+
+    # quit during the run: the guard asks, discarding leaves within a second or so
+    children = children_of(screen.child.pid)
+    screen.send(CTRL_Q)
+    screen.until(lambda: "Unsaved work" in screen.text)
+    screen.send("d")
+    screen.child.expect(pexpect.EOF, timeout=PATIENCE_S)
+    screen.raw += screen.child.before or b""
+    screen.child.wait()
+    assert screen.child.exitstatus == 0
+    assert children == children_of(screen.child.pid) == []
+    assert_restored(bytes(screen.raw))
+
+
+def assert_restored(raw: bytes) -> None:
+    """Every mode that was switched on is off at the end."""
+    for on, off in ((b"\x1b[?1049h", b"\x1b[?1049l"), (b"\x1b[?1003h", b"\x1b[?1003l"), (b"\x1b[?2004h", b"\x1b[?2004l"),
+                    (b"\x1b[?25l", b"\x1b[?25h")):  # fmt: skip
+        assert raw.rfind(off) > raw.rfind(on) >= 0, off
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_restores_the_terminal_and_keeps_the_work(
+    terminal: Callable[..., Terminal], tmp_path: Path, number: signal.Signals
+):
+    (tmp_path / "kept.src").write_text("")
+    screen = terminal("kept.src")
+    screen.until(lambda: "kept.src" in screen.text and "F5" in screen.text)
+    screen.read(0.3)
+    screen.send("precious = 1")
+    screen.until(lambda: "precious = 1" in screen.text)
+    screen.child.kill(number)
+    screen.child.expect(pexpect.EOF, timeout=PATIENCE_S)
+    screen.raw += screen.child.before or b""
+    assert_restored(bytes(screen.raw))
+    kept = list((tmp_path / "state" / "desire-tui").glob("recovery-*.json"))
+    assert len(kept) == 1
+    assert "precious = 1" in kept[0].read_text()
+
+    again = terminal("kept.src")
+    again.until(lambda: "Unsaved work found" in again.text)
+    again.send("r")
+    again.until(lambda: "precious = 1" in again.text)
+
+
+def test_a_kill_loses_at_most_a_checkpoint(terminal: Callable[..., Terminal], tmp_path: Path):
+    (tmp_path / "config" / "desire-tui").mkdir(parents=True)
+    (tmp_path / "config" / "desire-tui" / "config.toml").write_text("checkpoint_seconds = 1\n")
+    (tmp_path / "kept.src").write_text("")
+    screen = terminal("kept.src")
+    screen.until(lambda: "kept.src" in screen.text and "F5" in screen.text)
+    screen.read(0.3)
+    screen.send("precious = 1")
+    state = tmp_path / "state" / "desire-tui"
+    screen.until(lambda: any("precious = 1" in f.read_text() for f in state.glob("recovery-*.json")))
+    screen.child.kill(signal.SIGKILL)
+    screen.child.expect(pexpect.EOF, timeout=PATIENCE_S)
+    screen.child.wait()
+    again = terminal()
+    again.until(lambda: "Unsaved work found" in again.text)
+    again.send("r")
+    again.until(lambda: "precious = 1" in again.text)
+
+
+def test_a_tiny_terminal_says_so(terminal: Callable[..., Terminal], tmp_path: Path):
+    (tmp_path / "a.src").write_text("x = 1\n")
+    screen = terminal("a.src", rows=5, columns=20)
+    screen.until(lambda: "40 × 10" in screen.text)
+    screen.resize(24, 80)
+    screen.until(lambda: "a.src" in screen.text)
