@@ -294,7 +294,7 @@ class Builder:
         mode, args = kids[1], tuple(map(_plain, _nodes(kids)))
         wanted = {"C": 1, "N": 1, "W": 2}.get(mode, 0)
         if len(args) != wanted:
-            raise Misuse("display-form", first, last, {"mode": str(mode), "wanted": ("no", "one", "two")[wanted]})
+            raise Misuse("display-form", first, last, {"mode": str(mode), "wanted": ("no numbers", "one number", "two numbers")[wanted]})
         return n.Display(mode, args, first, last)
 
     def plot(self, kids: Kids, first: int, last: int) -> n.Node:

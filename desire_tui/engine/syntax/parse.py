@@ -96,6 +96,11 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
     return tuple(placed), tuple(problems)
 
 
+def forget_lines() -> None:
+    """Empty the store of parsed lines."""
+    _lines.clear()
+
+
 def _swallowed(line: str, whole: Entry, parts: list[str]) -> bool:
     """Whether a line that only seems to go on (`x =`) would spoil a good statement in the next one."""
     if line.rstrip().endswith("_") or not _has_fault(whole):
@@ -175,7 +180,7 @@ def _parse_line(line: str) -> Entry:
     scanned = scan(line)
     entry: Entry = (tuple((_item(chunk), chunk.base) for chunk in scanned.chunks), scanned.continues)
     if len(_lines) > LINES_MAX:
-        _lines.clear()
+        forget_lines()
     _lines[line] = entry
     return entry
 

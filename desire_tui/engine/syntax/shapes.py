@@ -40,13 +40,18 @@ def statement(chunk: Chunk) -> nodes.Statement:
     pattern = _patterns.get(shape)
     if pattern is None:
         if len(_patterns) > SHAPES_MAX:
-            _patterns.clear()
-            _makers.clear()
+            forget()
         pattern = _patterns[shape] = derive(chunk.kinds, chunk.texts)
         node: nodes.Statement = _filled(pattern, chunk)
         return node
     maker = _makers[shape] = _generate(pattern)
     return maker(chunk.texts, chunk.starts, chunk.ends)
+
+
+def forget() -> None:
+    """Forget all shapes: the next statement of each is derived from the grammar again."""
+    _patterns.clear()
+    _makers.clear()
 
 
 def _filled(part: Any, chunk: Chunk) -> Any:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
-from desire_tui.engine.syntax.words import CLOSERS, KEYWORDS, OPENERS, RAW_AFTER, SOFT_WORDS
+from desire_tui.engine.syntax.words import CLOSERS, KEYWORDS, OPENERS, RAW_AFTER, SOFT_WORDS, STAND_ALONE
 
 NAME, NUMBER, OCTAL, STRING, RAW, LETTER, MATFUN = "NAME", "NUMBER", "OCTAL", "STRING", "RAW", "LETTER", "MATFUN"
 CLASSES = frozenset({NAME, NUMBER, OCTAL, STRING, RAW, LETTER, MATFUN})
@@ -22,6 +22,7 @@ DEPTH_MAX = 100
 
 _CONTINUES = frozenset("+*/^=-")
 _OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%", "#"})
+_ASKING = frozenset({"if", "while", "until"})
 _OPEN = frozenset(OPENERS.values())
 
 _TOKEN = re.compile(
@@ -51,7 +52,7 @@ _WAY = re.compile(r"[ \t]*(input|output)(?![A-Za-z0-9$_])")
 _DELTA = re.compile(r"[ \t]*(delta)(?=[ \t]+[A-Za-z])")
 _ASSIGNED = re.compile(r"[ \t]*=")
 _SUBSCRIPTED = re.compile(r"[ \t]*\[")
-_AFTER_SUBSCRIPTS = re.compile(r"[^\]|\n]*\][ \t]*=")
+_BRACKETS = re.compile(r"[\[\]|\n]")
 _MODE = re.compile(r"[ \t]*(?:([ABCFNQRWY])(?![A-Za-z$_\[(])|([012])(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed)))")
 _FFT_KIND = re.compile(r"[ \t]*([FIRC])(?=[ \t]*[,;])")
 _REST = re.compile(r"[ \t]*((?:'[^'\n]*'|\"[^\"\n]*\"|(?!--|—)[^|\n'\"])*)")
@@ -136,7 +137,6 @@ def scan(text: str) -> Line:
                 pos = _start(chunk, text, token, kind, start, pos)
                 word = chunk.kinds[0]
                 words = SOFT_WORDS.get(word)
-                in_if = in_if or (word == "if")
                 if word in ("else", "proceed"):
                     chunk = None
                 continue
@@ -144,7 +144,7 @@ def scan(text: str) -> Line:
             if words is not None and token in words and _is_soft(chunk, token, text, pos):
                 chunk.add(token, token, start, pos)
                 if token == "then":
-                    chunk, words, depth = None, None, 0
+                    chunk, words, depth, in_if = None, None, 0, True
                 elif token == "as" and (way := _WAY.match(text, pos)):
                     pos = way.end()
                     chunk.add(way[1], way[1], way.start(1), pos)
@@ -189,7 +189,7 @@ def _start(chunk: Chunk, text: str, token: str, kind: str | None, start: int, po
     if token == "d" and (found := _D_DT.match(text, start)):
         chunk.add("d/dt", "d/dt", start, found.end())
         return found.end()
-    if kind is None or _is_variable(text, pos):
+    if kind is None or _is_variable(text, token, pos):
         chunk.add(NAME, token, start, pos)
         return pos
     second = _SECOND_WORD.get(token)
@@ -220,12 +220,24 @@ def _start(chunk: Chunk, text: str, token: str, kind: str | None, start: int, po
     return pos
 
 
-def _is_variable(text: str, pos: int) -> bool:
+def _is_variable(text: str, token: str, pos: int) -> bool:
     """Whether the keyword that ends at `pos` is assigned like a variable: `input = 0`, `data[3] = 1`."""
     if _ASSIGNED.match(text, pos):
         return True
+    if token in _ASKING and not text.startswith("[", pos):
+        return False  # `if [a, b] = z then` compares complex numbers
     found = _SUBSCRIPTED.match(text, pos)
-    return bool(found and _AFTER_SUBSCRIPTS.match(text, found.end()))
+    if not found:
+        return False
+    depth = 1
+    for bracket in _BRACKETS.finditer(text, found.end()):
+        mark = bracket[0]
+        depth += 1 if mark == "[" else -1 if mark == "]" else 0
+        if depth == 0:
+            return _ASSIGNED.match(text, bracket.end()) is not None
+        if mark in "|\n":
+            break
+    return False
 
 
 def _rest(chunk: Chunk, text: str, pos: int) -> int:
@@ -249,9 +261,9 @@ def _is_soft(chunk: Chunk, token: str, text: str, pos: int) -> bool:
 
 
 def _is_over(chunk: Chunk) -> bool:
-    """Whether the statement could end before `else` or `proceed` in a line that began with `if`."""
+    """Whether the statement could end before `else` or `proceed` behind a `then`."""
     kinds = chunk.kinds
-    return kinds[-1] in _OPERAND_END or (len(kinds) == 1 and kinds[0] not in CLASSES)
+    return kinds[-1] in _OPERAND_END or (len(kinds) == 1 and kinds[0] in STAND_ALONE)
 
 
 def _wants_more(chunk: Chunk) -> bool:

@@ -31,6 +31,14 @@ SOFT_WORDS: dict[str, frozenset[str]] = {
 RAW_AFTER = frozenset({"sh", "help", "keep", "keep+", "load", "snapshot", "notebook", "compare"})
 """Commands that take the rest of their statement as it stands."""
 
+STAND_ALONE = frozenset(
+    """
+    exit STOP go reset clear time trace next repeat end write drun drunr irule restore dump note erun run bye new NEW
+    reload list ed edit
+    """.split()  # noqa: SIM905
+) | {"list+", "end while"}
+"""Words that can be a whole statement: `else` and `proceed` may follow them in a line that began with `if`."""
+
 RELATIONS = frozenset({"=", "<", ">", "<=", ">=", "<>"})
 OPENERS = {")": "(", "]": "[", "}": "{"}
 """Each closing bracket with its opening one."""

@@ -25,7 +25,7 @@ MESSAGES: dict[str, Wording] = {
     "target-illegal": Wording(14, "this cannot be assigned", "before = stands a name, or an element such as x[3]"),
     "request-expression": Wording(14, "a request lists names only", "assign the expression to a name first"),
     "display-mode": Wording(14, "display has no such mode", _DISPLAY),
-    "display-form": Wording(14, "display {mode} takes {wanted} number(s)", "write for instance: display N 14"),
+    "display-form": Wording(14, "display {mode} takes {wanted}", "write for instance: display N 14"),
     "to-expected": Wording(23, "'to' is missing{before}", _FOR),
     "step-expected": Wording(23, "only 'step' may follow here", _FOR),
     "bracket-unclosed": Wording(25, "a bracket or a comma is missing{before}", "add {closer} or ,"),
