@@ -97,8 +97,7 @@ def test_leaving_out_changes_no_derivative(lines):
         statements = Statements(quantities, 1)
         passes = statements.compile(actions)
         for _ in range(3):
-            for run in passes:
-                run()
+            passes()
         persistent = [
             quantities.cells[a.slot] for a in whole.body if isinstance(a, Set) and a.persistent
         ]

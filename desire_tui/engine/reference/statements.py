@@ -41,11 +41,14 @@ class Statements:
         self.memory: RunMemory | None = None
         self.fired: int | None = None
 
-    def compile(self, actions: Iterable[Action]) -> list[Run]:
-        """Return the closures of a list of statements."""
-        return [self._statement(action) for action in actions]
+    def compile(self, actions: Iterable[Action]) -> Run:
+        """Return a pass as one function."""
+        from desire_tui.engine.reference.source import PassText
 
-    def _value(self, value: Value, count: int | None = None) -> Thunk:
+        return PassText(self).function(actions)
+
+    def value(self, value: Value, count: int | None = None) -> Thunk:
+        """Return the closure of an expression over a number or `count` elements."""
         expressions = Expressions(self.values, self.sequence, count)
         thunk = expressions.compile(value)
         if expressions.is_plain:
@@ -57,15 +60,16 @@ class Statements:
 
         return prepared
 
-    def _statement(self, action: Action) -> Run:
+    def statement(self, action: Action) -> Run:
+        """Return the closure of one statement."""
         match action:
             case Set():
-                return self._set(action.slot, self._value(action.value))
+                return self._set(action.slot, self.value(action.value))
             case Deriv():
-                return self._derivative(action.state, self._value(action.value))
+                return self._derivative(action.state, self.value(action.value))
             case DerivVec():
                 first, last = action.state, action.state + action.count
-                return self._derivatives(slice(first, last), self._value(action.value, action.count))
+                return self._derivatives(slice(first, last), self.value(action.value, action.count))
             case SetVec():
                 return self._vector(action)
             case SetMat():
@@ -75,10 +79,10 @@ class Statements:
             case Store() | Get() | DelayLine() | TrackHold():
                 return self._history(action)
             case Terminate():
-                return self._term(action.number, self._value(action.value))
+                return self._term(action.number, self.value(action.value))
             case Learn():
-                rate = self._value(action.rate)
-                criterion = None if action.criterion is None else self._value(action.criterion)
+                rate = self.value(action.rate)
+                criterion = None if action.criterion is None else self.value(action.criterion)
                 return lambda: learn(action, self.data, rate(), None if criterion is None else criterion())
             case Guard():
                 return self._guard(action)
@@ -112,7 +116,7 @@ class Statements:
         mask = None
         if action.mask_slot is not None:
             mask = self.data[action.mask_slot : action.mask_slot + action.count]
-        value = self._value(action.value, action.count)
+        value = self.value(action.value, action.count)
         mode = action.mode
 
         def run() -> None:
@@ -157,8 +161,8 @@ class Statements:
     def _dot(self, action: SetDot) -> Run:
         terms = []
         for term in action.terms:
-            left = self._value(term.left)
-            right = None if term.right is None else self._value(term.right)
+            left = self.value(term.left)
+            right = None if term.right is None else self.value(term.right)
             terms.append((term.sign, left, right))
         length = float(action.terms[0].left.count) if action.average and action.terms else 1.0
         cells, slot = self.cells, action.slot
@@ -180,7 +184,6 @@ class Statements:
 
     def _guard(self, guard: Guard) -> Run:
         body = self.compile(guard.body)
-        orelse = self.compile(guard.orelse)
         if guard.kind == "sample":
             every = guard.every
 
@@ -188,18 +191,10 @@ class Statements:
                 memory = self.memory
                 assert memory is not None
                 if (memory.points_before + memory.point + 1) % every == 0 and self._is_fresh(memory):
-                    for run in body:
-                        run()
+                    body()
 
             return sampled
-        assert guard.condition is not None
-        condition = self._value(guard.condition)
-
-        def chosen() -> None:
-            for run in body if condition() > 0.0 else orelse:
-                run()
-
-        return chosen
+        raise TypeError(guard.kind)  # `if` is written by PassText; `out` and `step` are resolved in slices
 
     @staticmethod
     def _is_fresh(memory: RunMemory) -> bool:
@@ -209,7 +204,7 @@ class Statements:
     def _history(self, action: Store | Get | DelayLine | TrackHold) -> Run:
         cells = self.cells
         if isinstance(action, TrackHold):
-            control, value = self._value(action.control), self._value(action.value)
+            control, value = self.value(action.control), self.value(action.value)
             held, tracked = action.held_slot, action.tracked_slot
 
             def track() -> None:
@@ -241,7 +236,7 @@ class Statements:
         return move
 
     def _delay(self, action: DelayLine) -> Run:
-        source = self._value(action.source)
+        source = self.value(action.source)
         cells, buffer, count = self.cells, action.buffer_slot, action.count
         slot, counter = action.slot, action.counter
 

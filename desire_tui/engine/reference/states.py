@@ -1,0 +1,130 @@
+"""The states as one vector: fetched, put back, moved by a row of a rule's tableau.
+
+`Few` writes the sums out as Python text for a model of few states, `Many` leaves them to NumPy. Both add the products
+in the order of the k's.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.integration.tableaus import Row, Tableau
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.values import Values
+
+    Array = NDArray[np.float64]
+
+FEW = 24
+
+
+class States(Protocol):
+    """What the run loop asks of the states. `k[i]` are the derivatives of stage i."""
+
+    k: list[Array]
+
+    def fetch(self) -> Any:
+        """Return a copy of the states."""
+
+    def put(self, x: Any) -> None:
+        """Set the states."""
+
+    def move(self, stage: int, start: Any, dt: float) -> None:
+        """States ← start + dt·Σ a[stage]·k; for the number of stages: the step's result with b."""
+
+
+def states_of(segment: Segment, tableau: Tableau | None, values: Values, derivatives: Array) -> States:
+    """Return the kind of states that suits the segment."""
+    rows = [] if tableau is None else [*tableau.a, tableau.b]
+    ranges = joined([(r.slot, r.first, r.count) for r in segment.states])
+    kind = Few if segment.order <= FEW else Many
+    return kind(ranges, segment.order, rows, values, derivatives)
+
+
+class Many:
+    """States as NumPy arrays."""
+
+    def __init__(
+        self, ranges: list[tuple[int, int, int]], order: int, rows: Sequence[Row], values: Values, first: Array
+    ) -> None:
+        self.ranges, self.order, self.rows = ranges, order, rows
+        self.data = values.data
+        self.k = [first, *(np.zeros(order) for _ in rows[2:])]
+
+    def fetch(self) -> Array:
+        """Return a copy of the states."""
+        x = np.empty(self.order)
+        for slot, first, count in self.ranges:
+            x[first : first + count] = self.data[slot : slot + count]
+        return x
+
+    def put(self, x: Array) -> None:
+        """Set the states."""
+        for slot, first, count in self.ranges:
+            self.data[slot : slot + count] = x[first : first + count]
+
+    def move(self, stage: int, start: Array, dt: float) -> None:
+        """States ← start + dt·Σ row·k."""
+        self.put(start + dt * weighted(self.rows[stage], self.k))
+
+
+class Few(Many):
+    """States as a tuple of floats, sums as text."""
+
+    def __init__(
+        self, ranges: list[tuple[int, int, int]], order: int, rows: Sequence[Row], values: Values, first: Array
+    ) -> None:
+        super().__init__(ranges, order, rows, values, first)
+        slots = [slot + i for slot, _, count in ranges for i in range(count)]
+        names: dict[str, Any] = {"c": values.cells}
+        names |= {f"k{i}": memoryview(k) for i, k in enumerate(self.k)}
+        lines = ["def fetch(): return (" + "".join(f"c[{slot}], " for slot in slots) + ")", "def put(x):"]
+        lines += [f" c[{slot}] = x[{n}]" for n, slot in enumerate(slots)] or [" pass"]
+        for stage, row in enumerate(rows):
+            lines.append(f"def move{stage}(x, dt):")
+            for n, slot in enumerate(slots):
+                total = " + ".join(f"{float(w)!r} * k{i}[{n}]" for i, w in enumerate(row) if w) or "0.0"
+                lines.append(f" c[{slot}] = x[{n}] + dt * ({total})")
+            lines.append(" return")
+        exec(compile("\n".join(lines), "<states>", "exec"), names)  # noqa: S102 - numbers and slots only
+        self._fetch: Callable[[], Any] = names["fetch"]
+        self._put: Callable[[Any], None] = names["put"]
+        self._moves: list[Callable[[Any, float], None]] = [names[f"move{i}"] for i in range(len(rows))]
+
+    def fetch(self) -> Any:
+        """Return the states as a tuple."""
+        return self._fetch()
+
+    def put(self, x: Any) -> None:
+        """Set the states."""
+        self._put(x)
+
+    def move(self, stage: int, start: Any, dt: float) -> None:
+        """States ← start + dt·Σ row·k."""
+        self._moves[stage](start, dt)
+
+
+def weighted(row: Row, k: Sequence[Array]) -> Array:
+    """Return Σ row·k, added in the order of the k's."""
+    total: Array | None = None
+    for weight, one in zip(row, k, strict=False):
+        if weight:
+            total = float(weight) * one if total is None else total + float(weight) * one
+    return np.zeros_like(k[0]) if total is None else total
+
+
+def joined(ranges: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
+    """Join neighbours: (slot, first state, count)."""
+    found: list[tuple[int, int, int]] = []
+    for slot, first, count in ranges:
+        if found and found[-1][0] + found[-1][2] == slot:
+            found[-1] = (found[-1][0], found[-1][1], found[-1][2] + count)
+        else:
+            found.append((slot, first, count))
+    return found

@@ -1,0 +1,101 @@
+"""One step of an explicit rule: fixed, or controlled (language.md 11)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.reference.states import weighted
+from desire_tui.engine.runtime.memory import Ended, Phase
+from desire_tui.engine.values import DT, ERRMAX, T
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.integration.tableaus import Tableau
+    from desire_tui.engine.reference.model import ReferenceModel
+    from desire_tui.engine.runtime.memory import RunMemory
+
+TOLERANCE = 1e-9
+
+
+def fixed_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> None:
+    """Move the states by one step of DT: t = t_base + k·dt_base as long as DT does not change."""
+    cells, states = model.cells, model.states
+    if tableau.dt_may_change and cells[DT] != memory.dt_base:
+        memory.t_base, memory.dt_base, memory.k = cells[T], cells[DT], 0
+    dt, base, k = memory.dt_base, memory.t_base, memory.k
+    start = states.fetch()
+    for stage, node in model.nodes:
+        states.move(stage, start, dt)
+        cells[T] = base + (k + node) * dt
+        model.run_stage(stage, memory)
+    states.move(len(model.nodes) + 1, start, dt)
+    memory.k = k + 1
+    memory.steps += 1
+    cells[T] = base + (k + 1) * dt
+    _note_extremes(memory, dt)
+    if cells[T] >= memory.t_start + memory.point * memory.comint - TOLERANCE * dt:
+        memory.phase = Phase.AT_POINT
+
+
+def variable_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> Ended | None:
+    """Try, judge, halve or double; a step ends on every communication point."""
+    cells, states = model.cells, model.states
+    assert tableau.test is not None
+    here, start = cells[T], states.fetch()
+    next_point = memory.t_start + memory.point * memory.comint
+    left = next_point - here
+    lands = cells[DT] >= left * (1.0 - TOLERANCE)
+    cut = cells[DT] > left * (1.0 + TOLERANCE)
+    dt = left if lands else cells[DT]
+    while True:
+        for stage, node in model.nodes:
+            states.move(stage, start, dt)
+            cells[T] = here + node * dt
+            model.run_stage(stage, memory)
+        difference, state = _difference(model, tableau, dt, start, memory.checked)
+        if not difference > memory.error_max:
+            break
+        dt = 0.5 * dt
+        if dt < memory.dt_min:
+            states.put(start)
+            cells[T], cells[ERRMAX] = here, difference
+            memory.which, memory.phase = state, Phase.ENDED
+            return Ended.DEADLOCK
+        memory.rejected += 1
+        cells[DT] = dt
+        lands = cut = False
+    states.move(tableau.stages, start, dt)
+    memory.steps += 1
+    cells[T] = next_point if lands else here + dt
+    _note_extremes(memory, dt)
+    if difference < memory.error_min and not cut:
+        cells[DT] = min(2.0 * cells[DT], memory.dt_max)
+    if lands:
+        memory.phase = Phase.AT_POINT
+    return None
+
+
+def _difference(
+    model: ReferenceModel, tableau: Tableau, dt: float, start: Sequence[float], checked: int
+) -> tuple[float, int]:
+    """Return the largest test difference, and the number of its state.
+
+    Relative to |x| + 1 with x at the step's start; absolute, and of one state, with CHECKN.
+    """
+    assert tableau.test is not None
+    absolute = dt * np.abs(weighted(tableau.test, model.states.k))
+    if checked:
+        return float(absolute[checked - 1]), checked - 1
+    relative = absolute / (np.abs(np.asarray(start)) + 1.0)
+    largest = int(np.argmax(relative))
+    return float(relative[largest]), largest
+
+
+def _note_extremes(memory: RunMemory, dt: float) -> None:
+    """Keep the smallest and largest step so far; 0 means none yet."""
+    if memory.dt_least == 0.0 or dt < memory.dt_least:
+        memory.dt_least = dt
+    memory.dt_most = max(memory.dt_most, dt)
