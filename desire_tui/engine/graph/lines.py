@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
+_FAR = 1e9
+"""Frames away; beyond, rounding would spoil the cut, and no eye can tell the direction."""
+
+
 def to_unit(frame: Frame, x: Floats, y: Floats) -> tuple[Floats, Floats]:
     """Return program values in frame units."""
     return (
@@ -32,12 +36,14 @@ def clip_polyline(x: Floats, y: Floats) -> tuple[Floats, Floats, Floats, Floats]
     each side of the square raises `enter` or lowers `leave`. Segments with an end that is nan or inf are left
     out.
     """
+    finite = np.isfinite(x) & np.isfinite(y)
+    x, y = np.clip(x, -_FAR, _FAR), np.clip(y, -_FAR, _FAR)
     x1, y1 = x[:-1], y[:-1]
     with np.errstate(all="ignore"):
         dx, dy = x[1:] - x1, y[1:] - y1
         enter = np.zeros(len(dx))
         leave = np.ones(len(dx))
-        inside = np.isfinite(dx) & np.isfinite(dy)
+        inside = finite[1:] & finite[:-1]
         for step, room in ((-dx, x1), (dx, 1.0 - x1), (-dy, y1), (dy, 1.0 - y1)):
             at = room / step
             enter = np.where(step < 0.0, np.maximum(enter, at), enter)

@@ -24,6 +24,7 @@ KINDS = (".png", ".svg", ".pdf")
 _INCHES = (8.0, 5.0)
 _DOTS_PER_INCH = 150
 _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
+_SPINE = 2 * 72 / _DOTS_PER_INCH  # two dots: crisp
 _COLUMNS = 4000  # finer than any printer shows at this size
 _FONT = 11
 
@@ -78,6 +79,7 @@ def _dress(axes: Axes, graph: Graph, ink: Tint) -> None:
         spine.set_visible(net is not None)
         if net is not None:
             spine.set_color(net)
+            spine.set_linewidth(_SPINE)
     axes.tick_params(colors=ink, labelsize=_FONT, length=4 if net is not None else 0)
     axes.ticklabel_format(useOffset=False)
     if net is None:

@@ -1,0 +1,127 @@
+"""Pictures hold the right colours at the right places."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from graphing import displayed, page_of, record_of
+
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.graph import GraphBook, rgb
+from desire_tui.engine.outputs.picture import write_picture
+
+T = np.linspace(0, 1, 200)
+
+
+def pixels(graph, tmp_path):
+    from matplotlib.image import imread
+
+    write_picture(graph, tmp_path / "g.png")
+    return np.rint(imread(tmp_path / "g.png")[:, :, :3] * 255).astype(int)
+
+
+def share(image, color, near=0):
+    return float((np.abs(image - np.array(color)) <= near).all(axis=2).mean())
+
+
+def where(image, color):
+    rows, columns = np.nonzero((np.abs(image - np.array(color)) <= 8).all(axis=2))
+    return rows, columns
+
+
+def test_black_background_and_curve_colours(tmp_path):
+    page = page_of("dispt", T, {"x": 0.5 + 0 * T, "y": -0.5 + 0 * T}, "N10", "R")
+    image = pixels(page, tmp_path)
+    assert image.shape[:2] == (750, 1200)
+    assert share(image, (0, 0, 0)) > 0.5
+    upper, _ = where(image[:680], rgb(10))
+    lower, _ = where(image[:680], rgb(11))
+    assert len(upper)
+    assert len(lower)
+    assert upper.mean() < lower.mean()  # +0.5 stands above -0.5
+
+
+def test_publication_graphs_are_black_on_white(tmp_path):
+    page = page_of("dispt", T, {"x": np.sin(6 * T), "y": T}, "N-18", "C16", "R")
+    image = pixels(page, tmp_path)
+    assert share(image, (255, 255, 255)) > 0.8
+    assert share(image, (0, 0, 0)) > 0.003
+    assert (image.max(axis=2) - image.min(axis=2)).max() <= 2  # greys only
+
+
+def test_thick_curves_are_thicker(tmp_path):
+    amount = [share(pixels(page_of("dispt", T, {"x": T}, "N12", letter), tmp_path)[:680], rgb(12), 8) for letter in "QRY"]
+    assert amount[0] < amount[1] < amount[2]
+
+
+def test_values_outside_are_cut_at_the_frame(tmp_path):
+    page = page_of("dispt", T, {"x": 3 * np.sin(6.28 * T)}, "N12", "R", "C7")
+    image = pixels(page, tmp_path)
+    rows, _ = where(image[:680], rgb(12))
+    sides = np.flatnonzero(np.bincount(where(image, rgb(7))[0], minlength=750) > 800)
+    assert sides.max() - sides.min() > 500  # upper and lower side of the frame
+    assert rows.min() >= sides.min() - 4
+    assert rows.max() <= sides.max() + 4
+
+
+def test_nan_and_inf_are_gaps(tmp_path):
+    wild = np.where((T > 0.3) & (T < 0.7), np.nan, 0.5)
+    image = pixels(page_of("dispt", T, {"x": wild, "y": np.full(200, np.inf)}, "N12"), tmp_path)
+    _, columns = where(image[:680], rgb(12))
+    middle = (columns > 0.4 * 1200) & (columns < 0.6 * 1200)
+    assert len(columns)
+    assert not middle.any()
+
+
+def test_no_net_no_lines(tmp_path):
+    with_net = pixels(page_of("dispt", T, {"x": T}, "C9", "N12"), tmp_path)
+    without = pixels(page_of("dispt", T, {"x": T}, "C16", "N12"), tmp_path)
+    assert share(with_net, rgb(9), 8) > 0.001
+    assert share(without, rgb(9), 8) == 0
+
+
+def test_points_and_pictures(tmp_path):
+    book = GraphBook()
+    displayed(book, "A", "Y")
+    for k in range(50):
+        book.plot(k / 50, k / 50, 13, 1.0)
+    assert share(pixels(book.current, tmp_path), rgb(13), 8) > 0.0005
+    book.show("A", np.linspace(-1, 1, 64), 8, 1.0)
+    image = pixels(book.current, tmp_path)
+    assert len(np.unique(image[:, :, 0])) > 30  # a wedge of greys
+
+
+def test_a_map_of_fifty_thousand_points(tmp_path):
+    random = np.random.default_rng(1)
+    data = {"x": random.uniform(-1, 1, 50_000), "y": random.uniform(-1, 1, 50_000)}
+    page = page_of("dispxy", np.arange(50_000.0), data, "N10", rule=0)
+    assert share(pixels(page, tmp_path), rgb(10), 60) > 0.05
+
+
+def test_a_million_samples(tmp_path):
+    t = np.linspace(0, 1, 1_000_000)
+    page = page_of("dispt", t, {"x": 0.9 * np.sin(3000 * t)}, "N10")
+    assert share(pixels(page, tmp_path), rgb(10), 40) > 0.3
+
+
+def test_earlier_runs_keep_their_scale(tmp_path):
+    book = GraphBook()
+    displayed(book, "2", "N10", "R")
+    book.begin_run(record_of("dispt", T, {"x": 0.5 + 0 * T}, scale=1.0))
+    page = book.begin_run(record_of("dispt", T + 1, {"x": 0.5 + 0 * T}, scale=10.0))
+    rows, _ = where(pixels(page, tmp_path)[:680], rgb(10))
+    assert rows.max() - rows.min() > 80  # a quarter and almost half of the height down
+
+
+@pytest.mark.parametrize("name", ["g.jpg", "g", "g.txt"])
+def test_other_endings_are_refused(tmp_path, name):
+    with pytest.raises(DesireError) as caught:
+        write_picture(page_of("dispt", T, {"x": T}), tmp_path / name)
+    assert caught.value.diagnostics[0].code == 34
+
+
+def test_svg_keeps_text_as_text(tmp_path):
+    write_picture(page_of("dispt", T, {"x": T, "y": T}), tmp_path / "g.svg")
+    text = (tmp_path / "g.svg").read_text()
+    assert "x, y vs. t" in text
+    assert "scale = 1" in text
