@@ -21,7 +21,8 @@ def main(names: list[str]) -> int:
                 faults = faults_of_program(Path(name).read_text(encoding="utf-8"), Path(folder))
         except Exception:  # noqa: BLE001 - a fault of the engine; the next program still gets its turn
             faults = ["".join(traceback.format_exc(limit=-3))]
-        print(f"{'ok  ' if not faults else 'BAD '} {time.perf_counter() - began:6.2f} s  {name}", *faults, sep="\n    ")  # noqa: T201
+        head = f"{'BAD ' if faults else 'ok  '} {time.perf_counter() - began:6.2f} s  {name}"
+        sys.stdout.write("\n    ".join([head, *faults]) + "\n")
         bad += bool(faults)
     return bad
 

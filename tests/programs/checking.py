@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from tests.programs.expectations import Check, Expectations
 
 
-
 def peak(x: np.ndarray, t: np.ndarray) -> float:
     """Return the maximum between samples: the top of a quartic through the five around the largest."""
     k = int(np.argmax(x))
@@ -108,9 +107,7 @@ def _check(expected: Check, outcome: Outcome) -> str | None:
         met = left == right
     else:
         bound = expected.tolerance * (np.max(np.abs(right)) if expected.relative else 1.0)
-        met = np.shape(left) == np.shape(right) and bool(
-            np.all(np.abs(left - right) <= max(bound, 1e-13))
-        )
+        met = np.shape(left) == np.shape(right) and bool(np.all(np.abs(left - right) <= max(bound, 1e-13)))
     return None if met else f"row {expected.row}: {expected.text}\n    but it is {_shown(left)}"
 
 

@@ -27,7 +27,11 @@ def faults_of_program(text: str, folder: Path) -> list[str]:
     faults += _faults(expected, native)
     if expected.native_only:
         refused = execute(text, "reference", folder, **how).error
-        return faults if refused and refused.diagnostics[0].code == 411 else [*faults, "the reference back end runs this"]
+        return (
+            faults
+            if refused and refused.diagnostics[0].code == 411
+            else [*faults, "the reference back end runs this"]
+        )
     if expected.reference not in native:
         native[expected.reference] = execute(text, "native", folder, settings=expected.reference, **how)
     reference = execute(text, "reference", folder, settings=expected.reference, **how)
@@ -41,7 +45,9 @@ def _faults(expected: Expectations, outcomes: dict) -> list[str]:
     plain: Outcome = outcomes[()]
     found = _wrong_error(expected, plain)
     found += [fault for c in expected.checks if (fault := check(c, outcomes[c.settings])) is not None]
-    found += [f"not printed: {text!r} in {plain.console!r}" for text in expected.prints if text not in plain.console]
+    found += [
+        f"not printed: {text!r} in {plain.console!r}" for text in expected.prints if text not in plain.console
+    ]
     if expected.console is not None and plain.console.rstrip("\n") != "\n".join(expected.console):
         found.append(f"console: {plain.console!r}")
     return found

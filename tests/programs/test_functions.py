@@ -83,7 +83,9 @@ def test_function(name, backend, tmp_path):
     call = CALLS.get(name, f"{name}(x)")
     head, arguments = call[: len(name)], call[len(name) :]
     scalar, script = head + arguments.replace("x", "q"), head + arguments.replace("x", "x[k]")
-    text = PROGRAM.format(n=len(points), points=", ".join(map(repr, points)), script=script, scalar=scalar, vector=call)
+    text = PROGRAM.format(
+        n=len(points), points=", ".join(map(repr, points)), script=script, scalar=scalar, vector=call
+    )
     outcome = execute(text, backend, tmp_path)
     assert outcome.error is None, str(outcome.error)
     expected = [formula(x) for x in points]
