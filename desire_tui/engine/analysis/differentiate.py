@@ -155,12 +155,12 @@ class _Differentiator:
         return self._table(value)
 
     def _operation(self, value: Op) -> Value | None:
-        slopes = [self.of(argument) for argument in value.args]
-        if not any(slopes):
-            return None
         slope = SLOPES.get(value.name)
         if slope is None:
             raise NotDifferentiable(value)
+        slopes = [self.of(argument) for argument in value.args]
+        if not any(slopes):
+            return None
         return slope(value.args, slopes)
 
     def _products(self, value: MatVec) -> Iterable[MatVec]:

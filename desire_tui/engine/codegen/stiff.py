@@ -15,6 +15,7 @@ from desire_tui.engine.codegen.context import PASSES, Context
 from desire_tui.engine.codegen.natives import PassFunctions
 from desire_tui.engine.codegen.model import passes_of
 from desire_tui.engine.codegen.stiff_library import stiff_functions
+from desire_tui.engine.codegen.stiff_loop import stiff_loop
 from desire_tui.engine.codegen.tables import Tables
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import kind_of, plan
@@ -62,7 +63,8 @@ class StiffModel:
         )
         self._tables = Tables(backend.store, passes)
         self._fill_context(segment, natives.interval)
-        self._loop = backend.loops.stiff()
+        loop = stiff_loop()  # does little between two intervals: quick code is good enough
+        self._loop = backend.store.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
         backend.improver.add(self)
         backend.improver.add(functions)

@@ -46,5 +46,5 @@ def stiff_loop() -> Piece:
     text = Text()
     tableau = TABLEAUS[2]  # one stage: what the loop wants to know is only that there are steps of constant rule
     storage = ArrayStorage(text, 1, 1, contiguous=False)
-    StiffDriver(text, storage, tableau, can_hurry=False).write()
+    StiffDriver(text, storage, tableau).write()
     return named(text)

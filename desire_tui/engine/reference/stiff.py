@@ -10,14 +10,14 @@ import numpy as np
 from desire_tui.engine.analysis.dependence import dependence
 from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.analysis.jacobian import checked_array
-from desire_tui.engine.analysis.slices import acts_at_steps, jacobian_pass
+from desire_tui.engine.analysis.slices import acts_at_steps, derivative_slice, jacobian_pass
 from desire_tui.engine.integration import TABLEAUS
 from desire_tui.engine.integration.callbacks import PythonCallbacks
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import kind_of, plan
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import Functions, StiffSystem
-from desire_tui.engine.reference.model import ReferenceModel, _note_extremes
+from desire_tui.engine.reference.model import ReferenceModel
 from desire_tui.engine.reference.statements import Statements
 from desire_tui.engine.runtime.memory import Ended, Phase
 from desire_tui.engine.values import DT, T
@@ -38,9 +38,12 @@ class StiffReferenceModel(ReferenceModel):
 
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         super().__init__(segment, TABLEAUS[2], values)
+        self.values, self.data, self.order = values, values.data, segment.order
+        self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._segment = segment
         self._directions = self._array = 0
-        self._others = Statements(values, segment.order)
+        self._others = Statements(values, segment.order)  # passes between steps write here
+        self._stage = self._others.compile(derivative_slice(segment))
         self._acts = acts_at_steps(segment)
         self._callbacks = PythonCallbacks(self)
         self.system = self._callbacks.system = StiffSystem(
@@ -74,38 +77,36 @@ class StiffReferenceModel(ReferenceModel):
     def derivatives(self, t: float, y: Array, out: Array) -> None:
         """Run the derivative pass."""
         self._place(t, y)
-        for run in self.stage:
-            run()
-        out[:] = self.statements.derivatives
+        self._stage()
+        out[:] = self._others.derivatives
 
     def tangent(self, t: float, y: Array, direction: Array, out: Array) -> None:
         """Run the tangent pass."""
         self._place(t, y)
         place = self.data[self._directions : self._directions + self.order]
         place[:] = direction
-        for run in self._tangent:
-            run()
+        self._tangent()
         place[:] = 0.0
         out[:] = self._others.derivatives
 
     def jacobian(self, t: float, y: Array) -> Array:
         """Run the JACOBIAN segment."""
         self._place(t, y)
-        for run in self._jacobian:
-            run()
+        self._jacobian()
         return self.data[self._array : self._array + self.order**2]
 
     def _place(self, t: float, y: Array) -> None:
         self.cells[T] = t
-        self._put(y)
+        for slot, first, count in self.ranges:
+            self.data[slot : slot + count] = y[first : first + count]
 
     # ------------------------------------------------------------------ the run
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on; see `ReferenceModel`."""
         system = self.system
+        self._others.memory = memory
         if memory.phase == Phase.AT_POINT and memory.point == 0:
-            self._before = int(memory.derivative_calls)
             system.begin(memory, self.cells[DT])
             if self._array:
                 self.data[self._array : self._array + self.order**2] = 0.0
@@ -138,8 +139,9 @@ class StiffReferenceModel(ReferenceModel):
                 memory.which, memory.phase = flag, Phase.ENDED
                 return Ended.SOLVER
             cells[DT] = solver.last_step
+            memory.dt_least = cells[DT] if memory.steps == 0 else min(memory.dt_least, cells[DT])
+            memory.dt_most = max(memory.dt_most, cells[DT])
             memory.steps += 1
-            _note_extremes(memory, cells[DT])
             if done:
                 memory.phase = Phase.AT_POINT
                 return None
@@ -148,7 +150,9 @@ class StiffReferenceModel(ReferenceModel):
 
     def _follow(self) -> None:
         """Begin anew if t or a state is not what CVODE left."""
-        problem, x = self.system.problem, self._states()
+        problem, x = self.system.problem, np.empty(self.order)
+        for slot, first, count in self.ranges:
+            x[first : first + count] = self.data[slot : slot + count]
         t = self.cells[T]
         self._solution()[:] = x
         if problem.started and t == problem.t and np.array_equal(x, self.system.last):
