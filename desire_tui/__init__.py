@@ -25,10 +25,10 @@ __all__ = ["Session", "__version__", "run"]
 def run(program: str | PathLike[str], **settings: Any) -> Result:
     """Run a program without a screen and return everything it produced, as NumPy arrays.
 
-    `program` is a file name, or the text of a program (a string with a line end or a `|`). Settings, all optional:
-    `set` (mapping of names to numbers that override the script's own), `input` (lines a script's `input` reads),
-    `go` (True answers every STOP), `timeout` (seconds), `backend` (`native` or `reference`), `allow_shell`,
-    `allow_write`, `quiet` (False passes console text to standard output).
+    `program` is a file name, or the text of a program (a string with a line end or a `|`). Settings, all
+    optional: `set` (mapping of names to numbers that override the script's own), `input` (lines a script's
+    `input` reads), `go` (True answers every STOP), `timeout` (seconds), `backend` (`native` or `reference`),
+    `allow_shell`, `allow_write`, `quiet` (False passes console text to standard output).
 
     Nothing is raised for a program's own mistakes: `result.status` is `failed` and `result.problems` say why.
     DesireError 38: the file cannot be read. TypeError: an unknown setting.

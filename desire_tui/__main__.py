@@ -76,16 +76,18 @@ def _settings(_: click.Context, __: click.Parameter, values: tuple[str, ...]) ->
 @click.option("--go", is_flag=True, help="Continue after every STOP.")
 @click.option("--input", "answers", metavar="F", help="File with the lines that `input` reads.")
 @click.option("--quiet", is_flag=True, help="No console text.")
-@click.option("--timeout", type=click.FloatRange(min=0, min_open=True), metavar="S", help="End after S seconds.")
+@click.option(
+    "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="S", help="End after S seconds."
+)
 @click.option("--allow-shell", is_flag=True, help="Let the program run shell commands.")
 @click.option("--allow-write", is_flag=True, help="Let the program use files outside its folder.")
 @click.option("--backend", type=click.Choice(["native", "reference"]), default="native", show_default=True,
               help="Compiled code, or NumPy.")  # fmt: skip
 def run(file: str, **options: Any) -> None:
-    """Run a program without a screen. FILE may be - for standard input; so may output files for standard output.
+    """Run a program without a screen. FILE may be - (standard input), output files too (standard output).
 
-    Console text goes to standard output, problems to standard error. Exit status: 0 done, 1 the program failed,
-    2 wrong usage, 3 stopped by a limit or Ctrl-C.
+    Console text goes to standard output, problems to standard error. Exit status: 0 done, 1 the program
+    failed, 2 wrong usage, 3 stopped by a limit or Ctrl-C.
     """
     from desire_tui.batch.outputs import Wanted
     from desire_tui.batch.run import run_file

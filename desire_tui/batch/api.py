@@ -12,11 +12,15 @@ from desire_tui.engine.files import read_source
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
     from os import PathLike
 
     from desire_tui.engine.outputs.results import Result
     from desire_tui.engine.session.session import BackendName
+
+
+def _ignore(_: object) -> None:
+    return
 
 
 def run_program(
@@ -34,8 +38,8 @@ def run_program(
     """See `desire_tui.run`."""
     is_text = isinstance(program, str) and ("\n" in program or "|" in program)
     source = Source(str(program), "<text>") if is_text else read_source(Path(program))
-    show = (lambda _: None) if quiet else sys.stdout.write
-    listener = BatchListener(show, iter(input), lambda _: None)
+    show: Callable[[str], object] = _ignore if quiet else sys.stdout.write
+    listener = BatchListener(show, iter(input), _ignore)
     orders = Orders(
         settings=set or {}, answer_stops=go, timeout=timeout, backend=backend, allow_shell=allow_shell,
         allow_write=allow_write,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import IO, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.session.listener import Listener
@@ -25,9 +25,9 @@ class BatchListener(Listener):
 
     def __init__(
         self,
-        show: Callable[[str], None],
+        show: Callable[[str], object],
         answers: Iterator[str],
-        show_problems: Callable[[Sequence[Diagnostic]], None],
+        show_problems: Callable[[Sequence[Diagnostic]], object],
         *,
         echo: bool = True,
     ) -> None:

@@ -1,4 +1,4 @@
-"""One program from its text to its result, on a thread of its own so that Ctrl-C and limits are heard at once."""
+"""One program from text to result, on a thread of its own so that Ctrl-C and limits are heard at once."""
 
 from __future__ import annotations
 

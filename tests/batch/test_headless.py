@@ -81,7 +81,17 @@ def test_all_files_at_once(decay, tmp_path):
 def test_json_layout(decay, tmp_path):
     desire("run", decay, "--json", tmp_path / "g.json")
     data = json.loads((tmp_path / "g.json").read_text())
-    assert list(data) == ["desire", "program", "status", "problems", "console", "runs", "plots", "quantities", "timings"]
+    assert list(data) == [
+        "desire",
+        "program",
+        "status",
+        "problems",
+        "console",
+        "runs",
+        "plots",
+        "quantities",
+        "timings",
+    ]
     assert (data["status"], data["problems"], data["plots"]) == ("done", [], [])
     assert data["program"] == str(decay)
     (run,) = data["runs"]
@@ -121,7 +131,17 @@ def test_json_of_problems_has_places(tmp_path):
     data = json.loads(out)
     assert data["status"] == "failed"
     (problem,) = data["problems"]
-    assert list(problem) == ["code", "severity", "message", "file", "line", "column", "end_line", "end_column", "hint"]
+    assert list(problem) == [
+        "code",
+        "severity",
+        "message",
+        "file",
+        "line",
+        "column",
+        "end_line",
+        "end_column",
+        "hint",
+    ]
     assert (problem["code"], problem["line"], problem["column"], problem["end_column"]) == (200, 2, 9, 13)
 
 
@@ -213,7 +233,9 @@ def test_timeout_is_status_3(tmp_path):
 
 def test_ctrl_c_ends_with_status_3(tmp_path):
     path = tmp_path / "long.src"
-    path.write_text("write 'started'\nTMAX = 1.0E+09 | DT = 0.001 | drun\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n")
+    path.write_text(
+        "write 'started'\nTMAX = 1.0E+09 | DT = 0.001 | drun\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n"
+    )
     process = subprocess.Popen(
         [sys.executable, "-m", "desire_tui", "run", str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,7 +11,9 @@ from hypothesis import strategies as st
 
 from desire_tui.engine.graph import clip_polyline, thin_columns
 
-COORDINATES = st.floats(-3, 4, allow_nan=False) | st.sampled_from([float("nan"), float("inf"), -float("inf"), 0.0, 1.0, 1e300])
+COORDINATES = st.floats(-3, 4, allow_nan=False) | st.sampled_from(
+    [float("nan"), float("inf"), -float("inf"), 0.0, 1.0, 1e300]
+)
 
 
 def clipped(points):
@@ -42,7 +46,7 @@ def test_nothing_is_drawn_outside_and_pieces_lie_on_their_lines(points):
 def test_every_inner_point_of_the_polyline_is_kept(points, parts):
     """Against sampling: a point of the line inside the frame lies on one of the pieces."""
     pieces = clipped(points)
-    for (xa, ya), (xb, yb) in zip(points[:-1], points[1:], strict=True):
+    for (xa, ya), (xb, yb) in pairwise(points):
         for part in parts:
             x, y = xa + part * (xb - xa), ya + part * (yb - ya)
             if 0.001 < x < 0.999 and 0.001 < y < 0.999:

@@ -48,7 +48,9 @@ def contrast(a, b):
     """Contrast ratio of WCAG 2.1."""
 
     def luminance(color):
-        parts = [(c / 255 / 12.92 if c / 255 <= 0.03928 else ((c / 255 + 0.055) / 1.055) ** 2.4) for c in color]
+        parts = [
+            (c / 255 / 12.92 if c / 255 <= 0.03928 else ((c / 255 + 0.055) / 1.055) ** 2.4) for c in color
+        ]
         return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
 
     light, dark = sorted((luminance(a), luminance(b)), reverse=True)

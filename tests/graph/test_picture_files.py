@@ -50,7 +50,10 @@ def test_publication_graphs_are_black_on_white(tmp_path):
 
 
 def test_thick_curves_are_thicker(tmp_path):
-    amount = [share(pixels(page_of("dispt", T, {"x": T}, "N12", letter), tmp_path)[:680], rgb(12), 8) for letter in "QRY"]
+    amount = [
+        share(pixels(page_of("dispt", T, {"x": T}, "N12", letter), tmp_path)[:680], rgb(12), 8)
+        for letter in "QRY"
+    ]
     assert amount[0] < amount[1] < amount[2]
 
 

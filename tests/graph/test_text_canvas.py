@@ -22,7 +22,9 @@ def lit(canvas):
     for row in range(canvas.rows):
         for column, character in enumerate(canvas.text(row)):
             pattern = ord(character) - 0x2800 if character != " " else 0
-            dots |= {(2 * column + places[b][0], 4 * row + places[b][1]) for b in range(8) if pattern >> b & 1}
+            dots |= {
+                (2 * column + places[b][0], 4 * row + places[b][1]) for b in range(8) if pattern >> b & 1
+            }
     return dots
 
 
@@ -196,7 +198,15 @@ def test_a_graph_without_net_has_no_frame_lines():
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(0.0, "0"), (-0.0, "0"), (0.25, "0.25"), (1e-7, "1e-7"), (3e8, "3e8"), (123456, "1.2346e5"), (-1.5, "-1.5")],
+    [
+        (0.0, "0"),
+        (-0.0, "0"),
+        (0.25, "0.25"),
+        (1e-7, "1e-7"),
+        (3e8, "3e8"),
+        (123456, "1.2346e5"),
+        (-1.5, "-1.5"),
+    ],
 )
 def test_tick_labels_are_short(value, text):
     assert tick_label(value) == text

@@ -6,7 +6,6 @@ from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session import Listener, Session
 from desire_tui.engine.source import Source
 
-
 BACKEND = "reference"
 """Set by the fixture: every test here runs on both back ends."""
 
@@ -65,7 +64,8 @@ def ran(text, *, folder=None, answers=(), backend=None):
 def value(session, name):
     """Return the final value of a scalar."""
     quantity = session.values.find(name)
-    assert quantity is not None and session.values.is_defined(quantity), name
+    assert quantity is not None, name
+    assert session.values.is_defined(quantity), name
     return session.values.cells[quantity.slot]
 
 

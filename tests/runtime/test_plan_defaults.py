@@ -75,7 +75,9 @@ def test_rule_zero_takes_times_that_are_set():
 
 
 def test_rule_zero_is_for_this_run_only():
-    session = session_for("x = 0 | TMAX = 1 | irule 3 | drun | t = 0 | drun C\n" + MAP + "label C\nd/dt z = 1\n")
+    session = session_for(
+        "x = 0 | TMAX = 1 | irule 3 | drun | t = 0 | drun C\n" + MAP + "label C\nd/dt z = 1\n"
+    )
     assert [r.rule for r in session.runs] == [0, 3]
     assert session.rule == 3
 

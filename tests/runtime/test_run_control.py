@@ -105,7 +105,7 @@ def test_an_idle_session_ignores_pause_and_end():
 
 def test_stop_and_go():
     session, kept = running.ran("x = 1\nSTOP\nx = x + 1\nSTOP\nx = 10 * x\n")
-    assert kept.events == [("stopped", 2)] or kept.events == [("stopped", 3)]
+    assert [e[0] for e in kept.events] == ["stopped"]
     assert session.status.state is State.STOPPED
     session.execute("x = 5")
     session.execute("go")
@@ -155,5 +155,7 @@ def test_run_keeps_rule_and_scale_but_erun_does_not():
 
 
 def test_memory_of_ended_runs_is_given_back():
-    session = running.session_for("TMAX = 1 | NN = 1.0E+06 | DT = 1.0E-06 | drun\nDYNAMIC\nd/dt x = 1\ndispt x\nterm x - 0.001\n")
+    session = running.session_for(
+        "TMAX = 1 | NN = 1.0E+06 | DT = 1.0E-06 | drun\nDYNAMIC\nd/dt x = 1\ndispt x\nterm x - 0.001\n"
+    )
     assert session.runs[0].rows.nbytes < 1 << 16

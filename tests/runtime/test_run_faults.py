@@ -20,7 +20,9 @@ def failed(text):
 
 
 def test_a_state_that_grows_without_bound():
-    session, problem = failed("TMAX = 10 | DT = 0.01 | NN = 101 | x = 1\ndrun\nDYNAMIC\ny = 1\nd/dt x = x*x*x\ndispt x\n")
+    session, problem = failed(
+        "TMAX = 10 | DT = 0.01 | NN = 101 | x = 1\ndrun\nDYNAMIC\ny = 1\nd/dt x = x*x*x\ndispt x\n"
+    )
     lines = render(problem).split("\n")
     assert lines[0].startswith("test.src:5:")
     assert "'x' became" in lines[0]
@@ -33,13 +35,17 @@ def test_a_state_that_grows_without_bound():
 
 
 def test_a_displayed_variable_that_is_undefined():
-    _, problem = failed("TMAX = 2 | DT = 0.01 | NN = 21\ndrun\nDYNAMIC\nd/dt x = 1\nz = sqrt(1.05 - x)\ndispt z\n")
+    _, problem = failed(
+        "TMAX = 2 | DT = 0.01 | NN = 21\ndrun\nDYNAMIC\nd/dt x = 1\nz = sqrt(1.05 - x)\ndispt z\n"
+    )
     assert problem.message == "'z' became undefined (nan) at t = 1.1"
     assert problem.source.position(problem.span.start).row == 5
 
 
 def test_an_element_of_a_vector_state():
-    _, problem = failed("STATE v[3] | v[2] = 1 | TMAX = 9 | DT = 0.01\ndrun\nDYNAMIC\nVectr d/dt v = v*v\ndispt v[1]\n")
+    _, problem = failed(
+        "STATE v[3] | v[2] = 1 | TMAX = 9 | DT = 0.01\ndrun\nDYNAMIC\nVectr d/dt v = v*v\ndispt v[1]\n"
+    )
     assert "'v[2]' became" in problem.message
     assert problem.source.position(problem.span.start).row == 4
 
@@ -68,7 +74,9 @@ def test_a_delay_says_the_size_it_needs(tau, size, needed):
 
 
 def test_a_step_delay_needs_constant_steps():
-    (problem,) = failure("ARRAY D[50] | TMAX = 1 | irule 4\ndrun\nDYNAMIC\nd/dt x = 1\ntdelay y = D(x, 0.1\ndispt y\n")
+    (problem,) = failure(
+        "ARRAY D[50] | TMAX = 1 | irule 4\ndrun\nDYNAMIC\nd/dt x = 1\ntdelay y = D(x, 0.1\ndispt y\n"
+    )
     assert problem.code == 122
 
 

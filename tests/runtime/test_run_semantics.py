@@ -32,7 +32,7 @@ def test_difference_equations_listing():
     )
     lines = kept.text.split("\n")
     assert lines[0] == "t,   xx,yy,p"
-    expected = ["%-13.5e" % k + "%13.5e" % (5 + 3 * (k - 1)) + "%13.5e" % (9 + k) + "%13.5e" % (2 + 3 * k) for k in range(1, 11)]
+    expected = [f"{k:<13.5e}{5 + 3 * (k - 1):13.5e}{9 + k:13.5e}{2 + 3 * k:13.5e}" for k in range(1, 11)]
     assert lines[1:11] == expected
     assert lines[10] == "1.00000e+01    3.20000e+01  1.90000e+01  3.20000e+01"
     assert (value(session, "x"), value(session, "y")) == (35, 20)
@@ -44,7 +44,9 @@ def test_a_listing_may_go_to_a_channel(tmp_path):
         folder=tmp_path,
     )
     assert kept.text == ""
-    assert (tmp_path / "out.txt").read_text() == "t,   x\n1.00000e+00    1.00000e+00\n2.00000e+00    2.00000e+00\n"
+    assert (
+        tmp_path / "out.txt"
+    ).read_text() == "t,   x\n1.00000e+00    1.00000e+00\n2.00000e+00    2.00000e+00\n"
 
 
 def test_continued_runs_go_on_and_reset_returns_to_the_last_start():
@@ -79,11 +81,15 @@ def test_reset_rewinds_store():
         "ARRAY X[9] | TMAX = 4 | NN = 5 | DT = 0.5 | b = 0\ndrunr\nb = 10 | drun\n"
         "DYNAMIC\nd/dt x = 1\ny = x + b\nstore X = y\ndispt x\n"
     )
-    assert session.values.view(session.values.find("X")) == pytest.approx([10, 11, 12, 13, 14, 0, 0, 0, 0], abs=1e-12)
+    assert session.values.view(session.values.find("X")) == pytest.approx(
+        [10, 11, 12, 13, 14, 0, 0, 0, 0], abs=1e-12
+    )
 
 
 def test_dummy_integration_goes_on_without_a_joint():
-    session = session_for("ARRAY X[6] | NN = 3 | x = 0\ndrun | drun\nDYNAMIC\nx = x + 1\nstore X = x\ndispt x\n")
+    session = session_for(
+        "ARRAY X[6] | NN = 3 | x = 0\ndrun | drun\nDYNAMIC\nx = x + 1\nstore X = x\ndispt x\n"
+    )
     assert [r.t.tolist() for r in session.runs] == [[1, 2, 3], [4, 5, 6]]
     assert session.values.view(session.values.find("X")).tolist() == [1, 2, 3, 4, 5, 6]
 
@@ -120,12 +126,16 @@ def test_parameters_do_not_compile_again(monkeypatch):
     calls = []
     real = analysis.lower
     monkeypatch.setattr(analysis, "lower", lambda *a, **k: calls.append(1) or real(*a, **k))
-    session_for("TMAX = 1\nfor k = 1 to 5\na = k | x = 1 | DT = 0.001 * k\ndrunr\nnext\nDYNAMIC\nd/dt x = -a*x\ndispt x\n")
+    session_for(
+        "TMAX = 1\nfor k = 1 to 5\na = k | x = 1 | DT = 0.001 * k\ndrunr\nnext\nDYNAMIC\nd/dt x = -a*x\ndispt x\n"
+    )
     assert len(calls) == 1
 
 
 def test_statistics():
-    record = session_for("TMAX = 1 | DT = 0.1 | NN = 11 | irule 3 | drun\nDYNAMIC\nd/dt x = 1\ndispt x\n").runs[0]
+    record = session_for(
+        "TMAX = 1 | DT = 0.1 | NN = 11 | irule 3 | drun\nDYNAMIC\nd/dt x = 1\ndispt x\n"
+    ).runs[0]
     assert record.steps == 10
     assert record.rejected == 0
     assert (record.dt_least, record.dt_most) == (0.1, 0.1)

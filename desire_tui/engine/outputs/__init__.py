@@ -1,1 +1,1 @@
-"""Graph to text canvas and picture files; runs to CSV, JSON and NPY. The only home of plotext and matplotlib."""
+"""Graphs to text and picture files, runs to CSV, JSON, NPY. The only home of plotext and matplotlib."""

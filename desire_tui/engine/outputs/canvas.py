@@ -1,11 +1,12 @@
 """A braille canvas: dots on a grid of 2 × 4 a cell, one colour a cell.
 
-Cells are kept in tiles of 8 columns, so that a terminal is sent only what changed. NumPy throughout: 12 curves of
-10,000 new samples take a few milliseconds.
+Cells are kept in tiles of 8 columns, so that a terminal is sent only what changed. NumPy throughout: 12
+curves of 10,000 new samples take a few milliseconds.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,8 +28,8 @@ _BITS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]], dtype
 class Canvas:
     """`columns` × `rows` cells. Coordinates are frame units: 0 … 1 from the left and from the bottom.
 
-    `patterns[row, column]` is the braille pattern (0: empty), `colors[row, column]` the colour number of the last
-    thing drawn there (NO_COLOR: nothing).
+    `patterns[row, column]` is the braille pattern (0: empty), `colors[row, column]` the colour number of the
+    last thing drawn there (NO_COLOR: nothing).
     """
 
     def __init__(self, columns: int, rows: int) -> None:
@@ -84,16 +85,14 @@ class Canvas:
         return "".join(chr(_BRAILLE + int(p)) if p else " " for p in self.patterns[row])
 
     def runs(self, row: int, start: int = 0, stop: int | None = None) -> list[tuple[str, int]]:
-        """Return cells `start … stop - 1` of a row as pieces of text in one colour (NO_COLOR for blanks)."""
+        """Return cells `start … stop - 1` of a row as pieces of one colour each (NO_COLOR: blanks)."""
         patterns, colors = self.patterns[row, start:stop], self.colors[row, start:stop]
         if not len(patterns):
             return []
         edges = np.flatnonzero(colors[1:] != colors[:-1]) + 1
         bounds = [0, *edges.tolist(), len(colors)]
         characters = [chr(_BRAILLE + p) if p else " " for p in patterns.tolist()]
-        return [
-            ("".join(characters[a:b]), int(colors[a])) for a, b in zip(bounds[:-1], bounds[1:], strict=True)
-        ]
+        return [("".join(characters[a:b]), int(colors[a])) for a, b in pairwise(bounds)]
 
     def _dot(self, x: Floats, y: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Column from the left and row from the top of the dots that hold points of the unit square."""
@@ -106,7 +105,9 @@ class Canvas:
         flat = np.unique(row * self.width + column)
         row, column = np.divmod(flat, self.width)
         if thickness > 1:
-            offsets = [(0, 0), (0, 1), (1, 0)] if thickness == 2 else [(0, 0), (0, 1), (1, 0), (0, -1), (-1, 0)]
+            offsets = (
+                [(0, 0), (0, 1), (1, 0)] if thickness == 2 else [(0, 0), (0, 1), (1, 0), (0, -1), (-1, 0)]
+            )
             row = np.clip(np.concatenate([row + dy for dy, _ in offsets]), 0, self.height - 1)
             column = np.clip(np.concatenate([column + dx for _, dx in offsets]), 0, self.width - 1)
         cell_row, cell_column = row >> 2, column >> 1

@@ -1,7 +1,8 @@
 """The frame around a text graph — axes, ticks, labels — drawn by plotext.
 
-plotext 6's kernel aborts the whole process on nan, inf and far-off values, so it is never given a curve: it draws
-an empty frame, and the canvas is laid into it. A frame costs some milliseconds; keep it until size or limits change.
+plotext 6's kernel aborts the whole process on nan, inf and far-off values, so it is never given a curve: it
+draws an empty frame, and the canvas is laid into it. A frame costs some milliseconds; keep it until size or
+limits change.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ _plotext_lock = Lock()  # plotext has one figure, and two threads may want frame
 
 @dataclass(frozen=True, slots=True)
 class TextFrame:
-    """Lines of plain text around a hole of `columns` × `rows` cells, whose first cell stands at `left`, `top`."""
+    """Lines of plain text around a hole of `columns` × `rows` cells that begins at `left`, `top`."""
 
     lines: tuple[str, ...]
     left: int
@@ -36,7 +37,8 @@ class TextFrame:
 def text_frame(graph: Graph, columns: int, rows: int, window: Window = (0.0, 1.0, 0.0, 1.0)) -> TextFrame:
     """Return the frame of a graph in `columns` × `rows` cells, labelled for a window in frame units.
 
-    The whole frame is labelled at start, middle and end (language.md 13); a zoomed one too, with its own values.
+    The whole frame is labelled at start, middle and end (language.md 13); a zoomed one too, with its own
+    values.
     """
     columns, rows = max(columns, COLUMNS_LEAST), max(rows, ROWS_LEAST)
     if graph.frame.kind == "picture":
@@ -66,12 +68,20 @@ def tick_label(value: float) -> str:
 
 @lru_cache(maxsize=16)
 def _frame(
-    columns: int, rows: int, title: str, caption: str, x_ticks: tuple[str, ...], y_ticks: tuple[str, ...], net: bool
+    columns: int,
+    rows: int,
+    title: str,
+    caption: str,
+    x_ticks: tuple[str, ...],
+    y_ticks: tuple[str, ...],
+    net: bool,
 ) -> TextFrame:
     import plotext
 
     with _plotext_lock:
-        plotext.terminal.limit(width=False, height=False)  # the pane's size counts, not that of plotext's terminal
+        plotext.terminal.limit(
+            width=False, height=False
+        )  # the pane's size counts, not that of plotext's terminal
         figure = plotext.figure
         figure.clear()
         figure.theme("colorless")

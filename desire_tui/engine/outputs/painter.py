@@ -70,7 +70,8 @@ class Painter:
         points = self.graph.points
         if points.count == self._points or self.graph.frame.kind != "plot":
             return
-        x, y, colors = (a[self._points :] for a in points.so_far())
+        x, y, colors = points.so_far()
+        x, y, colors = x[self._points :], y[self._points :], colors[self._points :]
         self._points += len(x)
         x, y = self._through(*to_unit(self.graph.frame, x, y))
         for color in np.unique(colors):
@@ -92,7 +93,10 @@ class Painter:
 
     def _grey(self, values: Floats, left: float, right: float) -> None:
         canvas = self.canvas
-        first, last = round(left * canvas.width), max(round(right * canvas.width) - 1, round(left * canvas.width) + 1)
+        first, last = (
+            round(left * canvas.width),
+            max(round(right * canvas.width) - 1, round(left * canvas.width) + 1),
+        )
         rows = np.minimum(np.arange(canvas.height) * values.shape[0] // canvas.height, values.shape[0] - 1)
         wide = last - first
         columns = np.minimum(np.arange(wide) * values.shape[1] // wide, values.shape[1] - 1)

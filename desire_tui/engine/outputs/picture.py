@@ -46,7 +46,7 @@ def write_picture(graph: Graph, path: Path) -> None:
 
 
 def draw(graph: Graph) -> Figure:
-    """Return a graph as a matplotlib figure: same window, colours, caption, keys and thickness as on the screen."""
+    """Return a graph as a figure: same window, colours, caption, keys and thickness as on the screen."""
     from matplotlib.figure import Figure
 
     ground = _tint(WHITE if graph.white else BLACK, graph)
@@ -142,16 +142,18 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
     from matplotlib.lines import Line2D
 
     handles = [Line2D([], [], color=_tint(k.color, graph), linewidth=3, label=k.name) for k in graph.keys]
-    legend = figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 8), frameon=False)
+    legend = figure.legend(
+        handles=handles, loc="outside lower center", ncols=min(len(handles), 8), frameon=False
+    )
     for text in legend.get_texts():
         text.set_color(ink)
 
 
 def _draw_pictures(figure: Figure, graph: Graph, ink: Tint) -> None:
-    shown = [s for s in graph.shown if s.latest() is not None]
-    for number, array in enumerate(shown, 1):
+    shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
+    for number, (array, values) in enumerate(shown, 1):
         axes = figure.add_subplot(1, len(shown), number)
-        axes.imshow(array.latest(), cmap="gray", vmin=-array.scale, vmax=array.scale, interpolation="nearest")
+        axes.imshow(values, cmap="gray", vmin=-array.scale, vmax=array.scale, interpolation="nearest")
         axes.set_title(array.name, color=ink, fontsize=_FONT)
         axes.set_xticks([])
         axes.set_yticks([])

@@ -16,7 +16,7 @@ _RESET = "\x1b[0m"
 
 
 def text_plot(graph: Graph, columns: int, rows: int, *, colored: bool) -> str:
-    """Return a graph as `rows` lines of `columns` cells and a line of keys; ANSI true colours if `colored`."""
+    """Return a graph as `rows` lines of `columns` cells, the last for keys; ANSI colours if `colored`."""
     frame = text_frame(graph, columns, rows - 1)
     canvas = Canvas(frame.columns, frame.rows)
     painter = Painter(canvas, graph)
@@ -26,13 +26,13 @@ def text_plot(graph: Graph, columns: int, rows: int, *, colored: bool) -> str:
     for number, line in enumerate(frame.lines):
         row = number - frame.top
         if 0 <= row < frame.rows:
-            inside = "".join(
-                _paint(text, color, graph, colored=colored) for text, color in canvas.runs(row)
-            )
+            inside = "".join(_paint(text, color, graph, colored=colored) for text, color in canvas.runs(row))
             lines.append(line[: frame.left] + inside + line[frame.left + frame.columns :])
         else:
             lines.append(line.rstrip())
-    keys = "   ".join(_paint("■ " if colored else "", k.color, graph, colored=colored) + k.name for k in graph.keys)
+    keys = "   ".join(
+        _paint("■ " if colored else "", k.color, graph, colored=colored) + k.name for k in graph.keys
+    )
     return "\n".join([*lines, " " * frame.left + keys]).rstrip() + "\n"
 
 

@@ -14,12 +14,12 @@ class Model(Protocol):
     """A segment made ready for one rule."""
 
     def advance(self, memory: RunMemory) -> Ended:
-        """Run on (see `memory`). May be called from any one thread at a time; native code frees the interpreter."""
+        """Run on (see `memory`), from any one thread at a time. Native code frees the interpreter."""
         ...
 
 
 class Backend(Protocol):
-    """Makes models. The native one keeps what it compiled, so asking again for the same segment costs nothing."""
+    """Makes models. The native one keeps what it compiled: asking again for a segment costs nothing."""
 
     name: str
 

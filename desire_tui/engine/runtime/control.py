@@ -83,7 +83,7 @@ class Control:
                 self._go_on.set()
 
     def attach(self, memory: RunMemory | None) -> None:
-        """A run's memory whose stop flag is to be raised; None after the run."""
+        """Name the memory whose stop flag is to be raised; None after the run."""
         with self._lock:
             self._memory = memory
 

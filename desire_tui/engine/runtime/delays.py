@@ -40,7 +40,7 @@ class Delays:
         self._found: dict[int, tuple[Segment, tuple[DelayLine, ...], bool]] = {}
 
     def lags(self, segment: Segment, plan: Plan, values: Values) -> dict[int, int]:
-        """Return the lag of each delay line by its counter. DesireError 105: buffer too short; 122: DT varies."""
+        """Return each delay line's lag by its counter. DesireError 105: buffer too short; 122: DT varies."""
         known = self._found.get(id(segment))
         if known is None or known[0] is not segment:
             lines = tuple(a for a in actions(segment.body) if isinstance(a, DelayLine))

@@ -1,4 +1,4 @@
-"""Words for what went wrong in a run: which variable, when, and the line that defines it (language.md 9.8)."""
+"""What went wrong in a run: which variable, when, and the line that defines it (language.md 9.8)."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 _SOLVER_KEYS = {
     -1: "solver-gave-up", -2: "solver-too-accurate", -3: "solver-error-test", -4: "solver-corrector",
-    -5: "solver-linear", -6: "solver-singular", -7: "solver-linear", -8: "solver-derivative", -9: "solver-derivative",
-    -10: "solver-derivative", -15: "solver-corrector", -27: "solver-too-close",
+    -5: "solver-linear", -6: "solver-singular", -7: "solver-linear", -8: "solver-derivative",
+    -9: "solver-derivative", -10: "solver-derivative", -15: "solver-corrector", -27: "solver-too-close",
 }  # fmt: skip
 """CVODE's return flags (SUNDIALS 7, cvode.h)."""
 
@@ -78,7 +78,7 @@ def _derivative(segment: Segment, number: int) -> Where | None:
 
 
 def _defining(segment: Segment, slot: int) -> Where | None:
-    """Return the place of the statement that gives a slot its value: an assignment, or the derivative of a state."""
+    """Return the place that gives a slot its value: an assignment, or a state's derivative."""
     for action in actions(segment.body):
         match action:
             case Set(slot=first) | SetDot(slot=first) if first == slot:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Positions:
-    """Where a segment's store, get, delay and SAMPLE stand; `end` is the t its last run reached, nan before it."""
+    """Where a segment's store, get, delay and SAMPLE stand; `end` is where its last run ended, or nan."""
 
     counters: NDArray[np.int64]
     points: int = 0

@@ -67,7 +67,10 @@ class RunMemory(ctypes.Structure):
         ("dt_most", ctypes.c_double),
         ("k", ctypes.c_int64),
         ("point", ctypes.c_int64),  # index of the next communication point, 0 … nn-1
-        ("points_before", ctypes.c_int64),  # communication points of earlier, continued runs (SAMPLE counts on)
+        (
+            "points_before",
+            ctypes.c_int64,
+        ),  # communication points of earlier, continued runs (SAMPLE counts on)
         ("joined", ctypes.c_int64),  # 1: this run continues one; store/get/delay skip its first point
         ("nn", ctypes.c_int64),
         ("every", ctypes.c_int64),  # MM

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.values import (
-    CHECKN, DT, DTMAX, DTMIN, ERMAX, ERMIN, MM, NN, SCALE, TMAX, T,
+    CHECKN,
+    DT,
+    DTMAX,
+    DTMIN,
+    ERMAX,
+    ERMIN,
+    MM,
+    NN,
+    SCALE,
+    TMAX,
+    T,
 )  # fmt: skip
 
 if TYPE_CHECKING:
@@ -103,7 +113,7 @@ class Defaults:
         )  # fmt: skip
 
     def follow(self) -> None:
-        """After a run or a reset: a DT that a rule changed, starting from a default, is still nobody's wish."""
+        """Note, after a run or reset, that a DT which a rule made of a default is still nobody's wish."""
         if DT in self._supplied:
             self._supplied[DT] = self._values.cells[DT]
 

@@ -19,8 +19,8 @@ EndedWord = Literal["running", "tmax", "term", "stopped", "failed"]
 class RunRecord:
     """A run. The engine's thread appends; any thread may read: rows below `count` never change.
 
-    `rows` is capacity × (1 + columns): t, then each requested column. It may be *replaced* by a larger array as it
-    grows, so take `rows` once and `count` before it.
+    `rows` is capacity × (1 + columns): t, then each requested column. It may be *replaced* by a larger array
+    as it grows, so take `rows` once and `count` before it.
     """
 
     number: int
@@ -59,7 +59,7 @@ class RunRecord:
         return self.rows[:count, 0]
 
     def first_column(self, request: Request) -> int:
-        """Return the position in `columns` of a request's first variable: `columns` are all requests' in turn."""
+        """Return where a request's variables begin in `columns`, which holds all requests' in turn."""
         before = 0
         for known in self.requests:
             if known is request:
@@ -68,7 +68,7 @@ class RunRecord:
         return before
 
     def values(self, name: str) -> NDArray[np.float64]:
-        """Samples of a requested variable so far; KeyError for a name that was not requested."""
+        """Return a requested variable's samples so far; KeyError for a name that was not requested."""
         count = self.count
         for number, column in enumerate(self.columns):
             if column.name == name:

@@ -43,7 +43,7 @@ class Observer(Protocol):
     """Hears of a run's progress, on the run's thread."""
 
     def block(self, record: RunRecord, first_row: int) -> None:
-        """Samples `first_row … record.count - 1` have come."""
+        """Hear that samples `first_row … record.count - 1` have come."""
 
 
 class Simulator:

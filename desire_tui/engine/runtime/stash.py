@@ -1,4 +1,4 @@
-"""Stash files: time histories kept between runs, programs and sessions (book 1.3.7.3; the form is this project's).
+"""Stash files: time histories kept between runs and sessions (book 1.3.7.3; the form is this project's).
 
 NPY, samples × variables, so that other tools read them. The k-th recovered variable takes the k-th stashed
 one.
@@ -57,7 +57,7 @@ def read_stash(path: Path, wanted: tuple[Column, ...], segment: Segment) -> NDAr
 
 
 def with_recovery(segment: Segment, samples: int, values: Values) -> tuple[Segment, tuple[int, ...]]:
-    """Return the segment with its `recover` line as `get` statements, and the slots to fill with the histories.
+    """Return the segment with its `recover` line as `get` statements, and the slots to fill.
 
     The arrays have no name: they are nobody's quantities.
     """
@@ -70,7 +70,5 @@ def with_recovery(segment: Segment, samples: int, values: Values) -> tuple[Segme
         Get(column.slot, slot, samples, segment.counters + number, column.where)
         for number, (column, slot) in enumerate(zip(segment.recover, slots, strict=True))
     )
-    changed = replace(
-        segment, body=gets + segment.body, counters=segment.counters + len(gets), recover=()
-    )
+    changed = replace(segment, body=gets + segment.body, counters=segment.counters + len(gets), recover=())
     return changed, tuple(slots)

@@ -1,7 +1,8 @@
 """Brings a long block of native code back now and then, although no sample is due.
 
-A run with few samples may stay in native code for seconds. Then nobody would see t move, and a back end that has
-compiled faster code meanwhile could not change over. The stop flag brings it back; with no wish there, it goes on.
+A run with few samples may stay in native code for seconds. Then nobody would see t move, and a back end that
+has compiled faster code meanwhile could not change over. The stop flag brings it back; with no wish there, it
+goes on.
 """
 
 from __future__ import annotations
@@ -28,18 +29,20 @@ class Ticker:
         self._thread: threading.Thread | None = None
 
     def begin(self) -> None:
-        """A run begins."""
+        """Hear that a run begins."""
         if self._thread is None or not self._thread.is_alive():
-            self._thread = threading.Thread(target=_tick, args=(weakref.ref(self),), daemon=True, name="desire-ticker")
+            self._thread = threading.Thread(
+                target=_tick, args=(weakref.ref(self),), daemon=True, name="desire-ticker"
+            )
             self._thread.start()
         self._running.set()
 
     def block(self) -> None:
-        """A block begins."""
+        """Hear that a block begins."""
         self._blocks += 1
 
     def end(self) -> None:
-        """The run is over."""
+        """Hear that the run is over."""
         self._running.clear()
 
     def tick(self) -> bool:

@@ -1,4 +1,4 @@
-"""Commands of language.md 6 that are about the session: erun, run, go, list, snapshot, notebook, compare, help."""
+"""Commands about the session (language.md 6): erun, run, go, list, snapshot, notebook, compare, help."""
 
 from __future__ import annotations
 
@@ -103,7 +103,9 @@ class Commands:
         from desire_tui.help import find, topics
 
         if not topic.strip():
-            return "Help about: " + ", ".join(sorted({t.name for t in topics() if t.kind != "error"}))
+            return "Help about: " + ", ".join(
+                sorted({t.name for t in topics().values() if t.kind != "error"})
+            )
         found = find(topic.strip())
         if found is None:
             raise DesireError(Diagnostic("no-help", facts={"topic": topic}))
@@ -141,5 +143,3 @@ class Commands:
         from pathlib import Path
 
         return self._world.permit(Path(name), "write")
-
-

@@ -35,7 +35,8 @@ def compare_rules(session: Session, world: World, desk: Desk, rule: int) -> str:
         plan = world.simulator.defaults.plan(segment, rule, desk.source, None)
         record = RunRecord(
             number=0, segment=last.segment, line=0, requests=segment.requests, columns=segment.columns,
-            overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt,
+            overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn,
+            dt=plan.dt,
         )  # fmt: skip
         world.simulator.run(desk.segments.model(segment, plan.rule), segment, plan, record, _Deaf())
     return _table(last, record, names)
@@ -50,9 +51,7 @@ def _table(one: RunRecord, other: RunRecord, names: list[str]) -> str:
         a, b = one.values(name)[:count], other.values(name)[:count]
         difference = np.abs(a - b)
         at = int(np.nanargmax(difference)) if np.isfinite(difference).any() else 0
-        lines.append(
-            f"{name:12s}{difference[at]:14.6g}{one.t[at]:13.6g}{a[-1]:15.8g}{b[-1]:15.8g}"
-        )
+        lines.append(f"{name:12s}{difference[at]:14.6g}{one.t[at]:13.6g}{a[-1]:15.8g}{b[-1]:15.8g}")
     return "\n".join(lines) + "\n"
 
 

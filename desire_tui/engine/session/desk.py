@@ -45,7 +45,7 @@ class Desk:
 
     @property
     def folder(self) -> Path:
-        """Where relative file names start: the program's folder, or the one given, or the working directory."""
+        """Where relative names start: the program's folder, the one given, or the working directory."""
         path = self.source.path
         if path is not None:
             return path.expanduser().resolve().parent
@@ -84,7 +84,11 @@ class Desk:
         script = []
         for placed in program.script:
             node = placed.node
-            if isinstance(node, Assign) and isinstance(node.target, Name) and node.target.name in self.overrides:
+            if (
+                isinstance(node, Assign)
+                and isinstance(node.target, Name)
+                and node.target.name in self.overrides
+            ):
                 value = Number(self.overrides[node.target.name], node.value.start, node.value.end)
                 placed = placed._replace(node=Assign(node.target, value, node.start, node.end))  # noqa: PLW2901
             script.append(placed)

@@ -1,4 +1,4 @@
-"""The notebook: commands, program versions, results and pictures of a session, as Markdown [B 5.5.3; form X]."""
+"""The notebook: a session's commands, programs, results and pictures, as Markdown [B 5.5.3; form X]."""
 
 from __future__ import annotations
 

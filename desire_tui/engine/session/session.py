@@ -35,10 +35,10 @@ BackendName = Literal["native", "reference"]
 class Session:
     """Programs, quantities, runs and graphs of one user.
 
-    Threads: `accept erun run go execute new` belong to one thread (the app's engine thread) and return when the work
-    is done; they raise DesireError with placed diagnostics when something fails, error 301 when the user ended it.
-    `pause resume end check status snapshot help` may be called from any thread at any time. `values` may be read from
-    any thread; numbers change while a run goes on.
+    Threads: `accept erun run go execute new` belong to one thread (the app's engine thread) and return when
+    the work is done; they raise DesireError with placed diagnostics when something fails, error 301 when the
+    user ended it. `pause resume end check status snapshot help` may be called from any thread at any time.
+    `values` may be read from any thread; numbers change while a run goes on.
     """
 
     def __init__(

@@ -81,8 +81,8 @@ class World:
         self.runs_made += 1
         record = RunRecord(
             number=self.runs_made, segment=label, line=desk.line_of(placed), requests=segment.requests,
-            columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule, scale=plan.scale,
-            t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt, compile_seconds=perf_counter() - began,
+            columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule,
+            scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt, compile_seconds=perf_counter() - began,
         )  # fmt: skip
         self._keep(record)
         graph = self._graphs.begin_run(record, segment.pictures)
@@ -117,7 +117,7 @@ class World:
             self._runs_bytes -= self.runs.pop(0).rows.nbytes
 
     def forget_runs(self) -> None:
-        """A program starts: its runs count from 1."""
+        """Begin a program: its runs count from 1."""
         self.runs.clear()
         self.runs_made = self._runs_bytes = 0
 
@@ -267,7 +267,9 @@ def _placed_at(error: DesireError, desk: Desk, placed: Placed) -> DesireError:
     source = desk.source_of(placed)
     return DesireError(
         *(
-            d if d.span is not None else Diagnostic(d.key, placed.span(), d.facts, source, d.severity, d.related)
+            d
+            if d.span is not None
+            else Diagnostic(d.key, placed.span(), d.facts, source, d.severity, d.related)
             for d in error.diagnostics
         )
     )
@@ -275,5 +277,3 @@ def _placed_at(error: DesireError, desk: Desk, placed: Placed) -> DesireError:
 
 def _nothing(*_: object) -> None:
     return
-
-

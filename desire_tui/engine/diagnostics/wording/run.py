@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from desire_tui.engine.diagnostics.wording.entry import Wording
 
-_TMAX_PAGE = """A run lasts from t0 to t0 + TMAX. A segment with `d/dt` lines has no natural length, so the script must say it:
+_TMAX_PAGE = """A run lasts from t0 to t0 + TMAX. A segment with `d/dt` lines has no natural length: the
+script must say it:
 
 ```desire
 TMAX = 10 | DT = 0.01 | NN = 501
@@ -13,19 +14,25 @@ drun
 
 Only segments without `d/dt` choose TMAX = NN - 1 by themselves."""
 
-_FAULT_PAGE = """The run ended because a number became infinite or undefined. Everything up to that time was kept: look at the
-curves. Usual causes: a division by zero, the square root or logarithm of a negative number, a step DT too large for
-the rule (try a quarter of it, or `irule 4`), or a model whose solution really grows without bound (stop it with `term`)."""
+_FAULT_PAGE = """The run ended because a number became infinite or undefined. Everything up to that time was
+kept: look at the curves. Usual causes: a division by zero, the square root or logarithm of a negative number,
+a step DT too large for the rule (try a quarter of it, or `irule 4`), or a model whose solution really grows
+without bound (stop it with `term`)."""
 
 MESSAGES: dict[str, Wording] = {
     "tmax-missing": Wording(
-        87, "TMAX is not set: how long shall the run last?", "set it before drun, for instance TMAX = 10", _TMAX_PAGE
+        87,
+        "TMAX is not set: how long shall the run last?",
+        "set it before drun, for instance TMAX = 10",
+        _TMAX_PAGE,
     ),
     "tmax-not-positive": Wording(
         87, "TMAX = {value:g}, but a run must last some time", "set TMAX to a number above 0", _TMAX_PAGE
     ),
     "dt-not-positive": Wording(
-        87, "DT = {value:g}, but a step must go forward", "set DT above 0, or leave it out: it then is half of COMINT"
+        87,
+        "DT = {value:g}, but a step must go forward",
+        "set DT above 0, or leave it out: it then is half of COMINT",
     ),
     "nn-not-a-number": Wording(87, "NN = {value:g} is no number of samples", "set NN to 2 or more"),
     "ermax-missing": Wording(
@@ -49,11 +56,11 @@ MESSAGES: dict[str, Wording] = {
     ),
     "variable-step-deadlock": Wording(
         94,
-        "variable-step deadlock at t = {t:.6g}: state '{state}' differs by {difference:.3g} > ERMAX = {ermax:g}"
-        " even with DT = {dt:.3g}",
+        "variable-step deadlock at t = {t:.6g}: state '{state}' differs by {difference:.3g} > ERMAX ="
+        " {ermax:g} even with DT = {dt:.3g}",
         "make ERMAX larger or DTMIN smaller; a jump in the right-hand side belongs after `step`",
-        "Rules 4, 7 and 8 halve DT until the test difference is below ERMAX, but never below DTMIN (DT/16 if it is"
-        " not set). The difference that could not be reduced is in ERRMAX.",
+        "Rules 4, 7 and 8 halve DT until the test difference is below ERMAX, but never below DTMIN (DT/16 if"
+        " it is not set). The difference that could not be reduced is in ERRMAX.",
     ),
     "not-finite": Wording(
         300,
@@ -66,7 +73,7 @@ MESSAGES: dict[str, Wording] = {
         105,
         "the delay {tau:g} needs {needed} elements, but '{buffer}' has {count}",
         "declare it larger: ARRAY {buffer}[{needed}]",
-        "A delay buffer keeps one value for each step (tdelay) or communication point (delay) of the delay time.",
+        "A delay buffer keeps one value for each step (tdelay) or communication point (delay) of the delay.",
     ),
     "delay-negative": Wording(105, "the delay {tau:g} is no time to wait", "a delay must be 0 or more"),
     "delay-variable-step": Wording(

@@ -7,7 +7,9 @@ from desire_tui.engine.diagnostics.wording.entry import Wording
 MESSAGES: dict[str, Wording] = {
     "out-of-memory": Wording(40, "no room for {elements} more numbers", "make the arrays smaller, or clear"),
     "no-program": Wording(215, "there is no program to run", "type one into an editor tab, or load one"),
-    "no-dynamic-segment": Wording(215, "there is no DYNAMIC program segment", "add a line DYNAMIC and a model below it"),
+    "no-dynamic-segment": Wording(
+        215, "there is no DYNAMIC program segment", "add a line DYNAMIC and a model below it"
+    ),
     "no-such-segment": Wording(
         215, "there is no DYNAMIC program segment '{label}'", "add a line `label {label}` behind DYNAMIC"
     ),
@@ -20,11 +22,15 @@ MESSAGES: dict[str, Wording] = {
     "picture-kind": Wording(34, "cannot draw {path}", "end the name with .png, .svg or .pdf"),
     "no-graph": Wording(471, "there is no graph yet", "run a program with dispt, dispxy or DISPXY first"),
     "no-run": Wording(472, "there is no run yet", "start one with zz or drun"),
-    "command-elsewhere": Wording(402, "'{word}' works in the desktop only", "start the desktop with `desire`"),
+    "command-elsewhere": Wording(
+        402, "'{word}' works in the desktop only", "start the desktop with `desire`"
+    ),
     "unknown-command": Wording(402, "there is no command '{word}' here", "`help` lists the commands"),
     "no-help": Wording(403, "there is no help page about '{topic}'", "`help` alone lists the pages"),
     "compare-form": Wording(404, "compare what?", "for instance: compare rule 4"),
-    "compare-nothing": Wording(405, "the last run shows nothing to compare", "add a dispt, dispxy or type line"),
+    "compare-nothing": Wording(
+        405, "the last run shows nothing to compare", "add a dispt, dispxy or type line"
+    ),
     "shell-refused": Wording(
         450,
         "the program wants to run the shell command `{command}`, which is not allowed",
