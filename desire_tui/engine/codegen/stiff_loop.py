@@ -26,6 +26,7 @@ class StiffDriver(Driver):
         ended = text.op(
             f"{call}ptr {self.context.load('problem')}, ptr %m, double {self.get('t_next')}, i32 1)"
         )
+        self.put("steps", self.memory.load("steps"))  # counted where they are made
         others = (Ended.STOPPED, Ended.TERM, Ended.SOLVER)
         cases = " ".join(f"i32 {int(e)}, label %interval.{e.name.lower()}" for e in others)
         text.do(f"switch i32 {ended}, label %interval.done [ {cases} ]")

@@ -40,6 +40,7 @@ CVODE: Signatures = {
     "CVodeSetMaxErrTestFails": (_I, (_P, _I)),
     "CVodeSetMaxConvFails": (_I, (_P, _I)),
     "CVodeSetMaxHnilWarns": (_I, (_P, _I)),
+    "CVodeSetNonlinConvCoef": (_I, (_P, _D)),
     "CVodeSetStopTime": (_I, (_P, _D)),
     "CVode": (_I, (_P, _D, _P, _P, _I)),
     "CVodeGetLastStep": (_I, (_P, _P)),
