@@ -82,7 +82,8 @@ class World:
         record = RunRecord(
             number=self.runs_made, segment=label, line=desk.line_of(placed), requests=segment.requests,
             columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule,
-            scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt, compile_seconds=perf_counter() - began,
+            scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt,
+            compile_seconds=perf_counter() - began,
         )  # fmt: skip
         self._keep(record)
         graph = self._graphs.begin_run(record, segment.pictures)
