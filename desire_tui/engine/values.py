@@ -156,7 +156,7 @@ class Values:
         return made
 
     def room(self, count: int) -> int:
-        """Return the first of `count` new, nameless array slots, filled with 0 (compiled code's own numbers)."""
+        """Return the first of `count` new, nameless array slots, filled with 0 (for compiled code)."""
         slot = self.array("", (count,)).slot
         del self.names[""]
         return slot
@@ -171,13 +171,15 @@ class Values:
         return made
 
     def assign(self, slot: int, value: float) -> None:
-        """Set a scalar and mark it defined."""
+        """Set a scalar (perhaps part of an array) and mark it defined."""
         self.cells[slot] = value
-        self.defined[slot] = 1
+        if slot < SCALAR_SLOTS:
+            self.defined[slot] = 1
 
     def is_defined(self, quantity: Quantity) -> bool:
         """Whether it has a value: arrays always, scalars once assigned."""
-        return bool(quantity.shape) or bool(self.defined[quantity.slot])
+        slot = quantity.slot
+        return slot >= SCALAR_SLOTS or bool(quantity.shape) or bool(self.defined[slot])
 
     def view(self, quantity: Quantity) -> NDArray[np.float64] | NDArray[np.complex128]:
         """Return an array's numbers in its shape, sharing memory."""

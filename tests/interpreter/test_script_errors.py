@@ -123,3 +123,12 @@ def test_messages_are_plain_sentences():
     for key, wording in MESSAGES.items():
         assert not wording.message.endswith("."), key
         assert "Python" not in wording.message, key
+
+
+def test_errors_in_bodies_name_the_statements_that_led_there():
+    text = "FUNCTION f(a) = 1/a\nPROCEDURE p(x; r)\nr = f(x)\nend\nPROCEDURE q(;r)\ncall p(0; r)\nend\ncall q(;y)"
+    with pytest.raises(DesireError) as caught:
+        run(text)
+    problem = caught.value.diagnostics[0]
+    assert (problem.code, text[slice(*problem.span)]) == (5, "1/a")
+    assert [text[slice(*p.span)] for p in problem.related] == ["r = f(x)", "call p(0; r)", "call q(;y)"]

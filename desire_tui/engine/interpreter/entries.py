@@ -75,6 +75,7 @@ class Entries:
         placed: Placed = statements[0]
         assert isinstance(placed.node, Bare)
         machine = self._site.machine
+        known = len(machine.origins)
         try:
             code, _ = self._site.translator.expression(placed.node.value)
             value: complex = machine.build.evaluate(code, placed, source)
@@ -82,6 +83,8 @@ class Entries:
             raise
         except (Fault, ArithmeticError, ValueError) as error:
             raise explain(error, placed, source, machine.origins) from error
+        finally:
+            machine.origins.forget_from(known)
         return value
 
 

@@ -14,6 +14,7 @@ from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.nodes import Binary, Call, Node
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from types import CodeType, TracebackType
 
     from desire_tui.engine.nodes import Placed
@@ -48,17 +49,35 @@ class Origins:
         self._sources.append(source)
         return f"{MARK}{len(self._statements) - 1}>"
 
+    def __len__(self) -> int:
+        return len(self._statements)
+
+    def forget_from(self, number: int) -> None:
+        """Forget code that is gone, such as an entry that was evaluated once."""
+        del self._statements[number:], self._sources[number:]
+
     def statement(self, code: CodeType) -> tuple[Placed, Source | None]:
         """Return the statement (and its source) that a code object was made from."""
         number = int(code.co_filename[len(MARK) : -1])
         return self._statements[number], self._sources[number]
 
 
-def explain(error: Exception, placed: Placed, source: Source | None, origins: Origins) -> DesireError:
-    """Return the message for an exception that left the statement `placed`."""
+Way = tuple["Placed", "Source | None"]
+"""A statement and the text it stands in."""
+
+
+def explain(
+    error: Exception, placed: Placed, source: Source | None, origins: Origins, callers: Sequence[Way] = ()
+) -> DesireError:
+    """Return the message for an exception that left the statement `placed`.
+
+    The related places are the statement that used the FUNCTION or data item at fault, and `callers`: the
+    `call` lines of the PROCEDUREs being executed, the innermost first.
+    """
     if isinstance(error, DesireError):
         return _placed_error(error, placed, source)
     node: Node | None = None
+    reached = placed, source
     found = _deepest(error.__traceback__)
     if found is not None:
         code, start, end = found
@@ -71,7 +90,9 @@ def explain(error: Exception, placed: Placed, source: Source | None, origins: Or
     else:
         key, facts = _key_of(error, node)
     span = placed.span(node if node is not None and node.end > node.start else None)
-    return DesireError(Diagnostic(key, span, facts, source))
+    ways = [reached, *callers] if reached[0] is not placed else [*callers]
+    related = tuple(Diagnostic("reached-from-here", p.span(), {}, s) for p, s in ways)
+    return DesireError(Diagnostic(key, span, facts, source, related=related))
 
 
 def _placed_error(error: DesireError, placed: Placed, source: Source | None) -> DesireError:

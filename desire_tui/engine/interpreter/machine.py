@@ -196,7 +196,13 @@ class Machine:
             raise
         except Exception as error:
             code, place = self.locate(address)
-            raise explain(error, code.placed[place], code.source, self.origins) from error
+            placed = code.placed[place]
+            raise explain(error, placed, code.source, self.origins, self._callers()) from error
+
+    def _callers(self) -> list[tuple[Placed, Source | None]]:
+        """Return the `call` statements that led here, the innermost first."""
+        found = (self.locate(back - 1) for back, _ in reversed(self.returns))
+        return [(code.placed[place], code.source) for code, place in found]
 
     def locate(self, address: int) -> tuple[Code, int]:
         """Return the code and the place in it that an address belongs to."""

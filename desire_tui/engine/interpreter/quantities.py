@@ -16,7 +16,7 @@ _SHOWN_ELEMENTS = 4
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One quantity: its name with dimensions, its kind in words, its value (the first elements of an array)."""
+    """One quantity: its name, with dimensions, its kind in words, its value (an array's first elements)."""
 
     name: str
     title: str
@@ -26,7 +26,7 @@ class Row:
 
 
 def names(values: Values) -> list[Row]:
-    """Return all quantities that have a value, in the order they were made. Costs no more for large arrays."""
+    """Return all quantities with a value in the order they were made; large arrays cost no more."""
     return [
         Row(q.name, title(q), kind_word(q), value_text(values, q), q) for q in values if values.is_defined(q)
     ]

@@ -92,6 +92,7 @@ MESSAGES: dict[str, Wording] = {
     # ------------------------------------------------------------------------------ control
     "step-is-zero": Wording(23, "the step is 0, so the loop would never end", "give a step that is not 0"),
     "loop-variable": Wording(48, "'{name}' cannot count a loop", "loop variables are real"),
+    "reached-from-here": Wording(52, "reached from here"),
     "procedure-recursion": Wording(
         52, "PROCEDURE '{name}' is being executed already", "write a loop instead"
     ),
