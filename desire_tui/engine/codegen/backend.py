@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.background import Improver
 from desire_tui.engine.codegen.compiler import machine
-from desire_tui.engine.codegen.loopcode import Loops
+from desire_tui.engine.codegen.loopcode import array_loop
 from desire_tui.engine.codegen.model import NativeModel
 from desire_tui.engine.codegen.store import Store
 
@@ -19,23 +19,29 @@ if TYPE_CHECKING:
 
 _MODELS_MOST = 32
 STIFF_RULES = range(9, 17)
+_STORE = Store()
+"""One for all back ends of a process: code depends on nothing but its text."""
+_IMPROVER = Improver()
 
 
 class NativeBackend:
     """Native code through LLVM, for all rules.
 
-    LLVM is loaded, and the run loop of rule 1 compiled, in a thread that starts with this object: by the time
-    somebody types `zz` it is there.
+    LLVM is loaded in a thread that starts with this object: by the time somebody types `zz` it is there.
     """
 
     name = "native"
 
     def __init__(self) -> None:
-        self.store = Store()
-        self.loops = Loops(self.store)
-        self.improver = Improver()
+        self.store = _STORE
+        self.improver = _IMPROVER
         self._models: OrderedDict[tuple[int, int, int], tuple[Segment, Values, Model]] = OrderedDict()
-        threading.Thread(target=machine, name="desire starts LLVM", daemon=True).start()
+        threading.Thread(target=self._warm_up, name="desire starts LLVM", daemon=True).start()
+
+    def _warm_up(self) -> None:
+        """Load LLVM and let it compile something: its first module costs 20 ms more than any other."""
+        machine()
+        self.store.quick([array_loop(1, contiguous=True)])
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
         """Prepare `segment` for integration rule `rule`; the same segment again costs nothing."""
@@ -43,8 +49,11 @@ class NativeBackend:
         known = self._models.get(key)
         if known is not None:
             self._models.move_to_end(key)
+            if isinstance(known[2], NativeModel):
+                self.improver.again(known[2])
             return known[2]
-        made = self._make(segment, rule, values)
+        with self.improver.held():
+            made = self._make(segment, rule, values)
         self._models[key] = (segment, values, made)  # the key's ids stay taken as long as these live
         while len(self._models) > _MODELS_MOST:
             self._models.popitem(last=False)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import queue
 import threading
-import time
 import weakref
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 _BREATH_SECONDS = 0.0005
-"""Between two pieces: LLVM's lock is not fair, and somebody may wait with quick code."""
+"""Between two steps: LLVM's lock is not fair, and somebody may wait with quick code."""
+_BEGUN_MOST = 3
+_QUIET_SECONDS = 0.02
+"""After somebody waited for quick code, more may follow; then the user comes first."""
 
 
 class Improvable(Protocol):
@@ -23,29 +25,68 @@ class Improvable(Protocol):
         ...
 
 
+class Remembering(Improvable, Protocol):
+    """Also tells whether its fast code has come."""
+
+    improved: bool
+
+
 class Improver:
     """Works through what it was given, the newest first; what nobody holds any more is dropped."""
 
     def __init__(self) -> None:
-        self._waiting: queue.LifoQueue[weakref.ref[Improvable]] = queue.LifoQueue()
+        self._new: list[weakref.ref[Improvable]] = []
+        self._begun: list[tuple[weakref.ref[Improvable], Iterator[None]]] = []
+        self._something = threading.Condition()
         self._thread: threading.Thread | None = None
-        self._lock = threading.Lock()
+        self._urgent = 0
 
     def add(self, work: Improvable) -> None:
         """Take up some work."""
-        self._waiting.put(weakref.ref(work))
-        with self._lock:
+        with self._something:
+            self._new.append(weakref.ref(work))
             if self._thread is None:
                 self._thread = threading.Thread(target=self._run, name="desire fast code", daemon=True)
                 self._thread.start()
+            self._something.notify()
+
+    def again(self, work: Remembering) -> None:
+        """Take up work that may have been dropped for newer work."""
+        with self._something:
+            under_way = any(reference() is work for reference, _ in self._begun)
+            under_way = under_way or any(reference() is work for reference in self._new)
+        if not (work.improved or under_way):
+            self.add(work)
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Start no new step while somebody waits for quick code."""
+        with self._something:
+            self._urgent += 1
+        try:
+            yield
+        finally:
+            with self._something:
+                self._urgent -= 1
 
     def _run(self) -> None:
         while True:
-            reference = self._waiting.get()
-            work = reference()
-            if work is None:
-                continue
-            steps = work.improve()
-            del work
-            for _ in steps:
-                time.sleep(_BREATH_SECONDS)
+            with self._something:
+                while not (self._new or self._begun):
+                    self._something.wait()
+                while self._urgent:
+                    self._something.wait(_QUIET_SECONDS)
+                if self._new:
+                    reference = self._new.pop()
+                    work = reference()
+                    if work is None:
+                        continue
+                    self._begun.append((reference, work.improve()))
+                    del self._begun[:-_BEGUN_MOST]  # programs edited away
+                    del work
+                reference, steps = self._begun[-1]
+            if next(steps, self) is self:
+                with self._something:
+                    self._begun.remove((reference, steps))
+            del reference, steps
+            threading.Event().wait(_BREATH_SECONDS)

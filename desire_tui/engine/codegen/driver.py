@@ -97,11 +97,10 @@ class Storage(Protocol):
 class Driver:
     """Writes the function `i32 @run(ptr memory, ptr context)`."""
 
-    def __init__(self, text: Text, storage: Storage, tableau: Tableau | None, *, can_hurry: bool) -> None:
+    def __init__(self, text: Text, storage: Storage, tableau: Tableau | None) -> None:
         self.text = text
         self.storage = storage
         self.tableau = tableau
-        self.can_hurry = can_hurry
         self.lanes = Lanes(text)
         self.memory = memory_fields(text)
         self.context = context_fields(text)
@@ -307,8 +306,6 @@ class Driver:
         text.branch(text.op(f"or i1 {asked}, {reached}"), "attend", "again")
 
     def _hurry(self) -> str:
-        if not self.can_hurry:
-            return "0"
         return self.text.op(f"icmp ne i64 {self.context.load('hurry', volatile=True)}, 0")
 
     def _attend(self) -> None:

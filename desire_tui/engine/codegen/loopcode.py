@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from hashlib import blake2b
 from typing import TYPE_CHECKING
 
@@ -14,39 +15,17 @@ from desire_tui.engine.codegen.text import Text
 from desire_tui.engine.integration import TABLEAUS
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.store import Compiled, Store
     from desire_tui.engine.lowered import Action
 
 
-class Loops:
-    """Run loops over arrays, compiled when a rule is first used."""
-
-    def __init__(self, store: Store) -> None:
-        self._store = store
-        self._texts: dict[tuple[int, bool], Piece] = {}
-
-    def get(self, rule: int, *, contiguous: bool) -> Compiled:
-        """Return the loop of a rule, well compiled: it is the same for all models."""
-        key = (rule, contiguous)
-        piece = self._texts.get(key)
-        if piece is None:
-            piece = self._texts[key] = array_loop(rule, contiguous=contiguous)
-        return self._store.fast(piece)
-
-    def stiff(self) -> Compiled:
-        """Return the loop of rules 9 … 16."""
-        from desire_tui.engine.codegen.stiff_loop import stiff_loop
-
-        return self._store.fast(stiff_loop())
-
-
+@functools.cache
 def array_loop(rule: int, *, contiguous: bool) -> Piece:
-    """Write the loop over arrays."""
+    """Write the loop over arrays: the same for all models of a rule."""
     text = Text()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
     storage = ArrayStorage(text, stages, machine().width, contiguous=contiguous)
-    Driver(text, storage, tableau, can_hurry=False).write()
+    Driver(text, storage, tableau).write()
     return named(text)
 
 
@@ -58,7 +37,7 @@ def register_loop(
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
     storage = RegisterStorage(text, passes, states, columns, stages)
-    Driver(text, storage, tableau, can_hurry=True).write()
+    Driver(text, storage, tableau).write()
     return named(text)
 
 

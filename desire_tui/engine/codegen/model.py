@@ -9,9 +9,10 @@ import numpy as np
 
 from desire_tui.engine.analysis.slices import derivative_slice, full_pass, step_slice, tail_pass
 from desire_tui.engine.codegen.context import PASSES, Context
-from desire_tui.engine.codegen.loopcode import register_loop
+from desire_tui.engine.codegen.loopcode import array_loop, register_loop
 from desire_tui.engine.codegen.scope import survey
 from desire_tui.engine.codegen.tables import Tables
+from desire_tui.engine.lowered import Deriv
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 
 if TYPE_CHECKING:
@@ -43,20 +44,20 @@ class NativeModel:
         self._kept: list[object] = []
         self._tables: Tables | None = None
         passes = passes_of(segment)
-        scope = survey(passes.values())
-        self._small = scope.only_scalars and scope.statements <= SMALL and segment.order <= SMALL
+        self._small = segment.order <= SMALL and len(segment.body) <= SMALL and _is_small(passes)
         self._stage_memory(4 if not self._small else 1)
         if self._small:
             self._loop = register_loop(passes, rule, self._states.tolist(), self._columns.tolist())
-            self._use(self._store.quick([self._loop])[self._loop.name])
         else:
             self._tables = Tables(self._store, passes)
             for kind in PASSES:
                 setattr(self.context, kind, self._tables.addresses[kind])
             self._temps = np.zeros(self._tables.temps)
             self.context.temps = self._temps.ctypes.data
-            self._use(backend.loops.get(rule, contiguous=self._contiguous))
+            self._loop = array_loop(rule, contiguous=self._contiguous)
+        self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
+        self.improved = False
         backend.improver.add(self)
 
     # ------------------------------------------------------------------ making
@@ -68,7 +69,10 @@ class NativeModel:
 
     def _stage_memory(self, stages: int) -> None:
         order = max(self._states.size, 1)
-        arrays = np.zeros((1 + stages, order))
+        room = -(-order // 8) * 8 + 8  # whole cache lines, and no two arrays at the same place of a page
+        flat = np.zeros((1 + stages) * room + 8)
+        aligned = flat[-(flat.ctypes.data // 8) % 8 :]
+        arrays = [aligned[i * room :] for i in range(1 + stages)]
         context = self.context
         context.states = self._states.size
         context.state_slots = self._states.ctypes.data
@@ -77,7 +81,7 @@ class NativeModel:
         context.column_count = self._columns.size
         for name, array in zip(("x0", "k1", "k2", "k3", "k4"), arrays, strict=False):
             setattr(context, name, array.ctypes.data)
-        self._kept.append(arrays)
+        self._kept.append(flat)
 
     def _use(self, compiled: Compiled) -> None:
         self._kept.append(compiled)
@@ -85,13 +89,12 @@ class NativeModel:
 
     def improve(self) -> Iterator[None]:
         """Compile fast code and put it in use, piece by piece."""
-        if self._small:
-            self._better = self._store.fast(self._loop)
-            self.context.hurry = 1
-            yield
-            return
-        assert self._tables is not None
-        yield from self._tables.improve()
+        self._better = self._store.fast(self._loop)
+        self.context.hurry = 1
+        yield
+        if self._tables is not None:
+            yield from self._tables.improve()
+        self.improved = True
 
     # ------------------------------------------------------------------ running
 
@@ -121,8 +124,15 @@ class NativeModel:
         return 0
 
 
+def _is_small(passes: dict[str, tuple[Action, ...]]) -> bool:
+    scope = survey(passes.values())
+    return scope.only_scalars and scope.statements <= SMALL
+
+
 def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:
     """Return the statements of each of the four passes."""
+    if all(type(action) is Deriv for action in segment.body):
+        return dict.fromkeys(("derivative", "step", "full"), segment.body) | {"tail": ()}
     return {
         "derivative": derivative_slice(segment),
         "step": step_slice(segment),

@@ -1,4 +1,4 @@
-"""Cuts a pass into compiled pieces of about a hundred statements.
+"""Cuts a pass into compiled pieces of a few dozen statements.
 
 Code shape matters more than the optimiser's level: one function with 1,401 equations costs LLVM ten times as much as
 fourteen with 100. A piece is kept by its text, so a one-line edit compiles one piece.
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered import Action
 
-STATEMENTS_MOST = 100
+STATEMENTS_MOST = 64
 
 
 class Piece(NamedTuple):

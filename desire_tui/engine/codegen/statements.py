@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen import templates
 from desire_tui.engine.codegen.context import context_fields, memory_fields
 from desire_tui.engine.codegen.expressions import ScalarExpressions
 from desire_tui.engine.codegen.lanes import Lanes
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.cells import Cells
     from desire_tui.engine.codegen.text import Text
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered import Action, Value
 
 
 class ScalarStatements:
@@ -44,9 +45,9 @@ class ScalarStatements:
         self.scalars.forget()
         match action:
             case Set():
-                self.cells.store(action.slot, self.scalars.value(action.value))
+                self.cells.store(action.slot, self._scalar(action.value))
             case Deriv():
-                self.cells.derivative(action.state, self.scalars.value(action.value))
+                self.cells.derivative(action.state, self._scalar(action.value))
             case Guard():
                 self._guard(action)
             case Store():
@@ -61,6 +62,10 @@ class ScalarStatements:
                 self._terminate(action)
             case _:
                 self.arrays(action)
+
+    def _scalar(self, value: Value) -> str:
+        """Write a scalar value, from a template where its shape allows."""
+        return templates.write(self.text, self.cells, value) or self.scalars.value(value)
 
     def arrays(self, action: Action) -> None:
         """Write a statement over arrays."""

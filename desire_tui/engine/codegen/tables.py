@@ -25,10 +25,16 @@ class Tables:
         self._store = store
         self._pieces: dict[str, Piece] = {}
         names: dict[str, list[str]] = {}
+        written: dict[tuple[int, ...], Piece] = {}  # passes share most statements
         for kind, actions in passes.items():
-            listed = [write(group) for group in cut(actions)]
-            self._pieces.update((piece.name, piece) for piece in listed)
-            names[kind] = [piece.name for piece in listed]
+            names[kind] = []
+            for group in cut(actions):
+                key = tuple(map(id, group))
+                piece = written.get(key)
+                if piece is None:
+                    piece = written[key] = write(group)
+                    self._pieces[piece.name] = piece
+                names[kind].append(piece.name)
         self.temps = max((piece.temps for piece in self._pieces.values()), default=0)
         found = store.quick(self._pieces.values())
         self._kept: list[object] = list(found.values())
