@@ -51,7 +51,12 @@ def test_defined_variables_are_not_persistent():
 
 @pytest.mark.parametrize(
     "body",
-    ["p = p + 1\nd/dt x = p", "d/dt x = p\np = x", "d/dt x = p\nOUT\np = x", "if x\np = 1\nend if\nd/dt x = p"],
+    [
+        "p = p + 1\nd/dt x = p",
+        "d/dt x = p\np = x",
+        "d/dt x = p\nOUT\np = x",
+        "if x\np = 1\nend if\nd/dt x = p",
+    ],
 )
 def test_what_is_read_before_it_is_set_is_persistent(body):
     lowered, values = segment(body, p=1)
@@ -60,7 +65,7 @@ def test_what_is_read_before_it_is_set_is_persistent(body):
 
 def test_both_branches_set_it():
     body = "if x\np = 1\nelse\np = 2\nend if\nd/dt x = p"
-    lowered, values = segment(body)
+    lowered, _ = segment(body)
     assert not any(a.persistent for a in walk(lowered.body) if isinstance(a, Set))
 
 
@@ -161,7 +166,9 @@ def test_products_of_matrix_and_vector():
     slot = {n: values.find(n).slot for n in "AxyBz"}
     total = lowered.body[0].value
     left, right = total.args
-    assert left == Op("mul", (Op("mul", (Const(2.0), MatVec(slot["A"], 3, 3, False, slot["x"]))), Vec(slot["y"], 3)))
+    assert left == Op(
+        "mul", (Op("mul", (Const(2.0), MatVec(slot["A"], 3, 3, False, slot["x"]))), Vec(slot["y"], 3))
+    )
     assert right == Op("tanh", (MatVec(slot["B"], 2, 3, True, slot["z"]),))
 
 

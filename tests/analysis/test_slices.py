@@ -72,13 +72,17 @@ def test_history_statements():
 
 
 def test_vectors_are_sliced_too():
-    body = "Vector u = 2*s\nVector w = 3*s\nDOT m = w*1\nVectr d/dt s = u\ny = s[1]\nd/dt z = q[2]\nVector q = s"
+    body = (
+        "Vector u = 2*s\nVector w = 3*s\nDOT m = w*1\nVectr d/dt s = u\ny = s[1]\nd/dt z = q[2]\nVector q = s"
+    )
     lowered, values = segment(body, u=(3,), w=(3,), s=(3,), q=(3,))
     assert names(derivative_slice(lowered), values) == ["SetVec", "DerivVec", "d3", "SetVec"]
 
 
 @settings(max_examples=60, deadline=None)
-@given(st.lists(st.tuples(st.integers(0, 5), st.lists(st.integers(0, 5), max_size=3)), min_size=1, max_size=8))
+@given(
+    st.lists(st.tuples(st.integers(0, 5), st.lists(st.integers(0, 5), max_size=3)), min_size=1, max_size=8)
+)
 def test_leaving_out_changes_no_derivative(lines):
     """Both-flags-off passes: the slice gives the derivatives and persistent numbers of the whole segment."""
     import numpy as np
@@ -86,7 +90,8 @@ def test_leaving_out_changes_no_derivative(lines):
     from desire_tui.engine.reference.statements import Statements
 
     body = "\n".join(
-        f"v{target} = 0.5 + " + " + ".join([f"0.25*v{s}" for s in sources] or ["x"]) for target, sources in lines
+        f"v{target} = 0.5 + " + " + ".join([f"0.25*v{s}" for s in sources] or ["x"])
+        for target, sources in lines
     )
     body += "\nd/dt x = v0 - v3 + x"
     initial = {f"v{i}": 0.1 * i for i in range(6)}
@@ -98,8 +103,6 @@ def test_leaving_out_changes_no_derivative(lines):
         passes = statements.compile(actions)
         for _ in range(3):
             passes()
-        persistent = [
-            quantities.cells[a.slot] for a in whole.body if isinstance(a, Set) and a.persistent
-        ]
+        persistent = [quantities.cells[a.slot] for a in whole.body if isinstance(a, Set) and a.persistent]
         results.append([*statements.derivatives, *persistent])
     assert np.array_equal(*results)

@@ -107,7 +107,9 @@ def test_vectors_draw_from_the_last_element_down():
 
 def test_a_matrix_draws_row_by_row_from_the_end():
     session = once("MATRIX W = ran()", "SEED 7\n")
-    draws = once("\n".join(f"z[1] = ran()\nW[{i},{k}] = z[1]" for i in (3, 2, 1) for k in (4, 3, 2, 1)), "SEED 7\n")
+    draws = once(
+        "\n".join(f"z[1] = ran()\nW[{i},{k}] = z[1]" for i in (3, 2, 1) for k in (4, 3, 2, 1)), "SEED 7\n"
+    )
     assert (array(session, "W") == array(draws, "W")).all()
 
 

@@ -53,7 +53,9 @@ def test_variable_rules_keep_the_tolerance_and_end_on_points():
 
 
 def test_the_step_doubles_up_to_its_limit():
-    session = run("irule 4\nTMAX = 1 | NN = 3 | DT = 0.001 | DTMAX = 0.064 | x = 1\ndrun\nDYNAMIC\nd/dt x = -0.001*x")
+    session = run(
+        "irule 4\nTMAX = 1 | NN = 3 | DT = 0.001 | DTMAX = 0.064 | x = 1\ndrun\nDYNAMIC\nd/dt x = -0.001*x"
+    )
     (record,) = session.runs
     assert record.dt_most == pytest.approx(0.064)
     assert value(session, "DT") == pytest.approx(0.064)
@@ -78,7 +80,9 @@ def test_deadlock_is_error_94():
     from desire_tui.engine.diagnostics import DesireError
 
     with pytest.raises(DesireError) as caught:
-        run("irule 4\nTMAX = 1 | NN = 3 | DT = 0.01 | ERMAX = 1e-9 | x = 1\ndrun\nDYNAMIC\nd/dt x = sgn(t - 0.30517)")
+        run(
+            "irule 4\nTMAX = 1 | NN = 3 | DT = 0.01 | ERMAX = 1e-9 | x = 1\ndrun\nDYNAMIC\nd/dt x = sgn(t - 0.30517)"
+        )
     assert caught.value.diagnostics[0].code == 94
 
 

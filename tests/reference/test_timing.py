@@ -54,7 +54,9 @@ def test_out_and_step_and_later_stages():
 
 
 def test_sample_counts_the_first_point_as_number_one():
-    body = "TMAX = 1 | DT = 0.1 | NN = 11 | h = 0\ndrun\ndrun\nDYNAMIC\nd/dt x = 1\nSAMPLE 4\nh = h + 1\nARR = t"
+    body = (
+        "TMAX = 1 | DT = 0.1 | NN = 11 | h = 0\ndrun\ndrun\nDYNAMIC\nd/dt x = 1\nSAMPLE 4\nh = h + 1\nARR = t"
+    )
     session = run(body)
     # points 4, 8 of the first run; 12, 16, 20 of both together (21 points, the joint counts once)
     assert value(session, "h") == 5
@@ -75,7 +77,9 @@ def test_continued_runs_store_the_joint_once():
 
 
 def test_store_stops_at_the_arrays_end_and_reset_rewinds():
-    session = run("TMAX = 1 | DT = 0.05 | NN = 11 | ARRAY X[4]\ndrunr\nx = 5\ndrunr\nDYNAMIC\nd/dt x = 1\nstore X = x")
+    session = run(
+        "TMAX = 1 | DT = 0.05 | NN = 11 | ARRAY X[4]\ndrunr\nx = 5\ndrunr\nDYNAMIC\nd/dt x = 1\nstore X = x"
+    )
     assert array(session, "X") == pytest.approx([5, 5.1, 5.2, 5.3])
 
 
@@ -114,7 +118,9 @@ def test_a_buffer_keeps_what_it_holds():
 
 
 def test_track_and_hold():
-    session = run("NN = 6 | ARRAY P[6]\nP[2] = 1 | P[3] = 1 | P[5] = 1\ndrun\nDYNAMIC\nget p = P\ntrkhld y, y0 = p, t\ndispt y")
+    session = run(
+        "NN = 6 | ARRAY P[6]\nP[2] = 1 | P[3] = 1 | P[5] = 1\ndrun\nDYNAMIC\nget p = P\ntrkhld y, y0 = p, t\ndispt y"
+    )
     assert list(session.runs[0].values("y")) == [0, 0, 2, 2, 3, 3]
 
 

@@ -11,17 +11,22 @@ _INITIAL = "give it an initial value in the script, or move this line below line
 MESSAGES: dict[str, Wording] = {
     # ------------------------------------------------------------------ names
     "undefined-in-segment": Wording(
-        200, "undefined variable '{name}'", "assign it in the script before drun, or in the segment above this line",
-        "A DYNAMIC segment may read what the script has assigned, and what an earlier line of the segment has.",
+        200,
+        "undefined variable '{name}'",
+        "assign it in the script before drun, or in the segment above this line",
+        "A DYNAMIC segment may read what the script has assigned, and what an earlier line has.",
     ),
     "used-before-set": Wording(
-        200, "'{name}' is used before line {line} defines it", _INITIAL,
-        "Defined variables are **not sorted**: a pass goes through the lines as written. A name that is used above "
-        "the line which assigns it (after `OUT`, `SAMPLE`, `step` or `if`, perhaps) keeps its value from pass to pass "
-        "and needs an initial one.",
+        200,
+        "'{name}' is used before line {line} defines it",
+        _INITIAL,
+        "Defined variables are **not sorted**: a pass goes through the lines as written. A name used above the "
+        "line which assigns it (after `OUT`, `SAMPLE`, `step` or `if`, perhaps) keeps its value from pass to "
+        "pass and needs an initial one.",
     ),
     "undefined-subscript": Wording(
-        200, "undefined variable '{name}' in a number that must be known now",
+        200,
+        "undefined variable '{name}' in a number that must be known now",
         "subscripts are worked out when the run starts: assign it in the script",
     ),
     "undefined-in-vector": Wording(
@@ -29,27 +34,34 @@ MESSAGES: dict[str, Wording] = {
     ),
     "array-as-number": Wording(69, "'{name}' is an array: subscripts are missing", "write {name}[i]"),
     "vector-as-number": Wording(
-        75, "'{name}' is a whole vector, a number is expected here", "use Vector y =, or DOT for sums of products"
+        75,
+        "'{name}' is a whole vector, a number is expected here",
+        "use Vector y =, or DOT for sums of products",
     ),
     "number-as-array": Wording(19, "'{name}' is a number, an array is expected here", _DECLARE),
     "array-not-declared": Wording(19, "'{name}' is not declared as an array", _DECLARE),
     "function-with-brackets": Wording(
         19, "'{name}' is a function, not an array", "a function's arguments stand in parentheses: {name}(x)"
     ),
-    "subscript-count": Wording(69, "'{name}' has {count} subscript(s)", "write as many as its declaration has"),
+    "subscript-count": Wording(
+        69, "'{name}' has {count} subscript(s)", "write as many as its declaration has"
+    ),
     "subscript-out-of-range": Wording(
         2, "subscript {number} of '{name}' is {value}, it may be 1 to {size}", "subscripts start at 1"
     ),
     "constant-not-computable": Wording(
-        44, "this number must be known when the run starts, and cannot be worked out",
+        44,
+        "this number must be known when the run starts, and cannot be worked out",
         "use numbers and script variables only",
     ),
     "complex-in-dynamic": Wording(
-        218, "'{name}' is COMPLEX: only real quantities can be used in a DYNAMIC segment",
+        218,
+        "'{name}' is COMPLEX: only real quantities can be used in a DYNAMIC segment",
         "work with real and imaginary part",
     ),
     "not-real-target": Wording(
-        218, "'{name}' is not a real quantity and cannot be assigned in a DYNAMIC segment",
+        218,
+        "'{name}' is not a real quantity and cannot be assigned in a DYNAMIC segment",
         "use a variable that is not declared INTEGER or COMPLEX",
     ),
     "constant-target": Wording(73, "'{name}' is a constant", "use another name"),
@@ -72,20 +84,25 @@ MESSAGES: dict[str, Wording] = {
     "function-arguments": Wording(
         56, "FUNCTION '{name}' has {wanted} argument(s), {given} are given", "give each dummy its argument"
     ),
-    "function-recursion": Wording(52, "FUNCTION '{name}' would call itself", "use a loop or a difference equation"),
+    "function-recursion": Wording(
+        52, "FUNCTION '{name}' would call itself", "use a loop or a difference equation"
+    ),
     "undefined-submodel": Wording(
         201, "there is no submodel '{name}'", "declare it in the script: SUBMODEL {name}(…) … end"
     ),
     "submodel-arguments": Wording(
         56, "submodel '{name}' has {wanted} argument(s), {given} are given", "give each dummy its argument"
     ),
-    "submodel-recursion": Wording(52, "submodel '{name}' would invoke itself", "submodels may nest, not recurse"),
+    "submodel-recursion": Wording(
+        52, "submodel '{name}' would invoke itself", "submodels may nest, not recurse"
+    ),
     "submodel-argument-not-name": Wording(
         209, "an argument of submodel '{name}' must be a name", "assign the expression to a variable first"
     ),
     "table-not-a-name": Wording(36, "a table is given by the name of its array", "write func1(x; F)"),
     "table-size": Wording(
-        32, "the table '{name}' has {size} element(s): breakpoints and as many values are needed",
+        32,
+        "the table '{name}' has {size} element(s): breakpoints and as many values are needed",
         "declare: ARRAY X[n] + Y[n] = {name}",
     ),
     "table2-size": Wording(
@@ -96,21 +113,30 @@ MESSAGES: dict[str, Wording] = {
         74, "'{name}' is {name}{shape}, {wanted} is needed here", "sizes must agree element by element"
     ),
     "vector-recursion": Wording(
-        85, "the target would be read after some of its elements are replaced", "compute it into another array first",
-        "Elements are assigned from the last to the first. `Vector x = A * x` and `Vector x = x{{1}}` would use new "
-        "values in place of old ones.",
+        85,
+        "the target would be read after some of its elements are replaced",
+        "compute it into another array first",
+        "Elements are assigned from the last to the first. `Vector x = A * x` and `Vector x = x{{1}}` would "
+        "use new values in place of old ones.",
     ),
     "matrix-needs-vector": Wording(
-        75, "the matrix '{name}' must be followed by * and a vector", "write {name} * x; elementwise: use MATRIX, or a "
-        "vector view: ARRAY {name}[m,n] = v",
+        75,
+        "the matrix '{name}' must be followed by * and a vector",
+        "write {name} * x; elementwise: use MATRIX, or a vector view: ARRAY {name}[m,n] = v",
     ),
     "vector-in-matrix": Wording(
         75, "the vector '{name}' stands alone in a matrix expression", "vectors come in pairs: u*v or u & v"
     ),
-    "vector-name-expected": Wording(75, "the name of an array is expected here", "assign the expression first"),
-    "vector-target": Wording(75, "'{name}' has {dimensions} dimensions, a vector is needed", "use MATRIX, or a view"),
+    "vector-name-expected": Wording(
+        75, "the name of an array is expected here", "assign the expression first"
+    ),
+    "vector-target": Wording(
+        75, "'{name}' has {dimensions} dimensions, a vector is needed", "use MATRIX, or a view"
+    ),
     "matrix-target": Wording(75, "'{name}' has {dimensions} dimension(s), a matrix is needed", "use Vector"),
-    "row-of-matrix": Wording(75, "'{name}#' is a row: a matrix is needed, in a vector expression", "declare {name}[m,n]"),
+    "row-of-matrix": Wording(
+        75, "'{name}#' is a row: a matrix is needed, in a vector expression", "declare {name}[m,n]"
+    ),
     "shift-in-matrix": Wording(75, "index shifts are for vectors", "use Vector statements"),
     "ampersand-here": Wording(75, "& joins two vectors of a MATRIX expression: u & v", "use * for products"),
     "dot-term": Wording(
@@ -127,8 +153,12 @@ MESSAGES: dict[str, Wording] = {
         8, "a second {kind}: the segment has one in line {line}", "join the lists, or use another segment"
     ),
     "second-sample": Wording(8, "a second SAMPLE", "one SAMPLE in a segment"),
-    "sample-below-one": Wording(44, "SAMPLE {value}: at least 1 is needed", "SAMPLE m runs at every m-th point"),
-    "pairs-expected": Wording(14, "DISPXY needs pairs of names: x1, y1, x2, y2 and so on", "add or remove a name"),
+    "sample-below-one": Wording(
+        44, "SAMPLE {value}: at least 1 is needed", "SAMPLE m runs at every m-th point"
+    ),
+    "pairs-expected": Wording(
+        14, "DISPXY needs pairs of names: x1, y1, x2, y2 and so on", "add or remove a name"
+    ),
     "abscissa-and-ordinate": Wording(14, "dispxy needs an abscissa and a curve", "write dispxy x, y"),
     "array-in-request": Wording(
         69, "'{name}' is an array: one of its elements can be shown", "write {name}[i], or SHOW {name}"
@@ -145,7 +175,8 @@ MESSAGES: dict[str, Wording] = {
         230, "'{name}' is too small for {order} state(s)", "declare: ARRAY {name}[{order},{order}]"
     ),
     "jacobian-entry": Wording(
-        230, "this element is outside of the Jacobian of {order} state(s)",
+        230,
+        "this element is outside of the Jacobian of {order} state(s)",
         "rows and columns are numbered in the order of the d/dt lines",
     ),
 }
