@@ -162,7 +162,8 @@ def _logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry,
                 length += len(rows[i]) + 1
                 next_at += len(rows[i]) + 1
                 i += 1
-                if not (known(rows[i - 1]) or _parse_line(rows[i - 1]))[1]:
+                last = rows[i - 1]
+                if not (known(last) or _parse_line(last))[1] and not last.lstrip().startswith("--"):
                     break
             whole = known("\n".join(parts)) or _parse_line("\n".join(parts))
             if _swallowed(line, whole, parts):

@@ -1,0 +1,86 @@
+"""Hostile texts get a message, quickly; the grammar's tables survive a bad cache."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from time import process_time
+
+import pytest
+
+from desire_tui.engine.analysis.structure import structure
+from desire_tui.engine.nodes import Data
+from desire_tui.engine.source import Source
+from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax import tables as tables_module
+
+HOSTILE = {
+    "x = " + "(" * 10_000 + "1" + ")" * 10_000: "nested-too-deep",
+    "x = " + "-" * 1 + "+" * 10_000 + "1": "expression-too-deep",
+    "x = " + "2^" * 10_000 + "1": "expression-too-deep",
+    "x = " + "1+" * 10_000 + "1": "expression-too-deep",
+    "if " + "not " * 10_000 + "a > b then": "expression-too-deep",
+    "x = " + "y" * 10_000_000: "line-too-long",
+    "x = 1 + _\n" * 200_000: "line-too-long",
+    "x = " + "a[" * 10_000: "nested-too-deep",
+}
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=lambda text: text[:14].replace("\n", " "))
+def test_hostile_text_gets_a_message_at_once(text: str) -> None:
+    began = process_time()
+    program = parse(Source(text))
+    assert [problem.key for problem in program.problems] == [HOSTILE[text]]
+    assert process_time() - began < 2.0
+
+
+def test_long_lists_are_fine() -> None:
+    program = parse(Source("data " + "1," * 50_000 + "1"))
+    assert not program.problems
+    node = program.script[0].node
+    assert isinstance(node, Data)
+    assert len(node.items) == 50_001
+
+
+def test_nested_blocks_of_any_depth() -> None:
+    program = parse(Source("for i = 1 to 2\n" * 5_000 + "next\n" * 5_000))
+    found = structure(program)
+    assert not found.problems
+    assert found.partner[0] == 9_999
+
+
+@pytest.mark.parametrize("content", [None, "", "{}", '{"start": 1}', "[1, 2]", "\0\0"])
+def test_tables_survive_a_bad_cache(content, tmp_path, monkeypatch) -> None:
+    file = tmp_path / "cache" / "grammar.json"
+    if content is not None:
+        file.parent.mkdir()
+        file.write_text(content)
+    monkeypatch.setattr(tables_module, "_cache_file", lambda _: str(file))
+    before = tables_module.tables()
+    tables_module.tables.cache_clear()
+    try:
+        again = tables_module.tables()
+        assert len(again.actions) == len(before.actions)
+        assert len(file.read_text()) > 10_000, "the good tables are stored"
+        tables_module.tables.cache_clear()
+        assert tables_module.tables() == again
+    finally:
+        tables_module.tables.cache_clear()
+
+
+def test_tables_without_a_writable_cache(monkeypatch) -> None:
+    monkeypatch.setattr(tables_module, "_cache_file", lambda _: "/proc/nowhere/grammar.json")
+    tables_module.tables.cache_clear()
+    try:
+        assert tables_module.tables().rules
+    finally:
+        tables_module.tables.cache_clear()
+
+
+def test_lark_is_not_imported_when_the_tables_are_stored() -> None:
+    tables_module.tables()
+    code = (
+        "import sys; from desire_tui.engine.source import Source; from desire_tui.engine.syntax import parse;"
+        "parse(Source('x = 1')); print([m for m in ('lark', 'numpy', 'textual') if m in sys.modules])"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
