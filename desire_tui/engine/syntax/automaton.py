@@ -57,27 +57,28 @@ def derive(kinds: Sequence[str], texts: Sequence[str]) -> Statement:
             heights.append(0)
             at += 1
             continue
-        rule = rules[-1 - move]
-        size = rule.size
-        if size > 1 or rule.method:
+        origin, size, method, splice = rules[-1 - move]
+        if size == 1 and not method:
+            # Chains such as atom → power → signed → product → sum are most of the work: no stack but the states' moves.
+            if splice and not isinstance(values[-1], list):
+                values[-1] = [values[-1]]
+            states[-1] = gotos[states[-2]][origin]
+        else:
             children = values[-size:]
             first, last = firsts[-size], lasts[-1]
             height = max(heights[-size:])
-            del values[-size:], firsts[-size:], lasts[-size:], heights[-size:]
-            if rule.method:
+            del states[-size:], values[-size:], firsts[-size:], lasts[-size:], heights[-size:]
+            if method:
                 height += 1
                 if height > HEIGHT_MAX:
                     raise Misuse("expression-too-deep", first, last, {"limit": HEIGHT_MAX})
-                values.append(builder.make(rule.method, _flat(children), first, last))
+                values.append(builder.make(method, _flat(children), first, last))
             else:
                 values.append(_flat(children))
             firsts.append(first)
             lasts.append(last)
             heights.append(height)
-        elif rule.splice and not isinstance(values[-1], list):
-            values[-1] = [values[-1]]
-        del states[-size:]
-        states.append(gotos[states[-1]][rule.origin])
+            states.append(gotos[states[-1]][origin])
         if states[-1] == table.accept and at == count:
             return cast("Statement", values[-1])  # the start symbol makes nothing else
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.tokens import CLASSES, LETTER, NAME, NUMBER, OCTAL, STRING, Fault
+from desire_tui.engine.syntax.chunk import CLASSES, LETTER, NAME, NUMBER, OCTAL, STRING, Fault
 from desire_tui.engine.syntax.words import CLOSERS, OPENERS, RELATIONS, keyword_like
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.syntax.tokens import Chunk
+    from desire_tui.engine.syntax.chunk import Chunk
 
 _OPERANDS = frozenset({NAME, NUMBER, OCTAL, STRING})
 _OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%"})

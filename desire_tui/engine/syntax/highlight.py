@@ -5,7 +5,8 @@ from __future__ import annotations
 from functools import cache
 from typing import Literal
 
-from desire_tui.engine.syntax.tokens import LETTER, MATFUN, NAME, NUMBER, OCTAL, RAW, STRING, scan
+from desire_tui.engine.syntax.chunk import LETTER, MATFUN, NAME, NUMBER, OCTAL, RAW, STRING
+from desire_tui.engine.syntax.tokens import scan
 
 Class = Literal["keyword", "function", "system", "string", "comment", "number", "operator", "name"]
 

@@ -13,16 +13,17 @@ from desire_tui.engine.nodes import Bare, Call, Label, Name, Placed, Program, Se
 from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
+from desire_tui.engine.syntax.chunk import Fault
 from desire_tui.engine.syntax.explain import explain
 from desire_tui.engine.syntax.shapes import statement
-from desire_tui.engine.syntax.tokens import Fault, scan
+from desire_tui.engine.syntax.tokens import scan
 from desire_tui.engine.syntax.words import keyword_like
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from desire_tui.engine.nodes import Statement
-    from desire_tui.engine.syntax.tokens import Chunk
+    from desire_tui.engine.syntax.chunk import Chunk
 
     Item = tuple[Statement | Fault, int]
     Entry = tuple[tuple[Item, ...], bool]

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine import nodes
 from desire_tui.engine.syntax.automaton import derive
 from desire_tui.engine.syntax.build import NumberToken, Token
-from desire_tui.engine.syntax.tokens import NUMBER, STRING, octal_value
+from desire_tui.engine.syntax.chunk import NUMBER, STRING
+from desire_tui.engine.syntax.literals import octal_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.syntax.tokens import Chunk
+    from desire_tui.engine.syntax.chunk import Chunk
 
     Maker = Callable[[list[str], list[int], list[int]], nodes.Statement]
 

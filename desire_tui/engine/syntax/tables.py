@@ -10,15 +10,14 @@ import json
 import os
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 from zlib import crc32
 
 FORMAT = 1
 """Raised when the stored form below changes."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(NamedTuple):
     """A production: its left side, the number of symbols on its right, the `Builder` method for its node.
 
     Without a method the single child stands for the whole (`?rule`) or, if `splice`, the children join the parent's.
@@ -44,7 +43,8 @@ class Tables:
 @cache
 def tables() -> Tables:
     """Return the tables, from the cache if it has them for exactly this grammar."""
-    with open(os.path.join(os.path.dirname(__file__), "desire.lark"), encoding="utf-8") as file:  # noqa: PTH
+    here = os.path.dirname(__file__)  # noqa: PTH120 - pathlib would add 3 ms to every start
+    with open(os.path.join(here, "desire.lark"), encoding="utf-8") as file:  # noqa: PTH118, PTH123 - as above
         grammar = file.read()
     key = f"{FORMAT}-{crc32(grammar.encode()):08x}"
     stored = _read(key)
@@ -67,7 +67,7 @@ def _unpack(stored: dict[str, Any]) -> Tables:
 def _cache_file(key: str) -> str:
     from platformdirs import user_cache_dir
 
-    return os.path.join(user_cache_dir("desire-tui"), f"grammar-{key}.json")  # noqa: PTH118 - pathlib: 3 ms
+    return os.path.join(user_cache_dir("desire-tui"), f"grammar-{key}.json")  # noqa: PTH118 - as above
 
 
 def _read(key: str) -> dict[str, Any] | None:
@@ -121,7 +121,7 @@ def _build(grammar: str) -> dict[str, Any]:
         goto: dict[str, int] = {}
         for symbol, (kind, target) in moves.items():
             if kind is Shift:
-                rule_name = symbol.islower() or symbol.startswith("__") and symbol not in kinds
+                rule_name = symbol.islower() or (symbol.startswith("__") and symbol not in kinds)
                 (goto if rule_name else action)[kinds.get(symbol, symbol)] = number_of_state[target]
                 continue
             if target not in numbers:

@@ -1,0 +1,96 @@
+"""The first word of a statement: whether it is a keyword, and what only this keyword allows behind it."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.syntax.chunk import LETTER, NAME, RAW, STRING
+from desire_tui.engine.syntax.words import KEYWORDS, RAW_AFTER
+
+if TYPE_CHECKING:
+    from desire_tui.engine.syntax.chunk import Chunk
+
+_ASKING = frozenset({"if", "while", "until"})
+_SECOND_WORD = {
+    "go": re.compile(r"[ \t]+(to)(?![A-Za-z0-9$_])"),
+    "end": re.compile(r"[ \t]+(if|while)(?![A-Za-z0-9$_])"),
+}
+_D_DT = re.compile(r"[ \t]*(d/dt)(?![A-Za-z0-9$_])")
+_DELTA = re.compile(r"[ \t]*(delta)(?=[ \t]+[A-Za-z])")
+_RUN = re.compile(r"[ \t]+(run)(?![A-Za-z0-9$_])")
+_ASSIGNED = re.compile(r"[ \t]*=")
+_SUBSCRIPTED = re.compile(r"[ \t]*\[")
+_BRACKETS = re.compile(r"[\[\]|\n]")
+_MODE = re.compile(r"[ \t]*(?:([ABCFNQRWY])(?![A-Za-z$_\[(])|([012])(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed)))")
+_FFT_KIND = re.compile(r"[ \t]*([FIRC])(?=[ \t]*[,;])")
+_REST = re.compile(r"[ \t]*((?:'[^'\n]*'|\"[^\"\n]*\"|(?!--|—)[^|\n'\"])*)")
+
+
+def add_head(chunk: Chunk, text: str, token: str, start: int, pos: int) -> int:
+    """Add the first word of a statement, and with it all that only this keyword allows; return where to go on."""
+    kind = KEYWORDS.get(token)
+    if token == "d" and (found := _D_DT.match(text, start)):
+        chunk.add("d/dt", "d/dt", start, found.end())
+        return found.end()
+    if kind is None or _is_variable(text, token, pos):
+        chunk.add(NAME, token, start, pos)
+        return pos
+    second = _SECOND_WORD.get(token)
+    if second and (found := second.match(text, pos)):
+        kind, pos = f"{token} {found[1]}", found.end()
+    elif token in ("list", "keep") and text.startswith("+", pos):
+        kind, pos = f"{token}+", pos + 1
+    chunk.add(kind, text[start:pos], start, pos)
+    if kind in RAW_AFTER:
+        return _rest(chunk, text, pos)
+    if kind in ("Vector", "MATRIX"):
+        found = _D_DT.match(text, pos) or (_DELTA.match(text, pos) if kind == "Vector" else None)
+        if found:
+            chunk.add(found[1], found[1], found.start(1), found.end())
+            return found.end()
+    elif kind == "display":
+        if found := _MODE.match(text, pos):
+            group = found.lastindex or 0
+            chunk.add(LETTER, found[group], found.start(group), found.end(group))
+            return found.end(group)
+    elif kind == "FFT":
+        if found := _FFT_KIND.match(text, pos):
+            chunk.add(LETTER, found[1], found.start(1), found.end(1))
+            return found.end(1)
+    elif kind == "dump" and (found := _RUN.match(text, pos)):
+        chunk.add("run", "run", found.start(1), found.end())
+        return found.end()
+    return pos
+
+
+def _is_variable(text: str, token: str, pos: int) -> bool:
+    """Whether the keyword that ends at `pos` is assigned like a variable: `input = 0`, `data[3] = 1`."""
+    if _ASSIGNED.match(text, pos):
+        return True
+    if token in _ASKING and not text.startswith("[", pos):
+        return False  # `if [a, b] = z then` compares complex numbers
+    found = _SUBSCRIPTED.match(text, pos)
+    if not found:
+        return False
+    depth = 1
+    for bracket in _BRACKETS.finditer(text, found.end()):
+        mark = bracket[0]
+        depth += 1 if mark == "[" else -1 if mark == "]" else 0
+        if depth == 0:
+            return _ASSIGNED.match(text, bracket.end()) is not None
+        if mark in "|\n":
+            break
+    return False
+
+
+def _rest(chunk: Chunk, text: str, pos: int) -> int:
+    """Add the rest of the statement as one token, a string if it is one."""
+    found = _REST.match(text, pos)
+    assert found is not None
+    rest = found[1].rstrip()
+    if rest:
+        start = found.start(1)
+        whole = rest[0] in "'\"" and rest.find(rest[0], 1) == len(rest) - 1
+        chunk.add(STRING if whole else RAW, rest, start, start + len(rest))
+    return found.end()
