@@ -21,8 +21,8 @@ MESSAGES: dict[str, Wording] = {
         "'{name}' is used before line {line} defines it",
         _INITIAL,
         "Defined variables are **not sorted**: a pass goes through the lines as written. A name used above "
-        "the line which assigns it (after `OUT`, `SAMPLE`, `step` or `if`, perhaps) keeps its value from pass "
-        "to pass and needs an initial one.",
+        "the line which assigns it (after `OUT`, `SAMPLE`, `step` or `if`, perhaps) keeps its value from pass"
+        " to pass and needs an initial one.",
     ),
     "undefined-subscript": Wording(
         200,
