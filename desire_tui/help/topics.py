@@ -42,7 +42,7 @@ class Topic:
         """The page."""
         parts = [f"# {self.name}", f"*{HEADINGS[self.kind]}*: {self.summary}"]
         if self.syntax:
-            parts.append("\n".join(("```desire", *self.syntax, "```")))
+            parts.append("\n".join(("```", *self.syntax, "```")))
         if self.text:
             parts.append(self.text)
         if self.example:

@@ -24,7 +24,7 @@ def command_tests() -> dict[str, list[str]]:
     """Return for every command the test files that give it: as a quoted line, alone or with an argument."""
     files = {
         str(path.relative_to(ROOT)): path.read_text(encoding="utf-8")
-        for path in sorted(ROOT.glob("tests/*/test_*.py"))
+        for path in sorted(ROOT.glob("tests/*/test_commands.py"))
     }
     pages = [page for page in topics().values() if page.kind == "command"]
     return {

@@ -1,0 +1,135 @@
+"""Writes the generated pages of docs/: `python -m docs.generate`. A test keeps them current.
+
+Statements, functions and errors come from the help pages, the gallery from the examples' first comments.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from desire_tui.help import topics
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from desire_tui.help import Topic
+
+DOCS = Path(__file__).parent
+EXAMPLES = DOCS.parent / "examples"
+NOTE = "<!-- made by python -m docs.generate; edit the tables it reads, not this page -->"
+
+CHAPTERS = {
+    "ch1": "First steps: runs, samples, integration rules",
+    "ch2": "Oscillators, reactors, flight, orbits, populations",
+    "ch3": "Control, parameter studies, difference equations, sampled data",
+    "ch4": "Functions, noise, limiters, hysteresis, relays, submodels",
+    "ch5": "The script: control flow, procedures, arrays, files, console",
+    "ch6": "Vectors and matrices, filters, Monte Carlo studies, partial differential equations, delays",
+    "ch7": "Benchmarks, models with events, physiology, system dynamics",
+    "ch8": "Fast plots, statistics, complex numbers, Fourier transforms",
+    "appendix": "Integration errors and stiff systems",
+}
+
+
+def statements() -> str:
+    """Statements, commands and system variables, one section each."""
+    parts = ["# Statements, commands, system variables", NOTE]
+    titles = {
+        "Script": ("script", "dialogue"),
+        "DYNAMIC segments": ("DYNAMIC",),
+        "System variables": ("variable",),
+        "Command line": ("command",),
+    }
+    for title, kinds in titles.items():
+        pages = sorted((p for p in topics().values() if p.kind in kinds), key=lambda p: p.name.casefold())
+        parts += [f"## {title}", *(_section(page) for page in pages)]
+    return "\n\n".join(parts) + "\n"
+
+
+def functions() -> str:
+    """All library functions: the table, then the pages that say more than it."""
+    pages = [page for page in topics().values() if page.kind == "function"]
+    overview = topics()["functions"]
+    rest = [_section(page) for page in pages if page is not overview and (page.text or page.example)]
+    return "\n\n".join(["# Library functions", NOTE, overview.text, *rest]) + "\n"
+
+
+def errors() -> str:
+    """All messages by number."""
+    pages = [page for page in topics().values() if page.kind == "error"]
+    intro = "Numbers below 400 are Desire's own. `…` stands for what the message fills in. In the app `help 200` shows an entry."
+    return "\n\n".join(["# Errors", NOTE, intro, *(_section(page) for page in pages)]) + "\n"
+
+
+def _section(page: Topic) -> str:
+    """Return a help page as a section: its headings one level down, links without a page of their own as words."""
+    _, *rest = page.markdown.rstrip("\n").split("\n\n")
+    return "\n\n".join([f"### {page.name}", *rest])
+
+
+def gallery() -> str:
+    """Every example with what it shows, and pictures of some."""
+    count = sum(1 for _ in EXAMPLES.glob("*/*.src"))
+    parts = [
+        "# Examples",
+        NOTE,
+        f"{count} programs, one for every system of the book and more. Open them with F11 in the app, or"
+        " `desire examples/ch2/lorenz.src`. The `--?` lines at their ends say what they must show; a test holds them to it.",
+    ]
+    for folder, title in CHAPTERS.items():
+        parts += [f"## {_chapter(folder)}. {title}", _list(sorted((EXAMPLES / folder).glob("*.src")))]
+        pictures = [
+            p
+            for p in sorted((EXAMPLES / folder).glob("*.src"))
+            if (DOCS / "pictures" / f"{p.stem}.png").exists()
+        ]
+        parts += [f"![{p.stem}](pictures/{p.stem}.png)\n*{p.stem}*" for p in pictures]
+    return "\n\n".join(parts) + "\n"
+
+
+def _chapter(folder: str) -> str:
+    return "Appendix" if folder == "appendix" else f"Chapter {folder[2:]}"
+
+
+def _list(paths: Iterable[Path]) -> str:
+    rows = [f"| [{p.stem}](../examples/{p.parent.name}/{p.name}) | {first_comment(p)} |" for p in paths]
+    return "\n".join(["| program | |", "| --- | --- |", *rows])
+
+
+def first_comment(path: Path) -> str:
+    """Return the comment lines at the top of a program as one text."""
+    lines = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if not line.startswith("-- "):
+            break
+        lines.append(line[3:].strip())
+    return " ".join(lines).replace("|", "\\|").replace("*", "\\*")
+
+
+def coverage() -> str:
+    """What is tested where."""
+    from tests.programs.coverage import markdown
+
+    return markdown()
+
+
+PAGES: dict[str, Callable[[], str]] = {
+    "statements.md": statements,
+    "functions.md": functions,
+    "errors.md": errors,
+    "examples.md": gallery,
+    "coverage.md": coverage,
+}
+
+
+def main() -> None:
+    """Write all pages."""
+    for name, page in PAGES.items():
+        (DOCS / name).write_text(page(), encoding="utf-8")
+        sys.stdout.write(f"docs/{name}\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,86 @@
+"""Generated pages are current; what the documentation shows works and prints what it says; links lead somewhere."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from docs.generate import PAGES
+from tests.programs.execution import execute
+
+ROOT = Path(__file__).parents[2]
+WRITTEN = [ROOT / "README.md", *(p for p in sorted((ROOT / "docs").glob("*.md")) if p.name not in PAGES)]
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def blocks(path: Path, language: str) -> list[tuple[str, str]]:
+    """Return the page's blocks of a language, each with what the block behind `prints` shows."""
+    text = path.read_text(encoding="utf-8")
+    found = []
+    matches = list(FENCE.finditer(text))
+    for here, after in zip(matches, [*matches, None][1:], strict=True):
+        if here[1] == language:
+            prints = after is not None and text[here.end() : after.start()].strip() == "prints"
+            found.append((here[2], after[2] if after is not None and prints else ""))
+    return found
+
+
+def every(language: str) -> list:
+    return [
+        pytest.param(code, shown, id=f"{path.name}-{number}")
+        for path in WRITTEN
+        for number, (code, shown) in enumerate(blocks(path, language), 1)
+    ]
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_generated_page_is_current(name):
+    page = (ROOT / "docs" / name).read_text(encoding="utf-8")
+    assert page == PAGES[name](), f"docs/{name}: run python -m docs.generate"
+
+
+@pytest.mark.parametrize(("program", "shown"), every("desire"))
+def test_program_in_the_documentation_runs(program, shown, tmp_path):
+    outcome = execute(program, "native", tmp_path)
+    assert outcome.error is None, str(outcome.error)
+    if shown:
+        assert outcome.console == shown
+
+
+@pytest.mark.parametrize(("code", "shown"), every("python"))
+def test_python_in_the_documentation_runs(code, shown, tmp_path, monkeypatch):
+    del shown
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    exec(compile(code, "<documentation>", "exec"), {})
+
+
+@pytest.mark.parametrize(("commands", "shown"), every("sh"))
+def test_command_lines_in_the_documentation_work(commands, shown, tmp_path, monkeypatch):
+    from desire_tui.__main__ import main
+
+    del shown
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    targets = set(re.findall(r"^(\w+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+    for line in commands.splitlines():
+        words = shlex.split(line, comments=True)
+        if words[:1] == ["make"]:
+            assert set(words[1:]) <= targets, line
+        elif words[:2] in (["desire", "run"], ["desire", "check"]):
+            result = CliRunner().invoke(main, words[1:])
+            assert result.exit_code == 0, f"{line}\n{result.output}"
+
+
+@pytest.mark.parametrize(
+    "path", [*WRITTEN, *(ROOT / "docs" / name for name in PAGES)], ids=lambda path: path.name
+)
+def test_links_lead_somewhere(path):
+    text = FENCE.sub("", path.read_text(encoding="utf-8"))
+    text = re.sub(r"`[^`\n]*`", "", text)
+    links = re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", text)
+    assert [link for link in links if not (path.parent / link).exists()] == []
