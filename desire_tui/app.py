@@ -29,7 +29,7 @@ from desire_tui.editor.completer import Completer
 from desire_tui.editor.keeper import Keeper
 from desire_tui.editor.pane import EditorPane
 from desire_tui.editor.popup import CompletionPopup
-from desire_tui.engine.session import Permissions, Session, State
+from desire_tui.engine.session import State
 from desire_tui.engine_thread import EngineThread, ScreenListener
 from desire_tui.line import CommandLine
 from desire_tui.live import Live
@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from desire_tui.actions import Controller
     from desire_tui.desk import Side
     from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.session import Permissions, Session
 
 STATUS_EVERY_S, QUANTITIES_EVERY_S = 0.1, 0.35
 EDITOR_ONLY = {"edit.undo", "edit.redo", "edit.select_all", "edit.comment", "file.close", "view.editor"}
@@ -81,8 +82,7 @@ class DesireApp(App[None]):
             self.register_theme(theme)
         self.theme = self.settings.theme if self.settings.theme in self.available_themes else "dark"
         self.listener = ScreenListener(self.post_message)
-        self.session = Session(self.listener, permissions=permissions)
-        self.engine = EngineThread(self.post_message)
+        self.engine = EngineThread(self.listener, self.post_message, permissions)
         self.news = EngineNews(self)
         self.line = CommandLine(self)
         self.live = Live(self)
@@ -97,6 +97,11 @@ class DesireApp(App[None]):
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.desk = Desk(History(places.state_folder() / "history.json"), self.settings.keys)
+
+    @property
+    def session(self) -> Session:
+        """The engine; waits for it during the first moments."""
+        return self.engine.session
 
     # ----------------------------------------------------------------------------------------------- panes
 
@@ -133,22 +138,28 @@ class DesireApp(App[None]):
 
     @on(Desk.Ready)
     async def _begin(self) -> None:
-        """Start the engine, open what is to be opened."""
+        """Open what is to be opened; the engine is imported meanwhile."""
         self.set_keymap(config.keymap(self.settings))
         self.keeper = Keeper(self.editor)
         self.completer = Completer(self, self.desk.query_one(CompletionPopup))
-        self.checker = Checker(self.session.check, self._checked, self._check_fault)
-        self.engine.start()
         await open_first(self)
         for sentence in (*self._complaints, *self._theme_complaint()):
             self.complain(sentence, code=None)
-        self.desk.set_interval(1 / self.settings.frames_per_second, self.draw_frame)
-        self.desk.set_interval(STATUS_EVERY_S, self.show_status)
-        self.desk.set_interval(QUANTITIES_EVERY_S, lambda: self.quantities.show(self.session.values))
         self.desk.set_interval(self.settings.checkpoint_seconds, self.checkpoint)
         for number in (signal.SIGTERM, signal.SIGHUP):
             if threading.current_thread() is threading.main_thread():
                 asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
+        self.call_after_refresh(self.engine.start)
+
+    def engine_ready(self) -> None:
+        """Begin to colour, check and show what only the engine knows."""
+        self.checker = Checker(self.session.check, self._checked, self._check_fault)
+        for area in self.editor.areas:
+            area.marks_changed()
+            self._check_wanted(EditorPane.CheckWanted(area))
+        self.desk.set_interval(1 / self.settings.frames_per_second, self.draw_frame)
+        self.desk.set_interval(STATUS_EVERY_S, self.show_status)
+        self.desk.set_interval(QUANTITIES_EVERY_S, lambda: self.quantities.show(self.session.values))
         self.is_ready = True
 
     def _checked(self, number: int, version: int, problems: tuple[Diagnostic, ...]) -> None:
@@ -168,14 +179,18 @@ class DesireApp(App[None]):
     def _ended_from_outside(self) -> None:
         """SIGTERM or a lost connection: keep the work in the recovery file, restore the terminal."""
         self.checkpoint()
-        self.session.end()
+        self._stop_engine()
         self.exit()
 
     def leave(self) -> None:
         """End well."""
         self.keeper.leave()
-        self.session.end()
+        self._stop_engine()
         self.exit()
+
+    def _stop_engine(self) -> None:
+        if self.engine.is_up:
+            self.session.end()
 
     def checkpoint(self) -> None:
         """Write unsaved work to the recovery file."""
@@ -326,6 +341,8 @@ class DesireApp(App[None]):
 
     @on(EditorPane.CheckWanted)
     def _check_wanted(self, event: EditorPane.CheckWanted) -> None:
+        if not self.engine.is_up:
+            return
         buffer = event.area.buffer
         self.checker.ask(buffer, self.editor.versions.get(buffer.number, 0), event.area.text)
 

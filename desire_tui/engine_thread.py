@@ -5,6 +5,7 @@ A daemon thread: a run in native code never holds up the app's exit.
 
 from __future__ import annotations
 
+import contextlib
 import queue
 import threading
 import traceback
@@ -13,7 +14,6 @@ from typing import TYPE_CHECKING
 from desire_tui import messages
 from desire_tui.commands import BY_WORD
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.session import Listener, PermissionRequest, StoppedAt
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.graph import Graph
     from desire_tui.engine.nodes import Program
     from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.session import Permissions, Session
     from desire_tui.engine.source import Source
 
     Post = Callable[[messages.EngineMessage], object]
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 WAITING_CHARS_MAX = 200_000
 """Console output the screen has not taken yet; above it the program waits, so that a flood cannot fill the memory."""
 STOPPED_BY_USER = 301
+WARM_UP = "TMAX = 1 | DT = 0.5 | NN = 3 | x = 1\ndrun\nDYNAMIC\nd/dt x = -x\ndispt x\n"
 
 
 class ScreenListener(Listener):
@@ -75,6 +77,8 @@ class ScreenListener(Listener):
         self._post(messages.InputWanted(prompt))
         line = self._lines.get()
         if line is None:
+            from desire_tui.engine.interpreter.host import Interrupted
+
             raise Interrupted
         return line
 
@@ -136,13 +140,32 @@ class ScreenListener(Listener):
 
 
 class EngineThread:
-    """Does one job after the other. What a job raises becomes a message."""
+    """Does one job after the other. What a job raises becomes a message.
 
-    def __init__(self, post: Post) -> None:
+    The engine is imported here, while the desktop is already seen.
+    """
+
+    def __init__(self, listener: ScreenListener, post: Post, permissions: Permissions | None = None) -> None:
+        self._listener = listener
         self._post = post
+        self._permissions = permissions
         self._jobs: queue.Queue[Callable[[], object]] = queue.Queue()
         self._pending = 0
+        self._session: Session | None = None
+        self._made = threading.Event()
         self._thread = threading.Thread(target=self._work, daemon=True, name="desire-engine")
+
+    @property
+    def is_up(self) -> bool:
+        """Whether the session is there."""
+        return self._made.is_set()
+
+    @property
+    def session(self) -> Session:
+        """The session; waits for it if it is just being made."""
+        self._made.wait()
+        assert self._session is not None
+        return self._session
 
     @property
     def is_busy(self) -> bool:
@@ -165,18 +188,41 @@ class EngineThread:
             self._pending -= 1
 
     def _work(self) -> None:
+        from desire_tui.engine.session import Session
+
+        self._session = Session(self._listener, permissions=self._permissions)
+        self._made.set()
+        self._post(messages.EngineUp())
+        threading.Thread(target=warm_up, daemon=True, name="desire-warm-up").start()
         while True:
-            job = self._jobs.get()
-            failed = True
-            try:
-                job()
-                failed = False
-            except DesireError as error:
-                self._post(messages.ProblemsFound(error.diagnostics, stops=True))
-            except Interrupted:
-                pass
-            except Exception as error:  # noqa: BLE001 - the last line: a fault of ours must not take the work down
-                self._post(messages.EngineFault(f"{type(error).__name__}: {error}", traceback.format_exc()))
-            finally:
-                self._pending -= 1
-                self._post(messages.EngineIdle(failed=failed))
+            self._do(self._jobs.get())
+
+    def _do(self, job: Callable[[], object]) -> None:
+        from desire_tui.engine.interpreter.host import Interrupted
+
+        failed = True
+        try:
+            job()
+            failed = False
+        except DesireError as error:
+            self._post(messages.ProblemsFound(error.diagnostics, stops=True))
+        except Interrupted:
+            pass
+        except Exception as error:  # noqa: BLE001 - the last line: a fault of ours must not take the work down
+            self._post(messages.EngineFault(f"{type(error).__name__}: {error}", traceback.format_exc()))
+        finally:
+            self._pending -= 1
+            self._post(messages.EngineIdle(failed=failed))
+
+
+def warm_up() -> None:
+    """Compile and run a small program for nobody and frame its graph: what this imports, the first `zz` need not."""
+    from desire_tui.engine.outputs.frame import text_frame
+    from desire_tui.engine.session import Session
+    from desire_tui.engine.source import Source
+
+    session = Session(Listener())
+    with contextlib.suppress(DesireError):
+        session.erun(Source(WARM_UP, "<warm-up>"))
+    if session.graph is not None:
+        text_frame(session.graph, 40, 12)

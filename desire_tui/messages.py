@@ -21,6 +21,10 @@ class EngineMessage(Message):
     bubble = False
 
 
+class EngineUp(EngineMessage):
+    """The engine is imported; the session is there."""
+
+
 class ConsoleText(EngineMessage):
     """There is new console output; it waits in the listener, so that a flood of lines is one message."""
 

@@ -28,6 +28,11 @@ class EngineNews(Controller):
         raise NotImplementedError(type(message).__name__)
 
     @handle.register
+    def _up(self, message: messages.EngineUp) -> None:
+        del message
+        self.app.engine_ready()
+
+    @handle.register
     def _text(self, message: messages.ConsoleText) -> None:
         del message
         self.app.command.console.write(self.app.listener.take_text())

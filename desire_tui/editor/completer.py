@@ -71,8 +71,9 @@ class Completer:
     def close(self) -> None:
         """Hide the list."""
         self._popup.close()
-        for target in (*self._app.editor.areas, self._app.command.prompt):
-            target.popup_open = False
+        self._app.command.prompt.popup_open = False
+        for area in self._app.editor.areas:
+            area.popup_open = False
 
     def key(self, key: str) -> None:
         """Carry out a key of the open list."""

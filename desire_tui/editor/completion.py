@@ -8,7 +8,6 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from desire_tui.commands import COMMANDS
-from desire_tui.engine.library import LIBRARY
 from desire_tui.help import topics
 
 if TYPE_CHECKING:
@@ -70,6 +69,8 @@ def _without_comments(text: str) -> str:
 @cache
 def _words(*, commands: bool) -> dict[str, str]:
     """Every word of the language with a line about it; the command line's own words too where they may stand."""
+    from desire_tui.engine.library import LIBRARY
+
     table = {name: f"{name}({entry.parameters})  {entry.help}" for name, entry in LIBRARY.items()}
     for page in topics().values():
         if page.kind == "error" or (page.kind == "command" and not commands):

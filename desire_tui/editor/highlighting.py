@@ -6,10 +6,9 @@ so an edit costs nothing for the lines nobody sees. Ranges are kept by the line'
 
 from __future__ import annotations
 
+import sys
 from functools import lru_cache
 from typing import TYPE_CHECKING
-
-from desire_tui.engine.syntax import highlight
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -19,6 +18,8 @@ if TYPE_CHECKING:
     from desire_tui.editor.marks import Mark
 
 Range = tuple[int, int | None, str]
+_ENGINE = "desire_tui.engine.session.session"
+"""Colours come once the engine is imported: the text is seen before."""
 LINE_MAX = 2000
 """Longer lines are not coloured (characters)."""
 
@@ -37,7 +38,7 @@ class LineHighlights(dict[int, "list[Range]"]):
     def __missing__(self, row: int) -> list[Range]:
         assert self.document is not None
         line = self.document.get_line(row)
-        ranges = list(_colours(line)) if len(line) <= LINE_MAX else []
+        ranges = list(_colours(line)) if len(line) <= LINE_MAX and _ENGINE in sys.modules else []
         for mark in self.marks.get(row, ()):
             start = min(mark.start, max(len(line) - 1, 0))
             end = max(mark.end, start + 1)
@@ -47,7 +48,12 @@ class LineHighlights(dict[int, "list[Range]"]):
 
 @lru_cache(maxsize=4096)
 def _colours(line: str) -> tuple[Range, ...]:
-    return tuple((_bytes(line, start), _bytes(line, end), name) for start, end, name in highlight(line))
+    try:
+        from desire_tui.engine.syntax import highlight
+
+        return tuple((_bytes(line, start), _bytes(line, end), name) for start, end, name in highlight(line))
+    except Exception:  # noqa: BLE001 - colours are an ornament: a fault in them must not take the text away
+        return ()
 
 
 def _bytes(line: str, column: int) -> int:

@@ -82,6 +82,6 @@ class CompletionPopup(OptionList):
             case "down":
                 self.action_cursor_down()
             case "pageup":
-                self.action_page_up()
+                self.action_page_up()  # type: ignore[no-untyped-call]
             case "pagedown":
-                self.action_page_down()
+                self.action_page_down()  # type: ignore[no-untyped-call]

@@ -11,11 +11,8 @@ from textual.containers import Container
 from textual.geometry import Region
 from textual.message import Message
 
-from desire_tui.engine.outputs.canvas import TILE_COLUMNS, Canvas
-from desire_tui.engine.outputs.frame import text_frame
-from desire_tui.engine.outputs.painter import Painter
 from desire_tui.panes import readout
-from desire_tui.panes.tiles import CanvasTile, FrameLayer, KeyRow
+from desire_tui.panes.tiles import TILE_COLUMNS, CanvasTile, FrameLayer, KeyRow
 from desire_tui.panes.window import Window
 
 if TYPE_CHECKING:
@@ -23,7 +20,9 @@ if TYPE_CHECKING:
     from textual.app import ComposeResult
 
     from desire_tui.engine.graph import Graph
+    from desire_tui.engine.outputs.canvas import Canvas
     from desire_tui.engine.outputs.frame import TextFrame
+    from desire_tui.engine.outputs.painter import Painter
 
 DRAG_CELLS_MIN = 2
 OVERLAYS_MAX = 12
@@ -150,6 +149,10 @@ class GraphPane(Container, can_focus=True):
                 tuple(len(g.curves) for g in self._under), len(page.curves) if self._under else 0)  # fmt: skip
 
     def _begin_page(self, state: tuple[object, ...]) -> None:
+        from desire_tui.engine.outputs.canvas import Canvas
+        from desire_tui.engine.outputs.frame import text_frame
+        from desire_tui.engine.outputs.painter import Painter
+
         page = self.page
         assert page is not None
         self._drawn = state

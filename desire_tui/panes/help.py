@@ -8,7 +8,7 @@ from rich.text import Text
 from textual import on
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical, VerticalScroll
-from textual.widgets import Input, Markdown, OptionList
+from textual.widgets import Input, OptionList
 from textual.widgets.option_list import Option
 
 from desire_tui.commands import COMMANDS
@@ -56,8 +56,7 @@ class HelpPane(Vertical):
         """Search field, hits, page."""
         yield Input(placeholder="search help", id="help-search")
         yield OptionList()
-        with VerticalScroll():
-            yield Markdown(WELCOME, open_links=False)
+        yield VerticalScroll()
 
     def show_topic(self, word: str) -> None:
         """Show a page; without one, the search for the word."""
@@ -93,7 +92,13 @@ class HelpPane(Vertical):
         self.query_one(OptionList).display = False
         scroll = self.query_one(VerticalScroll)
         scroll.display = True
-        self.query_one(Markdown).update(text.replace("```desire", "```"))
+        text = text.replace("```desire", "```")
+        from textual.widgets import Markdown  # brings a Markdown parser: not before somebody wants help
+
+        if page := self.query(Markdown):
+            page.first().update(text)
+        else:
+            scroll.mount(Markdown(text, open_links=False))
         scroll.scroll_home(animate=False)
 
     @on(Input.Changed, "#help-search")
@@ -137,11 +142,6 @@ class HelpPane(Vertical):
         event.stop()
         if event.option.id:
             self.show_topic(event.option.id)
-
-    @on(Markdown.LinkClicked)
-    def _link(self, event: Markdown.LinkClicked) -> None:
-        event.stop()
-        self.show_topic(event.href.removesuffix(".md"))
 
     def action_search(self) -> None:
         """Move to the search field."""

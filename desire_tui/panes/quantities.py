@@ -10,11 +10,12 @@ from textual.containers import Vertical, VerticalScroll
 from textual.message import Message
 from textual.widgets import DataTable, Input
 
-from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity, Values
 from desire_tui.panes.slider import Slider
 
 if TYPE_CHECKING:
     from textual.app import ComposeResult
+
+    from desire_tui.engine.values import Quantity, Values
 
 ROWS_MAX = 400
 """More rows are not shown; the filter finds the others."""
@@ -23,6 +24,8 @@ ELEMENTS_SHOWN = 4
 
 def shape_text(quantity: Quantity) -> str:
     """Return what kind of thing a quantity is, in a word."""
+    from desire_tui.engine.values import Kind
+
     kind = {Kind.REAL: "", Kind.INTEGER: "INTEGER ", Kind.COMPLEX: "COMPLEX "}[quantity.kind]
     shape = f"[{','.join(map(str, quantity.shape))}]" if quantity.shape else ""
     state = "state" if quantity.is_state else ""
@@ -31,6 +34,8 @@ def shape_text(quantity: Quantity) -> str:
 
 def value_text(values: Values, quantity: Quantity) -> str:
     """Return a quantity's value, arrays by their first elements."""
+    from desire_tui.engine.values import Kind
+
     if not values.is_defined(quantity):
         return "undefined"
     if quantity.kind is Kind.COMPLEX and not quantity.shape:
@@ -101,6 +106,8 @@ class QuantitiesPane(Vertical):
 
     def show(self, values: Values) -> None:
         """Bring the table up to date; only what changed is drawn."""
+        from desire_tui.engine.values import SYSTEM_VARIABLES
+
         self._values = values
         if not self.is_on_screen:
             return

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 if TYPE_CHECKING:
     from desire_tui.engine.graph import Graph
     from desire_tui.panes.window import Window
@@ -23,6 +21,8 @@ class Reading:
 
 def read(graph: Graph, window: Window, part: float) -> Reading | None:
     """Read the curves at `part` (0 … 1) of the window's width; for curves over x, at that part of their samples."""
+    import numpy as np
+
     if not graph.curves:
         return None
     frame = graph.frame

@@ -14,18 +14,19 @@ from rich.style import Style
 from textual.strip import Strip
 from textual.widget import Widget
 
-from desire_tui.engine.graph import rgb
-from desire_tui.engine.outputs.canvas import NO_COLOR, TILE_COLUMNS
-
 if TYPE_CHECKING:
     from desire_tui.panes.graph import GraphPane
 
+TILE_COLUMNS, NO_COLOR = 8, 255
+"""As in `engine.outputs.canvas`, which brings NumPy; a test holds them together."""
 WHITE_STYLE = Style(color="#202020", bgcolor="#ffffff")
 
 
 @lru_cache(maxsize=256)
 def curve_style(color: int, *, white: bool) -> Style:
     """Return the style of a colour number on a black or white background."""
+    from desire_tui.engine.graph import rgb
+
     return Style(color=Color.from_rgb(*rgb(color, white=white)))
 
 
