@@ -1,4 +1,4 @@
-"""Collects a segment's actions while its statements are lowered: guards, counters, requests, held derivatives."""
+"""Collects a segment's actions while its statements are lowered: guards, counters, requests."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Path = tuple[tuple[int, bool], ...]
 
 @dataclass
 class OpenGuard:
-    """A guard whose end has not been reached. `serial` numbers it, `otherwise` tells that `else` was passed."""
+    """A guard whose end has not been reached; `otherwise` tells that its `else` was passed."""
 
     kind: GuardKind
     where: Where
@@ -140,8 +140,8 @@ class Builder:
     def derivative(self, slot: int, count: int, value: Value, where: Where) -> None:
         """Add a derivative of `count` states from `slot` on.
 
-        Under a guard the derivative keeps its last value where the guard is shut, 0 at first: it is computed into
-        numbers of the compiler's own, and the derivative proper reads them at the end of the pass.
+        Under a guard the derivative keeps its last value where the guard is shut, 0 at first: it is computed
+        into numbers of the compiler's own, and the derivative proper reads them at the end of the pass.
         """
         number = self.states.number(slot)
         if number is None:
@@ -173,5 +173,3 @@ class Builder:
         second = any(all(branches.get(s, b) == b for s, b in earlier) for earlier in paths)
         paths.append(path)
         return second
-
-

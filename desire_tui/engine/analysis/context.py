@@ -41,7 +41,7 @@ _NO_ARGUMENTS: Mapping[str, Argument] = {}
 
 
 class Frame(NamedTuple):
-    """How names read in the text being lowered: a submodel's or FUNCTION's dummies stand for something else."""
+    """How names read in the text being lowered: dummies stand for something else."""
 
     at: int
     rename: Mapping[str, str] = _NO_NAMES

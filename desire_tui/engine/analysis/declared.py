@@ -1,7 +1,8 @@
 """What a script declares and assigns, as far as a look at it tells: the names a segment may use.
 
-Loops, branches and jumps are not followed: an assignment that *could* be executed before the segment's first `drun`
-counts. Where the script jumps (`go to`) or stops (`STOP`: commands may follow), every assignment counts.
+Loops, branches and jumps are not followed: an assignment that *could* be executed before the segment's first
+`drun` counts. Where the script jumps (`go to`) or stops (`STOP`: commands may follow), every assignment
+counts.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ class Survey:
         self._before: dict[str | None, set[str]] = {}
         self._walk(program.script)
         jumps = any(
-            isinstance(p.node, nodes.GoTo) or (isinstance(p.node, nodes.Simple) and p.node.word in {"STOP", "go"})
+            isinstance(p.node, nodes.GoTo)
+            or (isinstance(p.node, nodes.Simple) and p.node.word in {"STOP", "go"})
             for p in program.script
         )
         if jumps:

@@ -47,7 +47,9 @@ def _invoke(
     frame = context.frame
     submodel = submodels.get(name)
     if submodel is None:
-        key = "function-as-statement" if name in context.functions or name in LIBRARY else "undefined-submodel"
+        key = (
+            "function-as-statement" if name in context.functions or name in LIBRARY else "undefined-submodel"
+        )
         context.report(key, node, name=name, close=closest(name, submodels))
         return
     if name in frame.calls or len(frame.calls) > DEPTH_MAX:

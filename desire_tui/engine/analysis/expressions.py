@@ -1,6 +1,7 @@
-"""Expressions of a segment: names become slots, FUNCTIONs are expanded, arrays are checked against the extent.
+"""Expressions of a segment: names become slots, FUNCTIONs are expanded, arrays are checked.
 
-The *extent* says what is being computed: a scalar (`()`), a vector of n elements (`(n,)`), a matrix (`(m, n)`).
+The *extent* says what is being computed: a scalar (`()`), a vector of n elements (`(n,)`) or a matrix
+(`(m, n)`).
 """
 
 from __future__ import annotations
@@ -11,7 +12,18 @@ from desire_tui.engine.analysis import calls, products
 from desire_tui.engine.analysis.context import BAD
 from desire_tui.engine.analysis.subscripts import element
 from desire_tui.engine.lowered import Const, Load, Op
-from desire_tui.engine.nodes import Binary, Call, Element, Name, Number, RowOf, Shifted, Text, Transposed, Unary
+from desire_tui.engine.nodes import (
+    Binary,
+    Call,
+    Element,
+    Name,
+    Number,
+    RowOf,
+    Shifted,
+    Text,
+    Transposed,
+    Unary,
+)
 
 if TYPE_CHECKING:
     from desire_tui.engine.analysis.context import Context

@@ -1,8 +1,8 @@
 """What has surely been set at a point of the pass, and what is read before that.
 
-A scalar that a statement reads before the pass has surely set it keeps its value from pass to pass: a difference
-equation, a sample-hold variable, a relay. Every assignment to such a number is *persistent* and must be carried out
-in every pass it belongs to (language.md 9.1, 9.2; book, sections 3.3.1 and 4.4).
+A scalar that a statement reads before the pass has surely set it keeps its value from pass to pass: a
+difference equation, a sample-hold variable, a relay. Every assignment to such a number is *persistent* and
+must be carried out in every pass it belongs to (language.md 9.1, 9.2; book, sections 3.3.1 and 4.4).
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ def checked_array(segment: Segment, values: Values) -> int:
 
 
 def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
-    """Lower the statements behind JACOBIAN. Errors 219, 229 (no matrix, no entry), 230 (entry out of range)."""
+    """Lower the statements behind JACOBIAN. Errors 219, and 230 for an entry out of range."""
     context = builder.context
     entries: list[Entry] = []
     matrix: str | None = None

@@ -32,7 +32,9 @@ def learn(builder: Builder, node: nodes.Learn) -> None:
         return
     for quantity, wanted in ((out, weights.shape[0]), (given, weights.shape[1])):
         if not agree(quantity.shape[0], wanted):
-            nonconformable(context, Name(quantity.name, node.start, node.end), quantity.name, quantity.shape, (wanted,))
+            nonconformable(
+                context, Name(quantity.name, node.start, node.end), quantity.name, quantity.shape, (wanted,)
+            )
             return
     rows = weights.shape[0]
     counts = context.scope.hidden(rows) if node.conscience and rows != UNKNOWN else None

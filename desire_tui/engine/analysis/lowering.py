@@ -1,4 +1,4 @@
-"""From a parsed program to lowered segments: at `drun` with the actual values (`lower`), or only looking (`check`)."""
+"""From a parsed program to lowered segments: at `drun` with actual values, or only looking."""
 
 from __future__ import annotations
 
@@ -28,9 +28,10 @@ def lower(
     structure: Structure | None = None,
     rule: int | None = None,
 ) -> Segment:
-    """Return a segment ready for a back end, names and shapes as they are now. `label` None: the unlabelled one.
+    """Return a segment ready for a back end, names and shapes as they are now.
 
-    DesireError: every problem of the segment at once; 215 or 68 if there is no such segment.
+    `label` None means the unlabelled one. DesireError: every problem of the segment at once; 215 or 68 if
+    there is no such segment.
     """
     text = program.segment(label)
     if text is None:
@@ -38,19 +39,17 @@ def lower(
         raise DesireError(Diagnostic(key, facts={"label": label}, source=program.source))
     found = structure if structure is not None else find_structure(program)
     scope = LiveScope(values)
-    segment, problems = lower_segment(
-        text, scope, program.source, functions_of(found), found.submodels, rule
-    )
+    segment, problems = lower_segment(text, scope, program.source, functions_of(found), found.submodels, rule)
     if problems:
         raise DesireError(*in_order(problems))
     return segment
 
 
 def check(program: Program) -> tuple[Diagnostic, ...]:
-    """Return all problems that can be told before a run, in the order of the text: syntax, structure, segments.
+    """Return all problems that can be told before a run, in the order of the text.
 
-    A name counts as defined if any script statement before the segment's first `drun` could assign it; sizes that
-    the script computes are not checked.
+    They come from syntax, structure and segments. A name counts as defined if any script statement before the
+    segment's first `drun` could assign it; sizes that the script computes are not checked.
     """
     found = find_structure(program)
     problems = [*program.problems, *found.problems]

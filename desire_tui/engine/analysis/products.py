@@ -1,7 +1,8 @@
 """Whole arrays in vector and matrix expressions: conformability, matrix products, outer products, recursion.
 
-Elements are assigned from the last to the first, as if every right-hand side used old values. What would read an
-element already replaced is error 85: the target in its own matrix product, or shifted by k > 0 (language.md 9.3).
+Elements are assigned from the last to the first, as if every right-hand side used old values. What would
+read an element already replaced is error 85: the target in its own matrix product, or shifted by k > 0
+(language.md 9.3).
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.analysis import expressions
+from desire_tui.engine.analysis.context import BAD
 from desire_tui.engine.analysis.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.analysis.subscripts import constant
 from desire_tui.engine.diagnostics import closest
@@ -66,7 +68,7 @@ def operand(context: Context, node: Expr, extent: Extent) -> Value:
         return context.report("matrix-needs-vector", node, name=f"{context.actual(node.name)}%")
     quantity = array(context, node)
     if quantity is None:
-        return expressions.BAD
+        return BAD
     if isinstance(node, RowOfNode):
         return _row(context, node, quantity, extent)
     if len(quantity.shape) != len(extent):
@@ -91,7 +93,7 @@ def unknown(context: Context, node: Name) -> Value:
     if context.once(name):
         close = closest(name, context.scope.names)
         context.report("undefined-in-vector", node, name=name, close=close)
-    return expressions.BAD
+    return BAD
 
 
 def array(context: Context, node: Expr) -> Quantity | None:
@@ -115,13 +117,9 @@ def array(context: Context, node: Expr) -> Quantity | None:
     return quantity
 
 
-def nonconformable(
-    context: Context, node: Expr, name: str, shape: tuple[int, ...], extent: Extent
-) -> Value:
+def nonconformable(context: Context, node: Expr, name: str, shape: tuple[int, ...], extent: Extent) -> Value:
     """Report error 74."""
-    return context.report(
-        "shapes-disagree", node, name=name, shape=_shown(shape), wanted=_shown(extent)
-    )
+    return context.report("shapes-disagree", node, name=name, shape=_shown(shape), wanted=_shown(extent))
 
 
 def note_read(context: Context, node: Expr, slot: int, count: int, shift: int | None) -> None:

@@ -1,4 +1,4 @@
-"""Output requests of a segment: display, listing, stash, recover, SHOW. Position and flags do not matter to them."""
+"""Output requests of a segment: display, listing, stash, recover, SHOW; their position does not matter."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What a segment may name: the script's quantities as they are (`LiveScope`) or as they could be (`StaticScope`).
+"""What a segment may name: the script's quantities as they are, or as they could be.
 
-Both hand out `Quantity` objects. A static scope does not know every size: a dimension it cannot tell is `UNKNOWN`,
-which agrees with any other.
+`LiveScope` and `StaticScope` both hand out `Quantity` objects. A static scope does not know every size: a
+dimension it cannot tell is `UNKNOWN`, which agrees with any other.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def agree(a: int, b: int) -> bool:
 
 
 def size_of(quantity: Quantity) -> int:
-    """Number of elements, or UNKNOWN."""
+    """Return the number of elements, or UNKNOWN."""
     return UNKNOWN if UNKNOWN in quantity.shape else prod(quantity.shape)
 
 

@@ -1,7 +1,7 @@
 """A DYNAMIC program segment, lowered: the table of contents of this folder.
 
-expansion (submodels in line) → states (numbered) → statements in order (expressions, arrays, requests, learning)
-→ persistence (flow) → `lowered.Segment`. All problems of the segment are found, not only the first.
+expansion (submodels in line) → states (numbered) → statements in order (expressions, arrays, requests,
+learning) → persistence (flow) → `lowered.Segment`. All problems of the segment are found, not only the first.
 """
 
 from __future__ import annotations
@@ -84,7 +84,9 @@ def lower_segment(
         context.enter(frame)
         handler = _HANDLERS.get(node.__class__)
         if handler is None:
-            context.report("illegal-in-dynamic", node, word=source.text[slice(*context.span(node))].split(" ")[0])
+            context.report(
+                "illegal-in-dynamic", node, word=source.text[slice(*context.span(node))].split(" ")[0]
+            )
         else:
             handler(builder, node)
     body = builder.finish()

@@ -11,8 +11,29 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered import (
-    Const, DelayLine, Deriv, DerivVec, Get, Guard, Learn, Load, MatVec, Op, Outer, RowOf, Set, SetDot, SetMat,
-    SetVec, Shifted, Store, Table1, Table2, Terminate, TrackHold, Vec,
+    Const,
+    DelayLine,
+    Deriv,
+    DerivVec,
+    Get,
+    Guard,
+    Learn,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    Shifted,
+    Store,
+    Table1,
+    Table2,
+    Terminate,
+    TrackHold,
+    Vec,
 )  # fmt: skip
 from desire_tui.engine.values import IROW
 
@@ -51,7 +72,7 @@ def tail_pass(segment: Segment) -> Actions:
 
 
 def jacobian_pass(segment: Segment, stride: int) -> Actions:
-    """The JACOBIAN segment with the defined variables it uses; element (i, k) goes to `slot` + i·stride + k."""
+    """Return the JACOBIAN segment and what it uses; J[i, k] goes to `slot` + i·stride + k."""
     given = segment.jacobian
     assert given is not None
     pure = _pure(_resolve(segment.body, comm=False, step=False))
@@ -64,7 +85,7 @@ def jacobian_pass(segment: Segment, stride: int) -> Actions:
 
 
 def acts_at_steps(segment: Segment) -> bool:
-    """Whether a pass at a step's start inside a communication interval does anything but compute derivatives."""
+    """Whether a pass at a step's start inside an interval does anything but compute derivatives."""
     return not _is_pure(_resolve(segment.body, comm=False, step=True))
 
 
@@ -129,7 +150,9 @@ def _tail(actions: Iterable[Action]) -> Actions:
         elif isinstance(action, DelayLine):
             if not action.per_step:
                 kept.append(action)
-        elif isinstance(action, Set | SetVec | SetMat | SetDot) and not action.persistent and not draws(action):
+        elif (
+            isinstance(action, Set | SetVec | SetMat | SetDot) and not action.persistent and not draws(action)
+        ):
             kept.append(action)
     return tuple(kept)
 

@@ -105,9 +105,7 @@ def store(builder: Builder, node: nodes.Store) -> None:
     if quantity is not None and isinstance(value, Load):
         count = size_of(quantity)
         context.flow.set_ranges.add((quantity.slot, count))
-        builder.body.append(
-            Store(quantity.slot, count, value.slot, builder.counter(), context.where(node))
-        )
+        builder.body.append(Store(quantity.slot, count, value.slot, builder.counter(), context.where(node)))
 
 
 def get(builder: Builder, node: nodes.Get) -> None:
@@ -131,7 +129,14 @@ def delay(builder: Builder, node: nodes.Delay) -> None:
     if buffer is not None and slot is not None:
         builder.names[buffer.slot] = buffer.name
         made = DelayLine(
-            slot, buffer.slot, size_of(buffer), source, tau, node.per_step, builder.counter(), context.where(node)
+            slot,
+            buffer.slot,
+            size_of(buffer),
+            source,
+            tau,
+            node.per_step,
+            builder.counter(),
+            context.where(node),
         )
         builder.body.append(made)
         mark_held(context, node.variable)

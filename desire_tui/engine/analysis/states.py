@@ -58,8 +58,7 @@ def _merged(lines: Sequence[StateLine]) -> list[StateRange]:
         if merged and line.slot < merged[-1][2]:
             last = merged[-1]
             last[0] = min(last[0], i)
-            if end > last[2]:
-                last[2] = end
+            last[2] = max(last[2], end)
         else:
             merged.append([i, line.slot, end, i])
     merged.sort()

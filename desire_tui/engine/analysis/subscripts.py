@@ -98,7 +98,11 @@ def _value(context: Context, node: Expr) -> float | None:
     if isinstance(node, Element):
         slot, _ = element(context, node)
         quantity = context.quantity(node.name)
-        return None if slot is None or quantity is None else context.scope.constant(quantity, slot - quantity.slot)
+        return (
+            None
+            if slot is None or quantity is None
+            else context.scope.constant(quantity, slot - quantity.slot)
+        )
     if isinstance(node, Call):
         return _called(context, node)
     context.report("constant-not-computable", node)

@@ -50,7 +50,7 @@ def mark_set(context: Context, target: Target, slot: int) -> None:
 
 
 def mark_held(context: Context, target: Target) -> None:
-    """Note that a statement gives the scalar a value from now on, though not in every pass: it can be read."""
+    """Note that a scalar can be read from now on, though not every pass sets it."""
     if isinstance(target, Name):
         quantity = context.quantity(target.name)
         if quantity is not None:
