@@ -44,4 +44,6 @@ def run_program(
         settings=set or {}, answer_stops=go, timeout=timeout, backend=backend, allow_shell=allow_shell,
         allow_write=allow_write,
     )  # fmt: skip
-    return Work(source, orders, listener).run()
+    work = Work(source, orders, listener)
+    work.run()
+    return work.result()

@@ -70,6 +70,8 @@ class BatchListener(Listener):
             self.console_text(line + "\n")
         return line
 
+    wants_check = False  # what is wrong shows when the program gets there
+
     def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Show warnings as they come."""
         self.warnings.extend(diagnostics)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +10,8 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.engine.graph import Graph
     from desire_tui.engine.outputs.results import Result
     from desire_tui.engine.session import Session
@@ -36,7 +36,7 @@ class Wanted:
         """Whether standard output belongs to a file, so that console text has to go elsewhere."""
         return STANDARD_OUTPUT in (self.png, self.svg, self.pdf, self.csv, self.json)
 
-    def write(self, session: Session, result: Result) -> None:
+    def write(self, session: Session, result: Callable[[], Result]) -> None:
         """Write everything. DesireError 106: something cannot be written; 471: no graph for a picture."""
         for kind in ("png", "svg", "pdf"):
             name = getattr(self, kind)
@@ -45,11 +45,11 @@ class Wanted:
         if self.csv is not None:
             from desire_tui.engine.outputs.tables import write_csv
 
-            _text(self.csv, lambda file: write_csv(result, file))
+            _text(self.csv, lambda file: write_csv(result(), file))
         if self.json is not None:
             from desire_tui.engine.outputs.tables import as_json
 
-            _text(self.json, lambda file: file.write(as_json(result)))
+            _text(self.json, lambda file: file.write(as_json(result())))
         if self.plot:
             _plot(session)
 
@@ -77,6 +77,8 @@ def _pictures(session: Session, name: str, ending: str) -> None:
 
     pages = _pages(session)
     if name == STANDARD_OUTPUT:
+        import tempfile
+
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / f"graph{ending}"
             write_picture(pages[-1], path)
@@ -94,6 +96,8 @@ def _pictures(session: Session, name: str, ending: str) -> None:
 
 
 def _plot(session: Session) -> None:
+    import shutil
+
     from desire_tui.engine.outputs.plot import text_plot
 
     columns, rows = shutil.get_terminal_size((80, _PLOT_ROWS + 2))

@@ -69,15 +69,15 @@ def run_file(name: str, orders: Orders, wanted: Wanted, answers: str | None, *, 
     if sys.stderr.isatty() and not quiet:
         console.progress = Progress(work.session, sys.stderr)
     try:
-        result = work.run(console.progress)
+        work.run(console.progress)
         console.settle()
         complain(work.problems)
-        status = _EXIT[result.status]
-        wanted.write(work.session, result)
+        status = _EXIT[work.status]
+        wanted.write(work.session, work.result)
     except DesireError as error:
         complain(error.diagnostics)
         status = FAILED
-    if work.session.stopped_at is not None and not quiet and result.status == "stopped":
+    if work.session.stopped_at is not None and not quiet and work.status == "stopped":
         place = work.session.stopped_at
         row = place.source.position(place.placed.at).row
         sys.stderr.write(f"{place.source.name}:{row}: stopped at STOP; --go continues\n")

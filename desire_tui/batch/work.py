@@ -43,7 +43,7 @@ class Orders:
 
 
 class Work:
-    """Runs one program. `result` is complete after `run`, whatever happened."""
+    """Runs one program. `status`, `problems` and `result()` say what came of it, whatever happened."""
 
     def __init__(self, source: Source, orders: Orders, listener: BatchListener) -> None:
         self._source, self._orders, self._listener = source, orders, listener
@@ -60,7 +60,7 @@ class Work:
         self.abandoned = False
         """The program did not end when told to; its thread still runs."""
 
-    def run(self, watch: Callable[[], None] | None = None) -> Result:
+    def run(self, watch: Callable[[], None] | None = None) -> None:
         """Run the program, calling `watch` now and then; Ctrl-C in the main thread ends it."""
         thread = threading.Thread(target=self._script, name="desire-batch", daemon=True)
         began = monotonic()
@@ -79,7 +79,6 @@ class Work:
                     break
         if self._crash is not None:
             raise self._crash
-        return self._result()
 
     @contextmanager
     def _interrupts(self) -> Iterator[None]:
@@ -119,7 +118,8 @@ class Work:
         except BaseException as error:  # noqa: BLE001 - raised again on the main thread
             self._crash = error
 
-    def _result(self) -> Result:
+    def result(self) -> Result:
+        """Return everything the program produced so far."""
         from desire_tui import __version__
         from desire_tui.engine.outputs import results
 

@@ -221,14 +221,13 @@ def test_timeout_is_status_3(tmp_path):
     path = tmp_path / "long.src"
     path.write_text("TMAX = 1.0E+09 | DT = 0.001 | drun\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n")
     began = monotonic()
-    status, _, err = desire("run", path, "--timeout", "1", "--json", tmp_path / "g.json")
+    status, _, err = desire("run", path, "--timeout", "4", "--json", tmp_path / "g.json")
     assert status == 3
-    assert monotonic() - began < 20
-    assert "stopped after 1 seconds" in err
+    assert monotonic() - began < 40
+    assert "stopped after 4 seconds" in err
     data = json.loads((tmp_path / "g.json").read_text())
     assert data["status"] == "limit"
-    assert data["runs"][0]["ended"] == "stopped"
-    assert len(data["runs"][0]["t"]) >= 1
+    assert [run["ended"] for run in data["runs"]] == ["stopped"]
 
 
 def test_ctrl_c_ends_with_status_3(tmp_path):

@@ -33,6 +33,9 @@ class Listener:
     pressed Ctrl-C, the app exits), raise `Interrupted` in it.
     """
 
+    wants_check = True
+    """Whether an accepted text is checked as a whole at once, for problems shown beside it."""
+
     def console_text(self, text: str) -> None:
         """Console output, exactly this text: lines may come in pieces."""
 

@@ -136,7 +136,7 @@ class Session:
 
         A script that stopped at STOP cannot go on afterwards (error 43), unless the text is the same.
         """
-        from desire_tui.engine.analysis import structure
+        from desire_tui.engine.analysis import check, structure
         from desire_tui.engine.syntax import parse
 
         began = perf_counter()
@@ -147,7 +147,8 @@ class Session:
         self._desk.program = self._desk.with_breakpoints(self._desk.overridden(program))
         self._desk.structure = structure(self._desk.program)
         self._desk.journal.program(source)
-        problems = self.check(source)
+        found = check(program) if self._listener.wants_check else program.problems
+        problems = tuple(p.within(source) for p in found)
         self._listener.program_accepted(program, problems)
         return problems
 
@@ -156,9 +157,7 @@ class Session:
         from desire_tui.engine.analysis import check
         from desire_tui.engine.syntax import parse
 
-        program = parse(source)
-        problems = {(d.key, d.span): d.within(source) for d in (*program.problems, *check(program))}
-        return tuple(sorted(problems.values(), key=lambda d: d.span or (0, 0)))
+        return tuple(d.within(source) for d in check(parse(source)))
 
     def override(self, settings: Mapping[str, float]) -> None:
         """Give scalars values that the script's own assignments do not change, from the next `accept` on."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal
@@ -196,6 +195,8 @@ class World:
 
     def shell(self, command: str) -> None:
         """Run a shell command, its output to the console; Ctrl-C ends it."""
+        import subprocess
+
         self._desk.permissions.shell_command(command, self._listener.permit)
         process = subprocess.Popen(  # noqa: S602 - a shell is what the statement is for; permission was asked
             command, shell=True, cwd=self._desk.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
