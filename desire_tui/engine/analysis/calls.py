@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.analysis import expressions
-from desire_tui.engine.analysis.context import BAD, DEPTH_MAX, Argument, Frame
+from desire_tui.engine.analysis.context import BAD, DEPTH_MAX, EXPANSIONS_MOST, Argument, Frame
 from desire_tui.engine.analysis.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
@@ -56,6 +56,11 @@ def _expanded(context: Context, node: Call, extent: Extent) -> Value:
         return context.report(
             "function-arguments", node, name=node.name, wanted=len(dummies), given=len(node.args)
         )
+    context.expansions += 1
+    if context.expansions > EXPANSIONS_MOST:
+        if context.once("FUNCTION expansions"):
+            context.report("too-many-expansions", node, name=node.name, most=EXPANSIONS_MOST)
+        return BAD
     arguments = {d: Argument(a, frame) for d, a in zip(dummies, node.args, strict=True)}
     invoked, called = (*frame.invoked, context.span(node)), (*frame.calls, node.name)
     context.enter(Frame(function.at, {}, arguments, invoked, called))

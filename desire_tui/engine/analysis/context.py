@@ -23,8 +23,11 @@ if TYPE_CHECKING:
 BAD = Const(0.0)
 """Stands for an expression that has been complained about."""
 
-DEPTH_MAX = 200
+DEPTH_MAX = 60
 """Nested FUNCTION calls and invocations; deeper ones are recursion in all but name."""
+
+EXPANSIONS_MOST = 20_000
+"""FUNCTION calls that one segment may expand: twenty FUNCTIONs that each call the next twice make a million."""
 
 
 @dataclass
@@ -76,6 +79,7 @@ class Context:
         self.assigned: dict[str, tuple[Span, ...]] = {}
         self.derivative_places: dict[int, Where] = {}
         self.assigned_arrays = False
+        self.expansions = 0
         self.own: str | None = None
         """The scalar that the present statement assigns."""
         self.target: tuple[int, int] | None = None

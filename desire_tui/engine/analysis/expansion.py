@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.analysis.structure import SubmodelText
     from desire_tui.engine.nodes import Expr, Placed, Statement
 
+LINES_MOST = 1_000_000
+"""Statements that a segment may have when its submodels are expanded."""
+
 Line = tuple["Statement", Frame]
 
 
@@ -54,6 +57,10 @@ def _invoke(
         return
     if name in frame.calls or len(frame.calls) > DEPTH_MAX:
         context.report("submodel-recursion", node, name=name)
+        return
+    if len(lines) > LINES_MOST:
+        if context.once("SUBMODEL expansions"):
+            context.report("too-many-lines", node, name=name, most=LINES_MOST)
         return
     if len(args) != len(submodel.dummies):
         context.report("submodel-arguments", node, name=name, wanted=len(submodel.dummies), given=len(args))

@@ -183,6 +183,7 @@ class _Reads:
         self.slots: set[int] = set()
         self.ranges: list[tuple[int, int]] = []
         self._seen: set[tuple[int, int]] = set()
+        self._shared: dict[int, Op] = {}
 
     def add_range(self, slot: int, count: int) -> None:
         if (slot, count) not in self._seen:
@@ -205,8 +206,11 @@ class _Reads:
         if isinstance(value, Load):
             self.slots.add(value.slot)
         elif isinstance(value, Op):
-            for argument in value.args:
-                self.value(argument)
+            # an argument of a FUNCTION is one object in many places: looked at once
+            if id(value) not in self._shared:
+                self._shared[id(value)] = value
+                for argument in value.args:
+                    self.value(argument)
         elif isinstance(value, Vec | Shifted):
             self.add_range(value.slot, value.count)
         elif isinstance(value, MatVec):
@@ -310,10 +314,19 @@ def draws(action: Action) -> bool:
 
 
 def _draws(value: Value | None) -> bool:
-    if isinstance(value, Op):
-        return value.name in _RANDOM or any(_draws(argument) for argument in value.args)
-    if isinstance(value, Table1):
-        return _draws(value.x)
-    if isinstance(value, Table2):
-        return _draws(value.x) or _draws(value.y)
+    """Whether an expression holds `ran` or `gauss`; shared parts are looked at once."""
+    seen: set[int] = set()
+    rest: list[Value | None] = [value]
+    while rest:
+        part = rest.pop()
+        if isinstance(part, Op):
+            if part.name in _RANDOM:
+                return True
+            if id(part) not in seen:
+                seen.add(id(part))
+                rest.extend(part.args)
+        elif isinstance(part, Table1):
+            rest.append(part.x)
+        elif isinstance(part, Table2):
+            rest.extend((part.x, part.y))
     return False

@@ -46,11 +46,12 @@ class SubmodelText:
 class Structure:
     """What stands where. A *place* is an index into the script.
 
-    `partner`: `if` → its `else`, or its `proceed` if it has none; `else` → its `proceed`; every other opener → its
-    closer; every closer → its opener. `exits`: `exit` → the closer of the loop it leaves, or None for a PROCEDURE's
-    return. `inside`: per statement the innermost open `if`, `else`, loop or definition, −1 outside of all.
-    `data`: places of the data statements. `segment_partner`: per segment (by its label) the same as `partner` for
-    `if`, `else` and `end if` in its body; an `if` without `end if` has none and rules the rest of the segment.
+    `partner`: `if` → its `else`, or its `proceed` if it has none; `else` → its `proceed`; every other
+    opener → its closer; every closer → its opener. `exits`: `exit` → the closer of the loop it leaves, or
+    None for a PROCEDURE's return. `inside`: per statement the innermost open `if`, `else`, loop or
+    definition, −1 outside of all. `data`: places of the data statements. `segment_partner`: per segment (by
+    its label) the same as `partner` for `if`, `else` and `end if` in its body; an `if` without `end if` has
+    none and rules the rest of the segment.
     """
 
     partner: dict[int, int] = field(default_factory=dict)
@@ -71,7 +72,7 @@ class Structure:
 
 
 def structure(program: n.Program) -> Structure:
-    """Find the structure of a program. Never raises: problems (4 10 24 27 55 58 68 79 82 88 98 102 111) are in the result."""
+    """Find the structure of a program. Never raises: the problems are in the result."""
     # Where an opener or closer could not be parsed, its partner is not the user's second mistake.
     broken = any(p.facts.get("word") in _BLOCK_WORDS for p in program.problems)
     survey = _Survey(program.script, program.source, broken)
@@ -252,7 +253,9 @@ class _Survey:
 
     def _definition(self, place: int, placed: n.Placed, name: str) -> None:
         if self.open:
-            self.report("nested-definition", placed, self.also("block-begins", self.open[-1].place), name=name)
+            self.report(
+                "nested-definition", placed, self.also("block-begins", self.open[-1].place), name=name
+            )
         self._new_name(place, placed, name)
         self.opens(place, "end")
 

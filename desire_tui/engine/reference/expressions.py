@@ -9,7 +9,16 @@ import numpy as np
 
 from desire_tui.engine.library import func1, func2
 from desire_tui.engine.lowered import (
-    Const, Load, MatVec, Op, Outer, RowOf, Shifted, Table1, Table2, Vec,
+    Const,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    Shifted,
+    Table1,
+    Table2,
+    Vec,
 )  # fmt: skip
 from desire_tui.engine.reference.draws import ElementDraws, Sequence, normal
 from desire_tui.engine.reference.numbers import ARRAYS, scalar_function, whole_power
@@ -30,8 +39,8 @@ if TYPE_CHECKING:
 class Expressions:
     """Compiles the expressions of one statement; `begin` must be called before each evaluation.
 
-    `count` None: a number; else the number of elements that the statement assigns. An expression object that stands
-    at two places is evaluated once (lowered.py).
+    `count` None: a number; else the number of elements that the statement assigns. An expression object that
+    stands at two places is evaluated once (lowered.py).
     """
 
     def __init__(self, values: Values, sequence: Sequence, count: int | None) -> None:
@@ -42,6 +51,7 @@ class Expressions:
         self.count = count
         self._uses: dict[int, int] = {}
         self._shared: dict[int, Thunk] = {}
+        self._arrays: dict[int, bool] = {}
         self._kept: list[list[Any]] = []
 
     def begin(self) -> None:
@@ -140,7 +150,7 @@ class Expressions:
             return lambda: whole_power(base(), n)
         args = [self._thunk(argument) for argument in value.args]
         function: Callable[..., Any] = (
-            ARRAYS[name] if any(_is_array(a, self.count) for a in value.args) else scalar_function(name)
+            ARRAYS[name] if any(self._is_array(a) for a in value.args) else scalar_function(name)
         )
         if len(args) == 1:
             (only,) = args
@@ -156,6 +166,26 @@ class Expressions:
             return lambda: function(a(), b())
         return lambda: function(*[argument() for argument in args])
 
+    def _is_array(self, value: Value) -> bool:
+        """Whether a value has one number for each element (random draws do, within an array statement)."""
+        known = self._arrays.get(id(value))
+        if known is None:
+            known = self._arrays[id(value)] = self._has_elements(value)
+        return known
+
+    def _has_elements(self, value: Value) -> bool:
+        if isinstance(value, Const | Load):
+            return False
+        if isinstance(value, Op):
+            if value.name in {"ran", "gauss"}:
+                return self.count is not None
+            return any(self._is_array(argument) for argument in value.args)
+        if isinstance(value, Table1):
+            return self._is_array(value.x)
+        if isinstance(value, Table2):
+            return self._is_array(value.x) or self._is_array(value.y)
+        return True
+
     def _random(self, name: str) -> Thunk:
         uniform = self.sequence.uniform
         if self.draws is None:
@@ -170,35 +200,23 @@ class Expressions:
     def _table1(self, value: Table1) -> Thunk:
         x = self._thunk(value.x)
         table = self.cells[value.slot : value.slot + 2 * value.count]
-        if _is_array(value.x, self.count):
-            return lambda: np.array([func1(float(one), table) for one in x()])  # type: ignore[arg-type]
-        return lambda: func1(x(), table)  # type: ignore[arg-type]
+        if self._is_array(value.x):
+            return lambda: np.array([func1(float(one), table) for one in x()])
+        return lambda: func1(x(), table)
 
     def _table2(self, value: Table2) -> Thunk:
         x, y = self._thunk(value.x), self._thunk(value.y)
         f = self.cells[value.f_slot : value.f_slot + value.rows * value.cols]
         xs = self.cells[value.x_slot : value.x_slot + value.rows]
         ys = self.cells[value.y_slot : value.y_slot + value.cols]
-        if _is_array(value.x, self.count) or _is_array(value.y, self.count):
+        if self._is_array(value.x) or self._is_array(value.y):
             return lambda: np.array(
-                [func2(float(a), float(b), f, xs, ys) for a, b in zip(*np.broadcast_arrays(x(), y()), strict=True)]  # type: ignore[arg-type]
+                [
+                    func2(float(a), float(b), f, xs, ys)
+                    for a, b in zip(*np.broadcast_arrays(x(), y()), strict=True)
+                ]
             )
-        return lambda: func2(x(), y(), f, xs, ys)  # type: ignore[arg-type]
-
-
-def _is_array(value: Value, count: int | None) -> bool:
-    """Whether a value has one number for each element (random draws do, within an array statement)."""
-    if isinstance(value, Const | Load):
-        return False
-    if isinstance(value, Op):
-        if value.name in {"ran", "gauss"}:
-            return count is not None
-        return any(_is_array(argument, count) for argument in value.args)
-    if isinstance(value, Table1):
-        return _is_array(value.x, count)
-    if isinstance(value, Table2):
-        return _is_array(value.x, count) or _is_array(value.y, count)
-    return True
+        return lambda: func2(x(), y(), f, xs, ys)
 
 
 def _shifted(x: Array, by: int) -> Array:

@@ -87,6 +87,16 @@ MESSAGES: dict[str, Wording] = {
     "function-recursion": Wording(
         52, "FUNCTION '{name}' would call itself", "use a loop or a difference equation"
     ),
+    "too-many-expansions": Wording(
+        410,
+        "more than {most} FUNCTION calls would be expanded, '{name}' among them",
+        "assign intermediate results to variables",
+    ),
+    "too-many-lines": Wording(
+        411,
+        "the segment would have more than {most} lines when '{name}' is expanded",
+        "invoke fewer submodels, or use vectors",
+    ),
     "undefined-submodel": Wording(
         201, "there is no submodel '{name}'", "declare it in the script: SUBMODEL {name}(…) … end"
     ),
