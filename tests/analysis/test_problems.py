@@ -219,6 +219,14 @@ def test_unknown_sizes_are_tolerated():
     assert [d.code for d in check(parse(source(text)))] == [85]
 
 
+def test_a_broken_line_is_one_mistake():
+    text = "ARRAY v[3\nk = = 2\ndrun\nDYNAMIC\nVector v = k\ny = v[1] + other"
+    codes = [d.code for d in check(parse(source(text)))]
+    assert codes.count(200) == 1
+    assert 70 not in codes
+    assert 19 not in codes
+
+
 def test_a_misspelt_name_gets_a_hint():
     (problem,) = check(parse(source("velocity = 1\ndrun\nDYNAMIC\nd/dt x = velocty")))
     assert "velocity" in problem.hint

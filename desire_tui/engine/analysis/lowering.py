@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.analysis.context import FunctionText
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered import Segment
     from desire_tui.engine.nodes import Placed, Program
     from desire_tui.engine.values import Values
+
+_WORD = re.compile(r"[A-Za-z][\w$]*")
 
 
 def lower(
@@ -58,7 +61,21 @@ def check(program: Program) -> tuple[Diagnostic, ...]:
     for text in program.segments:
         scope = survey.scope_for(text)
         problems.extend(lower_segment(text, scope, program.source, functions, found.submodels)[1])
-    return tuple(in_order(problems))
+    broken = _names_in_broken_lines(program)
+    return tuple(in_order(p for p in problems if p.code not in _MISSING or p.facts.get("name") not in broken))
+
+
+_MISSING = frozenset({19, 59, 70, 200, 201})
+"""A name is unknown."""
+
+
+def _names_in_broken_lines(program: Program) -> set[str]:
+    """Return the names on lines that could not be parsed: they may be declared there, which is no second mistake."""
+    source, names = program.source, set[str]()
+    for problem in program.problems:
+        if problem.span is not None:
+            names.update(_WORD.findall(source.line(source.position(problem.span.start).row)))
+    return names
 
 
 def state_order(program: Program) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The back end that needs nothing but NumPy: the yardstick in tests, and the way out where there is no LLVM."""
+"""The back end that needs nothing but NumPy: the yardstick in tests, the way out without LLVM."""
 
 from __future__ import annotations
 

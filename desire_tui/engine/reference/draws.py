@@ -50,7 +50,7 @@ def normal(u1: float, u2: float) -> float:
 
 
 class ElementDraws:
-    """What a statement over `count` elements draws: a table of elements × draws, filled before it is evaluated."""
+    """What a statement over `count` elements draws: elements × draws, filled before it is evaluated."""
 
     def __init__(self, sequence: Sequence, count: int) -> None:
         self.sequence = sequence

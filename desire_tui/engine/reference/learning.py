@@ -33,9 +33,10 @@ def learn(action: Learn, data: Array, rate: float, criterion: float | None) -> N
 def _compete(out: Array, weights: Array, x: Array, rate: float, criterion: float, wins: Array | None) -> None:
     """Winner takes all: the nearest row wins and moves towards x (Kohonen).
 
-    `wins` counts each row's victories: distances are weighted by 1 + wins (frequency-sensitive learning, Ahalt et
-    al. 1990). With `criterion` > 0 a winner further away than that gives way to the first free row, which
-    becomes x (as in Carpenter and Grossberg's ART); a row of zeros is free. No free row: v is 0 everywhere.
+    `wins` counts each row's victories: distances are weighted by 1 + wins (frequency-sensitive learning,
+    Ahalt et al. 1990). With `criterion` > 0 a winner further away than that gives way to the first free row,
+    which becomes x (as in Carpenter and Grossberg's ART); a row of zeros is free. No free row: v is 0
+    everywhere.
     """
     distances = ((x - weights) ** 2).sum(axis=1)
     free = ~weights.any(axis=1)

@@ -1,7 +1,8 @@
 """The run loop of language.md 8.2, written down plainly.
 
-Each turn is at a communication point (`_point`) or at a step's start inside a communication interval (`_inside`); both
-end with a step of the rule. `memory` says where to go on, so a run can be left and taken up at any return.
+Each turn is at a communication point (`_point`) or at a step's start inside a communication interval
+(`_inside`); both end with a step of the rule. `memory` says where to go on, so a run can be left and taken
+up at any return.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.analysis.slices import derivative_slice, full_pass, step_slice, tail_pass
-from desire_tui.engine.reference.states import states_of
 from desire_tui.engine.reference.statements import Statements
+from desire_tui.engine.reference.states import states_of
 from desire_tui.engine.reference.steps import fixed_step, variable_step
 from desire_tui.engine.runtime.memory import Ended, Phase
 from desire_tui.engine.values import DT, T

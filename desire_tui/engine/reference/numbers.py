@@ -6,7 +6,7 @@ Python raises where compiled code gives inf or nan; here both give inf or nan.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -75,8 +75,9 @@ def _sigmoid_rational(x: Array) -> Array:
     return np.where(x > 0.0, np.where(np.isinf(square), 1.0, square / (1.0 + square)), 0.0)
 
 
-ARRAYS: dict[str, Callable[..., Array]] = {
-    "add": np.add, "sub": np.subtract, "mul": np.multiply, "div": np.divide, "neg": np.negative, "pow": np.power,
+ARRAYS: dict[str, Callable[..., Any]] = {
+    "add": np.add, "sub": np.subtract, "mul": np.multiply, "div": np.divide, "neg": np.negative,
+    "pow": np.power,
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan,
     "sinh": np.sinh, "cosh": np.cosh, "tanh": np.tanh, "exp": np.exp, "sqrt": np.sqrt, "abs": np.abs,
     "ln": np.log, "log": np.log10, "atan2": np.arctan2,
@@ -101,7 +102,7 @@ ARRAYS: dict[str, Callable[..., Array]] = {
 SCALARS: dict[str, Callable[..., float]] = {
     "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": divide,
     "neg": lambda a: -a, "pow": power,
-    "max": lambda x, y: y if y > x else x, "min": lambda x, y: y if y < x else x,
+    "max": max, "min": min,
 }  # fmt: skip
 """Operations of `lowered.Op` over numbers that Python does not spoil; the others come from the library."""
 

@@ -1,7 +1,7 @@
 """Scalar statements as the text of one Python function a pass: several times faster than closures.
 
-The text computes with plain floats. Where Python raises (division by zero, overflow, an argument out of domain), the
-statement's closure is called in its place, which knows what IEEE 754 says.
+The text computes with plain floats. Where Python raises (division by zero, overflow, an argument out of
+domain), the statement's closure is called in its place, which knows what IEEE 754 says.
 """
 
 from __future__ import annotations
@@ -35,8 +35,9 @@ class PassText:
         self.statements = statements
         self.lines: list[str] = []
         self.names: dict[str, Any] = {
-            "c": statements.cells, "d": memoryview(statements.derivatives), "s": statements,
-            "wrong": (ArithmeticError, ValueError), "whole_power": whole_power, "power": power, "func1": func1,
+            "c": statements.cells, "d": statements.derivatives.data, "s": statements,
+            "wrong": (ArithmeticError, ValueError), "whole_power": whole_power, "power": power,
+            "func1": func1,
         }  # fmt: skip
         self.fresh = 0
 
@@ -109,7 +110,9 @@ class _Expression:
         uses = self.uses
         uses[id(value)] = uses.get(id(value), 0) + 1
         if uses[id(value)] == 1:
-            for argument in value.args if isinstance(value, Op) else (value.x,) if isinstance(value, Table1) else ():
+            for argument in (
+                value.args if isinstance(value, Op) else (value.x,) if isinstance(value, Table1) else ()
+            ):
                 self._count(argument)
 
     def _written(self, value: Value, depth: int) -> tuple[str, int]:

@@ -8,7 +8,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from desire_tui.engine.lowered import (
-    DelayLine, Deriv, DerivVec, Get, Guard, Learn, Set, SetDot, SetMat, SetVec, Store, Terminate, TrackHold,
+    DelayLine,
+    Deriv,
+    DerivVec,
+    Get,
+    Guard,
+    Learn,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    Store,
+    Terminate,
+    TrackHold,
 )  # fmt: skip
 from desire_tui.engine.reference.draws import Sequence
 from desire_tui.engine.reference.expressions import Expressions
@@ -29,7 +41,8 @@ if TYPE_CHECKING:
 
 
 class Statements:
-    """Compiles statements. `memory` is the run's, `derivatives` the array that passes write to, `fired` the first
+    """Compiles statements. `memory` is the run's, `derivatives` the array that passes write to, `fired` the
+    first
     `term` that fired in this pass (None: none).
     """  # noqa: D205
 
@@ -257,5 +270,3 @@ class Statements:
 
 def _integers(address: int, count: int) -> Any:
     return (ctypes.c_int64 * count).from_address(address)
-
-

@@ -1,7 +1,7 @@
 """The states as one vector: fetched, put back, moved by a row of a rule's tableau.
 
-`Few` writes the sums out as Python text for a model of few states, `Many` leaves them to NumPy. Both add the products
-in the order of the k's.
+`Few` writes the sums out as Python text for a model of few states, `Many` leaves them to NumPy. Both add the
+products in the order of the k's.
 """
 
 from __future__ import annotations
@@ -51,7 +51,12 @@ class Many:
     """States as NumPy arrays."""
 
     def __init__(
-        self, ranges: list[tuple[int, int, int]], order: int, rows: Sequence[Row], values: Values, first: Array
+        self,
+        ranges: list[tuple[int, int, int]],
+        order: int,
+        rows: Sequence[Row],
+        values: Values,
+        first: Array,
     ) -> None:
         self.ranges, self.order, self.rows = ranges, order, rows
         self.data = values.data
@@ -78,12 +83,17 @@ class Few(Many):
     """States as a tuple of floats, sums as text."""
 
     def __init__(
-        self, ranges: list[tuple[int, int, int]], order: int, rows: Sequence[Row], values: Values, first: Array
+        self,
+        ranges: list[tuple[int, int, int]],
+        order: int,
+        rows: Sequence[Row],
+        values: Values,
+        first: Array,
     ) -> None:
         super().__init__(ranges, order, rows, values, first)
         slots = [slot + i for slot, _, count in ranges for i in range(count)]
         names: dict[str, Any] = {"c": values.cells}
-        names |= {f"k{i}": memoryview(k) for i, k in enumerate(self.k)}
+        names |= {f"k{i}": k.data for i, k in enumerate(self.k)}
         lines = ["def fetch(): return (" + "".join(f"c[{slot}], " for slot in slots) + ")", "def put(x):"]
         lines += [f" c[{slot}] = x[{n}]" for n, slot in enumerate(slots)] or [" pass"]
         for stage, row in enumerate(rows):
