@@ -70,7 +70,7 @@ _MISSING = frozenset({19, 59, 70, 200, 201})
 
 
 def _names_in_broken_lines(program: Program) -> set[str]:
-    """Return the names on lines that could not be parsed: they may be declared there, which is no second mistake."""
+    """Return the names on lines that could not be parsed; they may be declared there: no second mistake."""
     source, names = program.source, set[str]()
     for problem in program.problems:
         if problem.span is not None:
