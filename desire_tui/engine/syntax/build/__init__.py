@@ -1,0 +1,34 @@
+"""One method for each production of `desire.lark`: children in, node out.
+
+A node made here is a *pattern*: `start` and `end` hold token numbers, and names, numbers and strings remember the
+token they came from, so that `shapes` can make the same node again from another statement's tokens.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+from desire_tui.engine.syntax.build.dynamic import Dynamic
+from desire_tui.engine.syntax.build.expressions import Expressions
+from desire_tui.engine.syntax.build.pieces import Kids, Misuse, NumberToken, Token, Value
+from desire_tui.engine.syntax.build.script import Script
+
+if TYPE_CHECKING:
+    from desire_tui.engine import nodes as n
+
+
+class Builder(Expressions, Script, Dynamic):
+    """The productions' methods. `kids` are the children, tokens included; offsets are token numbers."""
+
+    def token(self, kind: str, text: str, number: int) -> Token:
+        """Wrap a token."""
+        token = Token(text)
+        token.kind, token.number = kind, number
+        return token
+
+    def make(self, method: str, kids: Kids, first: int, last: int) -> n.Node:
+        """Make the node of a production; raises Misuse."""
+        return cast("n.Node", getattr(self, method)(kids, first, last))
+
+
+__all__ = ["Builder", "Misuse", "NumberToken", "Token", "Value"]

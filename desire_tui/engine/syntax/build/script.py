@@ -1,0 +1,149 @@
+"""Productions of the experiment-protocol script."""
+
+# ruff: noqa: D102 - each method is named after its production in desire.lark
+
+from __future__ import annotations
+
+from typing import Any
+
+
+from desire_tui.engine import nodes as n
+from desire_tui.engine.syntax.build.pieces import CONDITIONS, Kids, Misuse, Token, names_in, halves, nodes_in, plain, condition, channel_of, items_in
+
+DIMENSIONS_MAX = 10
+
+
+class Script:
+    """Blocks, jumps, declarations, input and output, graphs."""
+
+    def if_then(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.If(condition(kids[1]), None, first, last)
+
+    def if_positive(self, kids: Kids, first: int, last: int) -> n.Node:
+        if isinstance(kids[1], CONDITIONS):
+            raise Misuse("then-missing", kids[1].start, kids[1].end)
+        return n.If(None, kids[1], first, last)
+
+    def for_(self, kids: Kids, first: int, last: int) -> n.Node:
+        by = plain(kids[7]) if len(kids) > 6 else None
+        return n.For(kids[1], plain(kids[3]), plain(kids[5]), by, first, last)
+
+    def while_(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.While(condition(kids[1]), first, last)
+
+    def until(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Until(condition(kids[1]), first, last)
+
+    def label(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Label(kids[1], first, last)
+
+    def go_to(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.GoTo(kids[1], first, last)
+
+    def restore(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Restore(kids[1] if len(kids) > 1 else None, first, last)
+
+    def call_procedure(self, kids: Kids, first: int, last: int) -> n.Node:
+        values, references = halves(kids[3:-1])
+        return n.CallProcedure(
+            kids[1], tuple(map(plain, nodes_in(values))), tuple(map(plain, nodes_in(references))), first, last
+        )
+
+    def invoke(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Invoke(kids[1], tuple(map(plain, nodes_in(kids[3:-1]))), first, last)
+
+    def drun(self, kids: Kids, first: int, last: int) -> n.Node:
+        star = len(kids) > 1 and kids[1].kind == "*"
+        label = kids[1] if len(kids) > 1 and not star else None
+        return n.Drun(label, kids[0].kind == "drunr", star, first, last)
+
+    def declare(self, kids: Kids, first: int, last: int) -> n.Node:
+        groups = nodes_in(kids)
+        for part in (part for group in groups for part in group.parts):
+            if kids[0].kind == "ARRAY" and not part.dimensions:
+                raise Misuse("dimensions-missing", part.start, part.end)
+        return n.Declare(kids[0].kind, groups, first, last)
+
+    def declared_group(self, kids: Kids, first: int, last: int) -> n.Node:
+        whole = kids[-1] if isinstance(kids[-1], Token) else None
+        return n.DeclaredGroup(nodes_in(kids), whole, first, last)
+
+    def declared(self, kids: Kids, first: int, last: int) -> n.Node:
+        dimensions = tuple(map(plain, nodes_in(kids)))
+        if len(dimensions) > DIMENSIONS_MAX:
+            raise Misuse("dimensions-too-many", first, last, {"limit": DIMENSIONS_MAX})
+        return n.Declared(kids[0], dimensions, first, last)
+
+    def procedure(self, kids: Kids, first: int, last: int) -> n.Node:
+        values, references = halves(kids[2:])
+        return n.Procedure(kids[1], names_in(values), names_in(references), first, last)
+
+    def submodel(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Submodel(kids[1], names_in(kids[2:]), first, last)
+
+    def function(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Function(kids[1], names_in(kids[2:]), plain(kids[-1]), first, last)
+
+    def data(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Data(tuple(map(plain, nodes_in(kids))), first, last)
+
+    def read(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Read(nodes_in(kids), first, last)
+
+    def input(self, kids: Kids, first: int, last: int) -> n.Node:
+        channel, rest = channel_of(kids)
+        return n.Input(channel, nodes_in(rest), first, last)
+
+    def write(self, kids: Kids, first: int, last: int) -> n.Node:
+        channel, rest = channel_of(kids)
+        raw = channel is not None and kids[1].kind == "##"
+        return n.Write(channel, raw, items_in(rest), first, last)
+
+    def note(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Note(items_in(kids[1:]), first, last)
+
+    def item(self, kids: Kids, first: int, last: int) -> n.Node:
+        form: Any = kids[0].kind if len(kids) > 1 else ""
+        return n.WriteItem(plain(kids[-1]), form, "", first, last)
+
+    def connect(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Connect(kids[1], kids[3].kind, plain(kids[4]), first, last)
+
+    def disconnect(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Disconnect(tuple(map(plain, nodes_in(kids))), first, last)
+
+    def dump(self, kids: Kids, first: int, last: int) -> n.Node:
+        if len(kids) > 1 and kids[1].kind == "run":
+            return n.Dump(None, "run", first, last)
+        return n.Dump(kids[2] if len(kids) > 2 else None, "all", first, last)
+
+    def irule(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Irule(plain(kids[1]) if len(kids) > 1 else None, first, last)
+
+    def seed(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Seed(plain(kids[1]), first, last)
+
+    def fft(self, kids: Kids, first: int, last: int) -> n.Node:
+        args = tuple(map(plain, nodes_in(kids)))
+        if len(args) != (5 if kids[1] == "R" else 3):
+            raise Misuse("fft-form", first, last)
+        return n.Fft(kids[1], args, first, last)
+
+    def display(self, kids: Kids, first: int, last: int) -> n.Node:
+        mode, args = kids[1], tuple(map(plain, nodes_in(kids)))
+        wanted = {"C": 1, "N": 1, "W": 2}.get(mode, 0)
+        if len(args) != wanted:
+            raise Misuse("display-form", first, last, {"mode": str(mode), "wanted": ("no numbers", "one number", "two numbers")[wanted]})
+        return n.Display(mode, args, first, last)
+
+    def plot(self, kids: Kids, first: int, last: int) -> n.Node:
+        args = tuple(map(plain, nodes_in(kids)))
+        if len(args) > 3:
+            raise Misuse("plot-form", first, last)
+        return n.Plot(args, first, last)
+
+    def show(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.Show(kids[1], plain(kids[3]) if len(kids) > 3 else None, first, last)
+
+    def file_command(self, kids: Kids, first: int, last: int) -> n.Node:
+        return n.FileCommand(kids[0].kind, kids[1] if len(kids) > 1 else None, first, last)
