@@ -12,7 +12,23 @@ from desire_tui.engine import nodes as n
 from desire_tui.engine.source import Source
 
 PLAIN = ["x", "y", "xdot", "alpha_1", "A", "W2", "v$", "t", "TMAX", "d", "dt", "e1", "a_b"]
-WORDS = ["input", "output", "step", "to", "then", "and", "as", "data", "time", "end", "type", "else", "run", "go", "N"]
+WORDS = [
+    "input",
+    "output",
+    "step",
+    "to",
+    "then",
+    "and",
+    "as",
+    "data",
+    "time",
+    "end",
+    "type",
+    "else",
+    "run",
+    "go",
+    "N",
+]
 names = st.sampled_from(PLAIN + WORDS)
 plain_names = st.sampled_from(PLAIN)
 numbers = st.one_of(
@@ -44,7 +60,9 @@ def _grown(inner):
 leaves = st.one_of(names.map(n.Name), numbers, names.map(n.Transposed), names.map(n.RowOf))
 expressions = st.recursive(leaves, _grown, max_leaves=12)
 targets = st.one_of(names.map(n.Name), st.builds(n.Element, names, _some(expressions)))
-relations = st.builds(n.Relation, st.sampled_from(["=", "<", ">", "<=", ">=", "<>"]), expressions, expressions)
+relations = st.builds(
+    n.Relation, st.sampled_from(["=", "<", ">", "<=", ">=", "<>"]), expressions, expressions
+)
 conditions = st.recursive(
     relations,
     lambda inner: st.one_of(
@@ -93,7 +111,9 @@ def transforms(draw):
 @st.composite
 def matrices(draw):
     lower, upper = draw(st.one_of(st.just((None, None)), st.tuples(expressions, expressions)))
-    value = draw(st.one_of(expressions, st.builds(n.Call, st.sampled_from(["$In", "$Tr"]), st.tuples(expressions))))
+    value = draw(
+        st.one_of(expressions, st.builds(n.Call, st.sampled_from(["$In", "$Tr"]), st.tuples(expressions)))
+    )
     return n.MatrixAssign(draw(names), value, draw(st.booleans()), draw(st.none() | names), lower, upper)
 
 
@@ -122,8 +142,10 @@ def tables(draw):
     return n.FunctionTable(draw(targets), call)
 
 
-SIMPLE = """else proceed next repeat exit end go reset clear time trace OUT step erun run bye new NEW list list+ ed edit
-reload""".split() + ["end if", "end while"]
+SIMPLE = [
+    *["else", "proceed", "next", "repeat", "exit", "end", "go", "reset", "clear", "time", "trace", "OUT", "step"],
+    *["erun", "run", "bye", "new", "NEW", "list", "list+", "ed", "edit", "reload", "end if", "end while"],
+]
 
 script_statements = st.one_of(
     st.builds(n.If, conditions, st.none()),
@@ -180,7 +202,9 @@ dynamic_statements = st.one_of(
     tables(),
     st.builds(n.Term, expressions),
     st.builds(n.Sample, expressions),
-    st.builds(n.Request, st.sampled_from(["dispt", "dispxy", "DISPXY", "stash", "recover"]), st.none(), all_targets),
+    st.builds(
+        n.Request, st.sampled_from(["dispt", "dispxy", "DISPXY", "stash", "recover"]), st.none(), all_targets
+    ),
     st.builds(n.Request, st.just("type"), maybe, all_targets),
     learners(),
 )

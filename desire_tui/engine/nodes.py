@@ -1,8 +1,8 @@
 """The nodes of a parsed program: what the user wrote, nothing more.
 
-Offsets `start` and `end` of a node count from the start of **its statement's raw text**, so that a parsed statement
-can be kept by its text and used again wherever it stands; `Placed.at` is the offset of that raw text in the source.
-Two nodes are equal when they say the same, wherever they stand.
+Offsets `start` and `end` of a node count from the start of **its statement's raw text**, so that a parsed
+statement can be kept by its text and used again wherever it stands; `Placed.at` is the offset of that raw
+text in the source. Two nodes are equal when they say the same, wherever they stand.
 """
 
 from __future__ import annotations
@@ -22,8 +22,9 @@ T = TypeVar("T")
 def node(cls: type[T]) -> type[T]:
     """Make a slotted record class with the methods of a dataclass, frozen for the type checker only.
 
-    Why not `dataclass(slots=True)`: its generated methods for these 63 classes cost 40 ms at every start, so here
-    `__init__` is generated when a class is first used. Freezing at run time would cost another 1.5 µs a node.
+    Why not `dataclass(slots=True)`: its generated methods for these 63 classes cost 40 ms at every start,
+    so here `__init__` is generated when a class is first used. Freezing at run time would cost another 1.5
+    µs a node.
     """
     own = dict(vars(cls))
     names = tuple(own.get("__annotations__", ()))
@@ -95,7 +96,7 @@ def _at() -> int:
 
 
 class Placed(NamedTuple):
-    """A statement, the offset of its raw text in the source, and its line number if the file carries numbers."""
+    """A statement, the offset of its raw text in the source, its line number if the file carries numbers."""
 
     node: Statement
     at: int
@@ -333,7 +334,7 @@ Word = Literal[
 
 @node
 class Simple(Statement):
-    """A statement that is its keyword, aliases already replaced (`zz` → `erun`, `rld` → `reload`, `quit` → `bye`)."""
+    """A statement that is its keyword, aliases replaced (`zz` → `erun`, `rld` → `reload`, `quit` → `bye`)."""
 
     word: Word
     start: int = _at()
@@ -342,7 +343,7 @@ class Simple(Statement):
 
 @node
 class FileCommand(Statement):
-    """`keep 'f'`, `keep`, `load 'f'`, `old 'f'`, `snapshot 'f'`, `notebook 'f'|on|off`, `help 'topic'|topic`, `sh …`."""
+    """`keep 'f'`, `load 'f'`, `snapshot 'f'`, `notebook 'f'|on|off`, `help x`, `sh …`, `compare …`."""
 
     word: Literal["keep", "keep+", "load", "snapshot", "notebook", "help", "sh", "compare"]
     argument: str | None
@@ -725,7 +726,7 @@ class TrackHold(Statement):
 
 @node
 class FunctionTable(Statement):
-    """The older forms `func y = F(x` and `func2 f = F(x, y; X, Y`: `call` is the func1 or func2 call they mean."""
+    """The older forms `func y = F(x`, `func2 f = F(x, y; X, Y`: `call` is the func1 or func2 they mean."""
 
     target: Target
     call: Call

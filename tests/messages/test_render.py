@@ -18,7 +18,9 @@ def frame(text: str, start: int, end: int) -> list[str]:
 
 
 def test_no_source_and_no_place() -> None:
-    assert render(Diagnostic(KEY, None, {"text": "b"})).startswith("error 33: the statement should end before 'b'\n")
+    assert render(Diagnostic(KEY, None, {"text": "b"})).startswith(
+        "error 33: the statement should end before 'b'\n"
+    )
     assert render(Diagnostic(KEY, None, {"text": "b"}, Source("", "f.src"))).startswith("f.src: error 33: ")
 
 

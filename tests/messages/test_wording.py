@@ -34,7 +34,8 @@ def test_every_syntax_message_is_shown() -> None:
         if key in TOO_BIG:
             continue
         pattern = "".join(
-            ".*" if part.startswith("{") else re.escape(part) for part in re.split(r"(\{\w+\})", wording.message)
+            ".*" if part.startswith("{") else re.escape(part)
+            for part in re.split(r"(\{\w+\})", wording.message)
         )
         kind = "note" if key in SECOND_PLACES else f"error {wording.code}"
         if not re.search(f"{kind}: {pattern}$", shown, re.MULTILINE):

@@ -83,4 +83,7 @@ def test_lark_is_not_imported_when_the_tables_are_stored() -> None:
         "import sys; from desire_tui.engine.source import Source; from desire_tui.engine.syntax import parse;"
         "parse(Source('x = 1')); print([m for m in ('lark', 'numpy', 'textual') if m in sys.modules])"
     )
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
+    assert (
+        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+        == "[]\n"
+    )

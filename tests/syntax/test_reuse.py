@@ -41,7 +41,9 @@ def test_a_ladder_has_two_shapes(derived) -> None:
 def test_an_edit_leaves_all_other_nodes_alone() -> None:
     text = ladder(50)
     before = parse(Source(text)).segments[0].body
-    after = parse(Source("-- a new first line\n" + text.replace("i10 = 10.5", "i10 = 2*10.5"))).segments[0].body
+    after = (
+        parse(Source("-- a new first line\n" + text.replace("i10 = 10.5", "i10 = 2*10.5"))).segments[0].body
+    )
     changed = [i for i, (old, new) in enumerate(zip(before, after, strict=True)) if old.node is not new.node]
     assert changed == [19]
     assert all(new.at - old.at == 20 for old, new in zip(before[:19], after[:19], strict=True))

@@ -56,7 +56,9 @@ def test_any_text_is_survived(text) -> None:
     for line in text.split("\n"):
         classes = highlight(line)
         ends = [0, *(end for _, end, _ in classes)]
-        assert all(before <= start < end <= len(line) for before, (start, end, _) in zip(ends, classes, strict=False))
+        assert all(
+            before <= start < end <= len(line) for before, (start, end, _) in zip(ends, classes, strict=False)
+        )
 
 
 @settings(deadline=None, max_examples=200)
@@ -80,14 +82,22 @@ def _places(part: object) -> object:
     return [_places(item) for item in part] if isinstance(part, tuple) else part
 
 
-OPERATIONS = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "^": operator.pow}
+OPERATIONS = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "^": operator.pow,
+}
 arithmetic = st.recursive(
     st.sampled_from(["2", "3", "0.5", "1.25"]),
     lambda inner: st.one_of(
         st.tuples(inner, st.sampled_from("+-*/"), inner).map("".join),
         inner.map("({})".format),
         st.tuples(st.sampled_from(["-", "+"]), inner).map("".join),
-        st.tuples(st.sampled_from(["2", "3"]), st.sampled_from(["^2", "^-1", "^2^0.5", "^-1^2"])).map("".join),
+        st.tuples(st.sampled_from(["2", "3"]), st.sampled_from(["^2", "^-1", "^2^0.5", "^-1^2"])).map(
+            "".join
+        ),
     ),
     max_leaves=10,
 )

@@ -10,8 +10,8 @@ from desire_tui.engine import nodes as n
 from desire_tui.engine.diagnostics import render_all
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse, parse_command
+from desire_tui.engine.syntax.chunk import CLASSES
 from desire_tui.engine.syntax.tables import tables
-from desire_tui.engine.syntax.tokens import CLASSES
 from desire_tui.engine.syntax.words import KEYWORDS
 
 
@@ -85,9 +85,7 @@ FORMS = {
     # --------------------------------------------------------------- script (section 5)
     "if x > 3 then": n.If(x_above_3, None),
     "if x>3 and not (a<=b or a<>b) then": n.If(
-        n.Logical(
-            "and", x_above_3, n.Not(n.Logical("or", n.Relation("<=", a, b), n.Relation("<>", a, b)))
-        ),
+        n.Logical("and", x_above_3, n.Not(n.Logical("or", n.Relation("<=", a, b), n.Relation("<>", a, b)))),
         None,
     ),
     "else": n.Simple("else"),

@@ -1,12 +1,12 @@
 """An error is facts first, prose later, drawing last.
 
-A pass reports `Diagnostic(key, span, facts)`; `wording` holds the sentences by key, together with Desire's own
-error number; `render` draws the line with carets under the span.
+A pass reports `Diagnostic(key, span, facts)`; `wording` holds the sentences by key, together with Desire's
+own error number; `render` draws the line with carets under the span.
 """
 
 from __future__ import annotations
 
-from desire_tui.engine.diagnostics.diagnostic import Diagnostic, DesireError, Severity, closest
+from desire_tui.engine.diagnostics.diagnostic import DesireError, Diagnostic, Severity, closest
 from desire_tui.engine.diagnostics.render import render, render_all
 
 __all__ = ["DesireError", "Diagnostic", "Severity", "closest", "render", "render_all"]

@@ -1,4 +1,4 @@
-"""Draw a diagnostic: the one shape that files, the command pane and the headless runner share (language.md 14).
+"""Draw a diagnostic: one shape for command pane, problem list and headless runner (language.md 14).
 
     step.src:4:12: error 200: undefined variable 'xdto'
         y = 2 * xdto
@@ -58,7 +58,7 @@ def _place(diagnostic: Diagnostic) -> str:
 
 
 def _frame(source: Source, span: Span) -> list[str]:
-    """The line on which the span starts, and carets under as much of the span as stands there."""
+    """Return the line on which the span starts, and carets under as much of it as stands there."""
     row, column = source.position(span.start)
     line = source.line(row)
     start = min(column - 1, len(line))
@@ -85,7 +85,7 @@ def _window(before: str, inside: str, after: str) -> tuple[str, str, str]:
 
 
 def _drawn(text: str, column: int) -> str:
-    """The text as a terminal can show it: tabs expanded from `column` on, control characters as `·`."""
+    """Return what a terminal can show: tabs expanded from `column` on, control characters as `·`."""
     if text.isascii() and text.isprintable():
         return text
     out = []

@@ -1,7 +1,7 @@
 """From text to nodes: tokenizer, grammar, parser, and back again.
 
-`parse` a program, `parse_command` a command line; `highlight` a line for an editor; `format_program` writes nodes as
-text.
+`parse` a program, `parse_command` a command line; `highlight` a line for an editor; `format_program` writes
+nodes as text.
 """
 
 from __future__ import annotations

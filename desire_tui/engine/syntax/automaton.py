@@ -1,7 +1,7 @@
 """Steps through the LALR tables over the tokens of one statement.
 
-Why not lark's own loop: it would need lark imported at every start (50 ms), tokens as lark objects, and it hides
-the stack, which the messages need. The loop below is the textbook's.
+Why not lark's own loop: it would need lark imported at every start (50 ms), tokens as lark objects, and it
+hides the stack, which the messages need. The loop below is the textbook's.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def derive(kinds: Sequence[str], texts: Sequence[str]) -> Statement:
             continue
         origin, size, method, splice = rules[-1 - move]
         if size == 1 and not method:
-            # Chains such as atom → power → signed → product → sum are most of the work: no stack but the states' moves.
+            # Chains such as atom → power → signed → product → sum are most of the work: only a state changes.
             if splice and not isinstance(values[-1], list):
                 values[-1] = [values[-1]]
             states[-1] = gotos[states[-2]][origin]
@@ -84,7 +84,7 @@ def derive(kinds: Sequence[str], texts: Sequence[str]) -> Statement:
 
 
 def _flat(children: list[Value]) -> list[Value]:
-    """Splice lists into their parent; the first child's list is reused, so that long lists grow in linear time."""
+    """Splice lists into their parent; the first child's list is reused: long lists grow in linear time."""
     flat = children[0] if isinstance(children[0], list) else [children[0]]
     for child in children[1:]:
         if isinstance(child, list):
@@ -95,7 +95,7 @@ def _flat(children: list[Value]) -> list[Value]:
 
 
 def _expected(states: list[int]) -> frozenset[str]:
-    """Kinds of tokens that can really follow: LALR states also list some that a reduction would reveal as wrong."""
+    """Return the kinds that can really follow: LALR states list more, which reductions would refuse."""
     table = tables()
     return frozenset(kind for kind in table.actions[states[-1]] if _accepts(list(states), kind))
 

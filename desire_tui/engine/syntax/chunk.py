@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-NAME, NUMBER, OCTAL, STRING, RAW, LETTER, MATFUN = "NAME", "NUMBER", "OCTAL", "STRING", "RAW", "LETTER", "MATFUN"
+NAME, NUMBER, OCTAL, STRING = "NAME", "NUMBER", "OCTAL", "STRING"
+RAW, LETTER, MATFUN = "RAW", "LETTER", "MATFUN"
 CLASSES = frozenset({NAME, NUMBER, OCTAL, STRING, RAW, LETTER, MATFUN})
 OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%", "#"})
 """Kinds of tokens behind which an operator may follow."""
@@ -25,7 +26,7 @@ class Fault:
 
 @dataclass(slots=True)
 class Chunk:
-    """The tokens of one statement; positions count from its first token, which stands at `base` of the line."""
+    """The tokens of one statement; positions count from the first, which stands at `base` of the line."""
 
     base: int
     kinds: list[str] = field(default_factory=list)

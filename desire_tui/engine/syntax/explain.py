@@ -1,7 +1,7 @@
 """Finds the plain words for a token that cannot stand where it stands.
 
-The automaton knows which kinds of tokens could have stood there; the rules below are tried in order, from what one
-statement alone can get wrong to what any can. Error numbers are Desire's (wording/syntax.py).
+The automaton knows which kinds of tokens could have stood there; the rules below are tried in order, from
+what one statement alone can get wrong to what any can. Error numbers are Desire's (wording/syntax.py).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _LABELS = frozenset({"label", "go to", "restore"})
 
 
 def explain(chunk: Chunk, at: int, expected: frozenset[str]) -> Fault:
-    """Return the fault of a statement whose token number `at` (or its end) is none of the `expected` kinds."""
+    """Return the fault of a statement whose token number `at`, or its end, is none of the `expected`."""
     stuck = _Stuck(chunk, at, expected)
     for rule in _RULES:
         key = rule(stuck)
@@ -130,7 +130,9 @@ def _for(s: _Stuck) -> str:
 
 def _first_words(s: _Stuck) -> str:
     """Statements that do not begin as any does."""
-    if s.texts[:3] == ["d", "/", "dt"] or (s.texts[0] == "d" and s.kinds[1:2] == ["/"] and s.kinds[3:4] == [NAME]):
+    if s.texts[:3] == ["d", "/", "dt"] or (
+        s.texts[0] == "d" and s.kinds[1:2] == ["/"] and s.kinds[3:4] == [NAME]
+    ):
         s.place(0, 2)
         return "derivative-form"
     if s.word == NAME and s.kinds[1:3] == ["/", NAME] and s.texts[2] == "dt" and s.texts[0].startswith("d"):
@@ -188,7 +190,7 @@ _RULES: tuple[Callable[[_Stuck], str], ...] = (
 
 
 def _open_bracket(kinds: list[str]) -> str:
-    """The innermost bracket that is still open."""
+    """Return the innermost bracket that is still open."""
     stack: list[str] = []
     for kind in kinds:
         if kind in OPENERS.values():

@@ -15,17 +15,19 @@ if TYPE_CHECKING:
 INDENT = "  "
 _BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "&": 2, "^": 4}
 _SIGN = 3
+_CLOSING = frozenset({"else", "proceed", "next", "end while", "end", "end if"})
 _ATOM = 5
 
 
 def format_program(program: n.Program) -> str:
-    """Return a program's canonical text: one statement a line, blocks indented. Comments are not nodes and are lost."""
+    """Return a program's canonical text: a statement a line, blocks indented. Comments are lost: no nodes."""
     lines: list[str] = []
     depth = 0
     for placed in program.script:
         node = placed.node
         depth -= _closes(node)
-        number = f"{placed.number} " if placed.number is not None and not _repeats(program.script, placed) else ""
+        shown = placed.number is not None and not _repeats(program.script, placed)
+        number = f"{placed.number} " if shown else ""
         lines.append(number + INDENT * max(0, depth) + format_statement(node))
         depth += _opens(node)
     for i, segment in enumerate(program.segments):
@@ -62,7 +64,7 @@ def _opens(node: n.Statement) -> bool:
 def _closes(node: n.Statement) -> bool:
     if isinstance(node, n.Until):
         return True
-    return isinstance(node, n.Simple) and node.word in ("else", "proceed", "next", "end while", "end", "end if")
+    return isinstance(node, n.Simple) and node.word in _CLOSING
 
 
 # --------------------------------------------------------------------------------------------- expressions
@@ -133,7 +135,7 @@ def format_number(value: float) -> str:
     """
     if value < 0 and value == int(value):
         return f"&&{int(value) + 0x10000:X}"
-    if value == int(value) and abs(value) < 1e16:  # noqa: PLR2004 - repr changes to exponents there
+    if value == int(value) and abs(value) < 1e16:  # repr changes to exponents there
         return str(int(value))
     return repr(value)
 
@@ -220,7 +222,9 @@ def _matrix(node: n.MatrixAssign) -> str:
     bounds = ""
     if node.lower is not None and node.upper is not None:
         bounds = f"; {_expr(node.lower)}, {_expr(node.upper)}"
-    return f"{'DELTA' if node.delta else 'MATRIX'} {node.name} = {_mask(node.mask)}{_expr(node.value)}{bounds}"
+    return (
+        f"{'DELTA' if node.delta else 'MATRIX'} {node.name} = {_mask(node.mask)}{_expr(node.value)}{bounds}"
+    )
 
 
 def _vector(node: n.VectorAssign) -> str:
@@ -246,7 +250,8 @@ def _learn(node: n.Learn) -> str:
         return f"{node.kind} {node.output} = {node.weights} * {node.input}; {_expr(node.rate)}"
     assert node.criterion is not None
     mark = " #" if node.conscience else ""
-    return f"CLEARN {node.output} = {node.weights}({node.input}) {_expr(node.rate)}, {_expr(node.criterion)}{mark}"
+    head = f"CLEARN {node.output} = {node.weights}({node.input})"
+    return f"{head} {_expr(node.rate)}, {_expr(node.criterion)}{mark}"
 
 
 _WRITERS: dict[type[n.Node], Callable[..., str]] = {
@@ -290,7 +295,9 @@ _WRITERS: dict[type[n.Node], Callable[..., str]] = {
     n.Store: lambda s: f"store {s.array} = {_expr(s.variable)}",
     n.Get: lambda s: f"get {_expr(s.variable)} = {s.array}",
     n.Delay: _delay,
-    n.TrackHold: lambda s: f"trkhld {_expr(s.held)}, {_expr(s.tracked)} = {_expr(s.control)}, {_expr(s.value)}",
+    n.TrackHold: lambda s: (
+        f"trkhld {_expr(s.held)}, {_expr(s.tracked)} = {_expr(s.control)}, {_expr(s.value)}"
+    ),
     n.FunctionTable: _table,
     n.Term: lambda s: f"term {_expr(s.value)}",
     n.Sample: lambda s: f"SAMPLE {_expr(s.every)}",

@@ -22,25 +22,27 @@ _RUN = re.compile(r"[ \t]+(run)(?![A-Za-z0-9$_])")
 _ASSIGNED = re.compile(r"[ \t]*=")
 _SUBSCRIPTED = re.compile(r"[ \t]*\[")
 _BRACKETS = re.compile(r"[\[\]|\n]")
-_MODE = re.compile(r"[ \t]*(?:([ABCFNQRWY])(?![A-Za-z$_\[(])|([012])(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed)))")
+_MODE = re.compile(
+    r"[ \t]*(?:([ABCFNQRWY])(?![A-Za-z$_\[(])|([012])(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed)))"
+)
 _FFT_KIND = re.compile(r"[ \t]*([FIRC])(?=[ \t]*[,;])")
 _REST = re.compile(r"[ \t]*((?:'[^'\n]*'|\"[^\"\n]*\"|(?!--|—)[^|\n'\"])*)")
 
 
-def add_head(chunk: Chunk, text: str, token: str, start: int, pos: int) -> int:
-    """Add the first word of a statement, and with it all that only this keyword allows; return where to go on."""
-    kind = KEYWORDS.get(token)
-    if token == "d" and (found := _D_DT.match(text, start)):
+def add_head(chunk: Chunk, text: str, lexeme: str, start: int, pos: int) -> int:
+    """Add a statement's first word and what only this keyword allows behind it; return where to go on."""
+    kind = KEYWORDS.get(lexeme)
+    if lexeme == "d" and (found := _D_DT.match(text, start)):
         chunk.add("d/dt", "d/dt", start, found.end())
         return found.end()
-    if kind is None or _is_variable(text, token, pos):
-        chunk.add(NAME, token, start, pos)
+    if kind is None or _is_variable(text, lexeme, pos):
+        chunk.add(NAME, lexeme, start, pos)
         return pos
-    second = _SECOND_WORD.get(token)
+    second = _SECOND_WORD.get(lexeme)
     if second and (found := second.match(text, pos)):
-        kind, pos = f"{token} {found[1]}", found.end()
-    elif token in ("list", "keep") and text.startswith("+", pos):
-        kind, pos = f"{token}+", pos + 1
+        kind, pos = f"{lexeme} {found[1]}", found.end()
+    elif lexeme in ("list", "keep") and text.startswith("+", pos):
+        kind, pos = f"{lexeme}+", pos + 1
     chunk.add(kind, text[start:pos], start, pos)
     if kind in RAW_AFTER:
         return _rest(chunk, text, pos)
@@ -64,11 +66,11 @@ def add_head(chunk: Chunk, text: str, token: str, start: int, pos: int) -> int:
     return pos
 
 
-def _is_variable(text: str, token: str, pos: int) -> bool:
+def _is_variable(text: str, lexeme: str, pos: int) -> bool:
     """Whether the keyword that ends at `pos` is assigned like a variable: `input = 0`, `data[3] = 1`."""
     if _ASSIGNED.match(text, pos):
         return True
-    if token in _ASKING and not text.startswith("[", pos):
+    if lexeme in _ASKING and not text.startswith("[", pos):
         return False  # `if [a, b] = z then` compares complex numbers
     found = _SUBSCRIPTED.match(text, pos)
     if not found:

@@ -15,51 +15,51 @@ _NUMBER_START = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _EXPONENT = re.compile(r"[eE](?![A-Za-z])")
 
 
-def add_odd(chunk: Chunk, group: int, token: str, start: int) -> int:
+def add_odd(chunk: Chunk, group: int, lexeme: str, start: int) -> int:
     """Add a token of the rare `group` (tokens.py); return where to go on."""
-    base, end = chunk.base, start + len(token)
+    base, end = chunk.base, start + len(lexeme)
     fault = None
     if group == 8:
-        if token == "&":
-            chunk.add("&", token, start, end)
-        elif _OCTAL.match(token) and octal_in_range(token):
-            chunk.add(OCTAL, token, start, end)
-        elif token[1].isalpha():
+        if lexeme == "&":
+            chunk.add("&", lexeme, start, end)
+        elif _OCTAL.match(lexeme) and octal_in_range(lexeme):
+            chunk.add(OCTAL, lexeme, start, end)
+        elif lexeme[1].isalpha():
             end = start + 1
             chunk.add("&", "&", start, end)
         else:
-            key = "octal-too-large" if _OCTAL.match(token) else "octal-digits"
-            fault = Fault(key, start - base, end - base, {"text": token})
+            key = "octal-too-large" if _OCTAL.match(lexeme) else "octal-digits"
+            fault = Fault(key, start - base, end - base, {"text": lexeme})
             chunk.add(OCTAL, "&0", start, end)
     elif group == 9:
-        fault = Fault("quote-unclosed", start - base, end - base, {"quote": token[0]})
-        chunk.add(STRING, token + token[0], start, end)
+        fault = Fault("quote-unclosed", start - base, end - base, {"quote": lexeme[0]})
+        chunk.add(STRING, lexeme + lexeme[0], start, end)
     elif group == 10:
-        good = _NUMBER_START.match(token)
-        rest = token[good.end() :] if good is not None else "."
+        good = _NUMBER_START.match(lexeme)
+        rest = lexeme[good.end() :] if good is not None else "."
         if good is not None and rest[0] not in ".$_" and not _EXPONENT.match(rest):
             end = start + good.end()
             chunk.add(NUMBER, good[0], start, end)
         else:
-            fault = Fault("number-format", start - base, end - base, {"text": token})
+            fault = Fault("number-format", start - base, end - base, {"text": lexeme})
             chunk.add(NUMBER, "0", start, end)
     else:
-        fault = Fault("strange-character", start - base, end - base, {"char": token})
+        fault = Fault("strange-character", start - base, end - base, {"char": lexeme})
     if chunk.fault is None:
         chunk.fault = fault
     return end
 
 
-def octal_in_range(token: str) -> bool:
+def octal_in_range(lexeme: str) -> bool:
     """Whether an `&` or `&&` literal fits into 16 bits."""
-    return _digits(token) <= 0xFFFF
+    return _digits(lexeme) <= 0xFFFF
 
 
-def octal_value(token: str) -> float:
+def octal_value(lexeme: str) -> float:
     """Value of `&17370` (octal) or `&&FC2` (hexadecimal): 16 bits, two's complement [B 8.3.2]."""
-    bits = _digits(token)
+    bits = _digits(lexeme)
     return float(bits - 0x10000 if bits > 0x7FFF else bits)
 
 
-def _digits(token: str) -> int:
-    return int(token.lstrip("&"), 16 if token.startswith("&&") else 8)
+def _digits(lexeme: str) -> int:
+    return int(lexeme.lstrip("&"), 16 if lexeme.startswith("&&") else 8)

@@ -135,7 +135,7 @@ def _diagnostic(fault: Fault, at: int, source: Source) -> Diagnostic:
 
 
 def _logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, int, int | None]]:
-    """Yield each line (with its continuation lines), the offset of its text, and its line number if it has one."""
+    """Yield each line (with its continuations), the offset of its text, its line number if it has one."""
     known = _lines.get
     rows = text.split("\n")
     count = len(rows)
@@ -168,7 +168,9 @@ def _logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry,
                     break
             whole = known("\n".join(parts)) or _parse_line("\n".join(parts))
             if _swallowed(line, whole, parts):
-                i -= len(parts) - 1  # report the unfinished line alone; the next one is a statement of its own
+                i -= (
+                    len(parts) - 1
+                )  # the next line is a statement of its own: report the unfinished one alone
                 next_at = at + len(line) + 1
             else:
                 entry = whole

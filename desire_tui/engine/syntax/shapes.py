@@ -1,8 +1,8 @@
 """Statements that differ only in names and numbers share one parse.
 
-1401 circuit equations have four shapes: the sequence of their tokens' kinds. The grammar derives each new shape once;
-from the second statement on, a function generated for the shape makes the nodes straight from the tokens, 20 times
-faster than parsing.
+1401 circuit equations have four shapes: the sequence of their tokens' kinds. The grammar derives each new
+shape once; from the second statement on, a function generated for the shape makes the nodes straight from
+the tokens, 20 times faster than parsing.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def _generate(pattern: nodes.Statement) -> Maker:
 
 
 def _code(part: Any) -> str:
-    """Write the constructor call. Only class names, token numbers and this project's literals get into the code."""
+    """Write the constructor call. Only class names, token numbers and this project's literals get into it."""
     if isinstance(part, nodes.Node):
         record: Any = part
         values = [

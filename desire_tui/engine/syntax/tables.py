@@ -1,7 +1,7 @@
 """LALR tables of `desire.lark`: made by lark once, kept in the user's cache, read back without lark.
 
-lark takes 50 ms to import and 250 ms to build the tables; reading them back takes 2 ms, and then `automaton` steps
-through them. lark stays the only thing that understands the grammar file.
+lark takes 50 ms to import and 250 ms to build the tables; reading them back takes 2 ms, and then
+`automaton` steps through them. lark stays the only thing that understands the grammar file.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ FORMAT = 1
 class Rule(NamedTuple):
     """A production: its left side, the number of symbols on its right, the `Builder` method for its node.
 
-    Without a method the single child stands for the whole (`?rule`) or, if `splice`, the children join the parent's.
+    Without a method the single child stands for the whole (`?rule`) or, if `splice`, the children join the
+    parent's.
     """
 
     origin: str
@@ -31,7 +32,7 @@ class Rule(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """Per state: token kind → next state (≥ 0) or −1 − rule; rule name → next state. `$` is the end's kind."""
+    """Per state: token kind → next state (≥ 0) or −1 − rule; rule name → next state. `$END` ends."""
 
     start: int
     accept: int

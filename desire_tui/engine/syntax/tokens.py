@@ -1,7 +1,8 @@
 """The tokenizer: the one lexical truth for the parser, the statement splitter and the editor's highlighting.
 
 Language.md section 2. It knows what only a reader of whole statements can know: a keyword is a keyword at a
-statement's start alone, and `then`, `to`, `step` … are special only where their own statement expects an operator.
+statement's start alone, and `then`, `to`, `step` … are special only where their own statement expects an
+operator.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ def scan(text: str) -> Line:
     match = _TOKEN.match
     pos, words, in_if, depth, base = 0, None, False, 0, 0
     chunk: Chunk | None = None
-    # The open chunk's lists, in local names: this loop is the hot one of a cold start, and calls would double it.
+    # The open chunk's lists in local names: this is the hot loop of a cold start, and calls would double it.
     kinds: list[str]
     texts: list[str]
     starts: list[int]
@@ -66,7 +67,7 @@ def scan(text: str) -> Line:
         if group is None:
             break
         start, pos = found.span(group)
-        token = found[group]
+        lexeme = found[group]
         if group == 3:
             comments.append((start, pos))
             continue
@@ -78,60 +79,61 @@ def scan(text: str) -> Line:
             chunks.append(chunk)
             base, kinds, texts, starts, ends = start, chunk.kinds, chunk.texts, chunk.starts, chunk.ends
             if group == 1:
-                pos = add_head(chunk, text, token, start, pos)
+                pos = add_head(chunk, text, lexeme, start, pos)
                 word = chunk.kinds[0]
                 words = SOFT_WORDS.get(word)
                 if word in ("else", "proceed"):
                     chunk = None
                 continue
         if group == 1:
-            if words is not None and token in words and _is_soft(chunk, token, text, pos):
-                chunk.add(token, token, start, pos)
-                if token == "then":
+            if words is not None and lexeme in words and _is_soft(chunk, lexeme, text, pos):
+                chunk.add(lexeme, lexeme, start, pos)
+                if lexeme == "then":
                     chunk, words, depth, in_if = None, None, 0, True
-                elif token == "as" and (way := _WAY.match(text, pos)):
+                elif lexeme == "as" and (way := _WAY.match(text, pos)):
                     pos = way.end()
                     chunk.add(way[1], way[1], way.start(1), pos)
                 continue
-            if in_if and token in ("else", "proceed") and _is_over(chunk):
-                chunk, words, depth = Chunk(start, [token], [token], [0], [pos - start]), None, 0
+            if in_if and lexeme in ("else", "proceed") and _is_over(chunk):
+                chunk, words, depth = Chunk(start, [lexeme], [lexeme], [0], [pos - start]), None, 0
                 chunks.append(chunk)
                 chunk = None
                 continue
             kinds.append(NAME)
-            texts.append(token)
+            texts.append(lexeme)
             starts.append(start - base)
             ends.append(pos - base)
         elif group == 2:
             kinds.append(NUMBER)
-            texts.append(token)
+            texts.append(lexeme)
             starts.append(start - base)
             ends.append(pos - base)
         elif group == 4:
-            kinds.append(token)
-            texts.append(token)
+            kinds.append(lexeme)
+            texts.append(lexeme)
             starts.append(start - base)
             ends.append(pos - base)
-            if token in _OPEN:
+            if lexeme in _OPEN:
                 depth += 1
                 if depth > DEPTH_MAX and chunk.fault is None:
                     chunk.fault = Fault("nested-too-deep", start - base, pos - base, {"limit": DEPTH_MAX})
-            elif token in CLOSERS:
+            elif lexeme in CLOSERS:
                 depth -= 1
         elif group == 6:
-            chunk.add(STRING, token, start, pos)
+            chunk.add(STRING, lexeme, start, pos)
         elif group == 7:
-            chunk.add(MATFUN if len(token) > 1 else "$", token, start, pos)
+            chunk.add(MATFUN if len(lexeme) > 1 else "$", lexeme, start, pos)
         else:
-            pos = add_odd(chunk, group, token, start)
-    continues = bool(chunk and _wants_more(chunk)) or text[comments[-1][1] if comments else 0 :].rstrip().endswith("_")
+            pos = add_odd(chunk, group, lexeme, start)
+    code_from = comments[-1][1] if comments else 0
+    continues = bool(chunk and _wants_more(chunk)) or text[code_from:].rstrip().endswith("_")
     return Line(chunks, comments, continues)
 
 
-def _is_soft(chunk: Chunk, token: str, text: str, pos: int) -> bool:
+def _is_soft(chunk: Chunk, lexeme: str, text: str, pos: int) -> bool:
     """Whether a special word stands where its statement expects one (else it is a variable's name)."""
     last = chunk.kinds[-1]
-    if token == "not":
+    if lexeme == "not":
         return last not in OPERAND_END and bool(_OPERAND_FOLLOWS.match(text, pos))
     return last in OPERAND_END
 

@@ -27,7 +27,9 @@ def normalised(text: str) -> str:
         else:
             if plain in "'\"":
                 # An ASCII quote is closed by itself; a typographic one by any of its kind.
-                closing = char if char == plain else "".join(c for c, p in _ASCII.items() if p == plain) + plain
+                closing = (
+                    char if char == plain else "".join(c for c, p in _ASCII.items() if p == plain) + plain
+                )
             elif plain == "-" and out and out[-1] == "-":
                 comment = True
             out.append(plain)

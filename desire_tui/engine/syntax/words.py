@@ -1,4 +1,4 @@
-"""The language's words: keywords with their other spellings, and words that are special in one statement only."""
+"""The language's words: keywords with their other spellings, and words special in one statement only."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from desire_tui.engine.diagnostics import closest
 KEYWORDS = {
     word: word
     for word in """
-    if for while until repeat next exit label PROCEDURE call end SUBMODEL FUNCTION data read restore input write
-    connect disconnect dump time note sh help irule SEED trace drun drunr reset clear STOP go MATRIX DELTA Vector
-    Delta DOT AVG FFT display plot SHOW edit ed list keep load else proceed DYNAMIC OUT SAMPLE step term dispt dispxy
-    DISPXY type stash recover CLEARN PLEARN INTP JACOBIAN store get tdelay delay trkhld func func2 invoke ARRAY STATE
-    INTEGER COMPLEX erun run bye new NEW reload snapshot notebook compare
+    if for while until repeat next exit label PROCEDURE call end SUBMODEL FUNCTION data read restore input
+    write connect disconnect dump time note sh help irule SEED trace drun drunr reset clear STOP go MATRIX
+    DELTA Vector Delta DOT AVG FFT display plot SHOW edit ed list keep load else proceed DYNAMIC OUT SAMPLE
+    step term dispt dispxy DISPXY type stash recover CLEARN PLEARN INTP JACOBIAN store get tdelay delay
+    trkhld func func2 invoke ARRAY STATE INTEGER COMPLEX erun run bye new NEW reload snapshot notebook
+    compare
     """.split()  # noqa: SIM905 - a list of words reads better than a wall of quotes
 } | {
     "dimension": "ARRAY", "LEARN": "DELTA", "zz": "erun", "rld": "reload", "MACRO": "SUBMODEL", "quit": "bye",
@@ -33,11 +34,11 @@ RAW_AFTER = frozenset({"sh", "help", "keep", "keep+", "load", "snapshot", "noteb
 
 STAND_ALONE = frozenset(
     """
-    exit STOP go reset clear time trace next repeat end write drun drunr irule restore dump note erun run bye new NEW
-    reload list ed edit
+    exit STOP go reset clear time trace next repeat end write drun drunr irule restore dump note erun run
+    bye new NEW reload list ed edit
     """.split()  # noqa: SIM905
 ) | {"list+", "end while"}
-"""Words that can be a whole statement: `else` and `proceed` may follow them in a line that began with `if`."""
+"""Words that can be a whole statement: behind a `then`, `else` and `proceed` may follow them directly."""
 
 RELATIONS = frozenset({"=", "<", ">", "<=", ">=", "<>"})
 OPENERS = {")": "(", "]": "[", "}": "{"}
@@ -46,9 +47,9 @@ CLOSERS = frozenset(OPENERS)
 
 _TWO_WORDS = ("go to", "end if", "end while", "d/dt", "Vectr d/dt", "Vectr delta")
 _ELSEWHERE = {
-    "print": "write", "goto": "go to", "dim": "dimension", "wend": "end while", "return": "exit", "endif": "end if",
-    "fi": "proceed", "endwhile": "end while", "done": "end while", "stop": "STOP", "def": "FUNCTION", "sub": "PROCEDURE",
-    "echo": "write", "exec": "call", "break": "exit", "rem": "--", "seed": "SEED", "dynamic": "DYNAMIC",
+    "print": "write", "echo": "write", "goto": "go to", "dim": "dimension", "wend": "end while",
+    "endwhile": "end while", "done": "end while", "return": "exit", "break": "exit", "endif": "end if",
+    "fi": "proceed", "stop": "STOP", "def": "FUNCTION", "sub": "PROCEDURE", "exec": "call", "rem": "--",
 }  # fmt: skip
 """What users of other languages type."""
 

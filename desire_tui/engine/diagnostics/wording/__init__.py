@@ -1,7 +1,8 @@
 """The sentences, one module for each stage that can complain.
 
 A key such as `undefined-variable` names a message; several keys may share one of Desire's error numbers.
-`message` and `hint` are templates over the diagnostic's facts; `explanation` is the help page's text (Markdown).
+`message` and `hint` are templates over the diagnostic's facts; `explanation` is the help page's text
+(Markdown).
 """
 
 from __future__ import annotations

@@ -9,7 +9,9 @@ _DISPLAY = "display takes 0, 1, 2, or a letter: A B C F N Q R W Y"
 
 MESSAGES: dict[str, Wording] = {
     # ------------------------------------------------------------------ one statement
-    "not-a-statement": Wording(1, "'{first}' begins no statement", "assign it with =, or begin with a keyword"),
+    "not-a-statement": Wording(
+        1, "'{first}' begins no statement", "assign it with =, or begin with a keyword"
+    ),
     "expression-alone": Wording(1, "an expression is no statement", "assign it: y = …, or print it: write …"),
     "derivative-form": Wording(1, "this is no derivative", "write: d/dt x = …"),
     "number-format": Wording(6, "'{text}' is not a number", "numbers look like 12, .85, 1.2E-07"),
@@ -17,12 +19,18 @@ MESSAGES: dict[str, Wording] = {
     "parenthesis-stray": Wording(7, "')' closes no parenthesis", "remove it, or add ( before"),
     "then-missing": Wording(10, "'then' is missing behind the condition", "write: if a > b then"),
     "relation-expected": Wording(10, "a relation is expected here", "compare with = < > <= >= or <>"),
-    "relation-misplaced": Wording(10, "a relation cannot be part of an expression", "use it in if, while or until"),
+    "relation-misplaced": Wording(
+        10, "a relation cannot be part of an expression", "use it in if, while or until"
+    ),
     "relation-spelling": Wording(10, "'{text}' is not a relation", "write {right}"),
     "connect-form": Wording(11, "this is not how a file is connected", "write: connect 'name' as input 3"),
     "variable-missing": Wording(14, "a name is missing{before}", "a variable or array must stand here"),
-    "operand-missing": Wording(14, "a value is missing{before}", "a number, a name or an expression must stand here"),
-    "target-illegal": Wording(14, "this cannot be assigned", "before = stands a name, or an element such as x[3]"),
+    "operand-missing": Wording(
+        14, "a value is missing{before}", "a number, a name or an expression must stand here"
+    ),
+    "target-illegal": Wording(
+        14, "this cannot be assigned", "before = stands a name, or an element such as x[3]"
+    ),
     "request-expression": Wording(14, "a request lists names only", "assign the expression to a name first"),
     "display-mode": Wording(14, "display has no such mode", _DISPLAY),
     "display-form": Wording(14, "display {mode} takes {wanted}", "write for instance: display N 14"),
@@ -38,26 +46,36 @@ MESSAGES: dict[str, Wording] = {
     "equals-missing": Wording(29, "'=' is missing{before}", "write: name = expression"),
     "dimensions-too-many": Wording(32, "an array has at most {limit} dimensions", "use fewer subscripts"),
     "statement-end": Wording(33, "the statement should end before '{text}'", "separate statements by |"),
-    "strange-character": Wording(33, "the character '{char}' means nothing here", "remove it, or quote the text"),
+    "strange-character": Wording(
+        33, "the character '{char}' means nothing here", "remove it, or quote the text"
+    ),
     "file-name": Wording(34, "a file name in quotes is missing{before}", "write: connect 'name' as input 3"),
     "plot-form": Wording(36, "plot takes a point and a colour", "write: plot x, y, c"),
     "definition-form": Wording(37, "{word} is not written like this", "write: {word} name(a, b)"),
     "loop-variable-missing": Wording(48, "a loop needs a variable{before}", _FOR),
     "octal-digits": Wording(57, "'{text}' is neither octal nor hexadecimal", "octal: &17; hexadecimal: &&F0"),
-    "octal-too-large": Wording(57, "'{text}' does not fit into 16 bits", "the largest are &177777 and &&FFFF"),
+    "octal-too-large": Wording(
+        57, "'{text}' does not fit into 16 bits", "the largest are &177777 and &&FFFF"
+    ),
     "operator-missing": Wording(60, "an operator is missing before '{text}'", "a product is written with *"),
-    "fft-form": Wording(61, "FFT is not written like this", "write: FFT F, n, x, y (or I, C; R with x, y, u, v)"),
+    "fft-form": Wording(
+        61, "FFT is not written like this", "write: FFT F, n, x, y (or I, C; R with x, y, u, v)"
+    ),
     "only-comment": Wording(62, "only a comment may follow '{first}'", "separate statements by |"),
     "go-where": Wording(62, "only a comment may follow 'go'", "a jump is written: go to {text}"),
     "label-expected": Wording(79, "a label is missing behind '{word}'", "write: {word} name"),
     "show-form": Wording(112, "SHOW is not written like this", "write: SHOW A, or: SHOW A, columns"),
     "element-illegal": Wording(209, "{first} assigns a whole array", "leave the subscripts out"),
     "nested-too-deep": Wording(400, "more than {limit} brackets are open", "use intermediate variables"),
-    "expression-too-deep": Wording(401, "the expression has more than {limit} levels", "use intermediate variables"),
+    "expression-too-deep": Wording(
+        401, "the expression has more than {limit} levels", "use intermediate variables"
+    ),
     "line-too-long": Wording(403, "the line has more than {limit} characters", "use several statements"),
     # ------------------------------------------------------------------ blocks, labels, definitions
     "stray-end": Wording(4, "'end' closes nothing", "a loop ends with next, end while or until"),
-    "if-without-then": Wording(10, "'then' is missing: in a script, if asks a question", "write: if a > b then"),
+    "if-without-then": Wording(
+        10, "'then' is missing: in a script, if asks a question", "write: if a > b then"
+    ),
     "unclosed-block": Wording(24, "'{word}' is not closed", "add '{closer}' where the block ends"),
     "stray-closer": Wording(27, "'{word}' closes nothing", "remove it, or open the block before it"),
     "defined-twice": Wording(55, "'{name}' is already defined", "choose another name"),
@@ -68,7 +86,9 @@ MESSAGES: dict[str, Wording] = {
     "first-label": Wording(79, "the first one is here"),
     "jump-inside": Wording(82, "'go to {name}' would jump into a block", "jump to its beginning instead"),
     "block-begins": Wording(82, "the block begins here"),
-    "nested-definition": Wording(88, "'{name}' is defined inside another block", "move the definition out of it"),
+    "nested-definition": Wording(
+        88, "'{name}' is defined inside another block", "move the definition out of it"
+    ),
     "exit-nowhere": Wording(98, "'exit' stands in no loop and no PROCEDURE", "remove it"),
     "jump-to-segment": Wording(102, "'{name}' labels a DYNAMIC segment", "run it with: drun {name}"),
     "stray-else": Wording(111, "'{word}' belongs to no 'if'", "remove it, or add the if before it"),
@@ -76,6 +96,10 @@ MESSAGES: dict[str, Wording] = {
     "first-else": Wording(111, "the first one is here"),
     "end-if-in-script": Wording(111, "in a script, 'proceed' ends an if", "write proceed"),
     "dummy-twice": Wording(196, "the dummy argument '{name}' stands twice", "give each its own name"),
-    "then-in-segment": Wording(219, "in a DYNAMIC segment, if takes a value, no 'then'", "for a > b write: if a - b"),
-    "call-missing": Wording(300, "'{name}(…)' is no statement of a script", "call a PROCEDURE: call {name}(…)"),
+    "then-in-segment": Wording(
+        219, "in a DYNAMIC segment, if takes a value, no 'then'", "for a > b write: if a - b"
+    ),
+    "call-missing": Wording(
+        300, "'{name}(…)' is no statement of a script", "call a PROCEDURE: call {name}(…)"
+    ),
 }
