@@ -1,6 +1,6 @@
 """The script interpreter beside plain Python doing the same. `python -m benchmarks.script_speed`
 
-Columns: what is repeated, time for each pass of the interpreter's loop, time without the empty loop, expression
+Columns: what is repeated, time for each pass of the loop, time without the empty loop, expression
 nodes a second, and the time the same statement takes in a Python function with local variables.
 """
 

@@ -204,14 +204,14 @@ def _pages(size: int) -> int:
 
 
 def _allowed_bytes() -> int:
-    """Memory of the machine, or of the container this runs in."""
+    """Three quarters of the memory of the machine, or of the container this runs in."""
     size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     for limit in ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"):
         try:
             size = min(size, int(Path(limit).read_text(encoding="ascii")))
         except (OSError, ValueError):
             continue
-    return max(size, 1 << 27)
+    return max(size // 4 * 3, 1 << 27)
 
 
 def _reserve() -> tuple[mmap.mmap, int]:

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from desire_tui.engine.values import Quantity, Values
 
 _PER_LINE = 5
+_PIECE = 100
+"""Elements turned into text at a time, so that a huge array needs no memory and can be broken off."""
 
 
 def scalar_text(value: complex, kind: Kind) -> str:
@@ -41,22 +43,28 @@ def array_text(values: Values, quantity: Quantity, name: str) -> Iterator[str]:
     size = ",".join(map(str, quantity.shape))
     word = quantity.kind.name
     yield f"\n{name}[{size}]  : {word} ARRAY (in ROW major sequence)\n"
-    numbers = elements(values, quantity)
     for first in range(0, quantity.size, _PER_LINE):
-        yield "  ".join(_element_text(v, quantity.kind) for v in numbers[first : first + _PER_LINE]) + "\n"
+        numbers = elements(values, quantity, first, _PER_LINE)
+        yield "  ".join(_element_text(v, quantity.kind) for v in numbers) + "\n"
 
 
 def raw_array_text(values: Values, quantity: Quantity) -> Iterator[str]:
     """Yield an array's values separated by tabs: vectors in one line, others one line for each row."""
     row = quantity.shape[-1]
-    numbers = elements(values, quantity)
     for first in range(0, quantity.size, row):
-        yield "\t".join(raw_text(v, quantity.kind) for v in numbers[first : first + row]) + "\n"
+        for piece in range(first, first + row, _PIECE):
+            numbers = elements(values, quantity, piece, min(_PIECE, first + row - piece))
+            yield "\t".join(raw_text(v, quantity.kind) for v in numbers)
+            yield "\t" if piece + _PIECE < first + row else "\n"
 
 
-def elements(values: Values, quantity: Quantity) -> list[complex]:
-    """Return an array's numbers in row-major order."""
-    return [*values.view(quantity).ravel().tolist()]
+def elements(values: Values, quantity: Quantity, first: int, count: int) -> Sequence[complex]:
+    """Return some of an array's numbers, counted from 0 in row-major order."""
+    last = min(first + count, quantity.size)
+    if quantity.kind is Kind.COMPLEX:
+        numbers = values.cells[quantity.slot + 2 * first : quantity.slot + 2 * last]
+        return [complex(re, im) for re, im in zip(numbers[::2], numbers[1::2], strict=True)]
+    return values.cells[quantity.slot + first : quantity.slot + last].tolist()
 
 
 def _element_text(value: complex, kind: Kind) -> str:
