@@ -1,4 +1,4 @@
-"""Draws the gallery's pictures: `python -m docs.draw` runs the programs named here and writes docs/pictures/NAME.png."""
+"""Draws the gallery's pictures, docs/pictures/NAME.png: `python -m docs.draw`."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ COLORS = 160
 """Few enough that a picture needs some 20 kB, enough for smooth edges of a dozen curves."""
 
 PROGRAMS = (
-    "ch1/step_response", "ch2/lorenz", "ch2/van_der_pol", "ch2/pendulum_phase_portrait", "ch2/torpedo", "ch2/cannonball",
-    "ch2/epidemic", "ch3/chaos_map", "ch3/servo_optimum", "ch4/signal_generator", "ch4/hysteresis", "ch4/bang_bang_servo",
-    "ch4/coupled_oscillators", "ch6/parameter_study", "ch6/radiating_slab", "ch7/world_model", "ch7/circulation",
-    "ch7/bouncing_ball", "ch7/pilot_ejection", "ch8/impedance", "ch8/conformal_mapping",
+    "ch1/step_response", "ch2/lorenz", "ch2/van_der_pol", "ch2/pendulum_phase_portrait", "ch2/torpedo",
+    "ch2/cannonball", "ch2/epidemic", "ch3/chaos_map", "ch3/servo_optimum", "ch4/signal_generator",
+    "ch4/hysteresis", "ch4/bang_bang_servo", "ch4/coupled_oscillators", "ch6/parameter_study",
+    "ch6/radiating_slab", "ch7/world_model", "ch7/circulation", "ch7/bouncing_ball", "ch7/pilot_ejection",
+    "ch8/impedance", "ch8/conformal_mapping",
 )  # fmt: skip
 
 

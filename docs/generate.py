@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.help import topics
+from tests.programs.coverage import markdown as tested_where
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
 DOCS = Path(__file__).parent
 EXAMPLES = DOCS.parent / "examples"
 NOTE = "<!-- made by python -m docs.generate; edit the tables it reads, not this page -->"
+
+GALLERY = """\
+{count} programs, one for every system of the book and more. Open them with F11 in the app, or by name:
+`desire examples/ch2/lorenz.src`. The `--?` lines say what they must show; a test holds them to it."""
 
 CHAPTERS = {
     "ch1": "First steps: runs, samples, integration rules",
@@ -59,12 +64,12 @@ def functions() -> str:
 def errors() -> str:
     """All messages by number."""
     pages = [page for page in topics().values() if page.kind == "error"]
-    intro = "Numbers below 400 are Desire's own. `…` stands for what the message fills in. In the app `help 200` shows an entry."
+    intro = "Numbers below 400 are Desire's own. `…` stands for what the message fills in."
     return "\n\n".join(["# Errors", NOTE, intro, *(_section(page) for page in pages)]) + "\n"
 
 
 def _section(page: Topic) -> str:
-    """Return a help page as a section: its headings one level down, links without a page of their own as words."""
+    """Return a help page as a section, its heading two levels down."""
     _, *rest = page.markdown.rstrip("\n").split("\n\n")
     return "\n\n".join([f"### {page.name}", *rest])
 
@@ -75,17 +80,13 @@ def gallery() -> str:
     parts = [
         "# Examples",
         NOTE,
-        f"{count} programs, one for every system of the book and more. Open them with F11 in the app, or"
-        " `desire examples/ch2/lorenz.src`. The `--?` lines at their ends say what they must show; a test holds them to it.",
+        GALLERY.format(count=count),
     ]
     for folder, title in CHAPTERS.items():
         parts += [f"## {_chapter(folder)}. {title}", _list(sorted((EXAMPLES / folder).glob("*.src")))]
-        pictures = [
-            p
-            for p in sorted((EXAMPLES / folder).glob("*.src"))
-            if (DOCS / "pictures" / f"{p.stem}.png").exists()
-        ]
-        parts += [f"![{p.stem}](pictures/{p.stem}.png)\n*{p.stem}*" for p in pictures]
+        names = [path.stem for path in sorted((EXAMPLES / folder).glob("*.src"))]
+        drawn = [name for name in names if (DOCS / "pictures" / f"{name}.png").exists()]
+        parts += [f"![{name}](pictures/{name}.png)\n*{name}*" for name in drawn]
     return "\n\n".join(parts) + "\n"
 
 
@@ -109,10 +110,8 @@ def first_comment(path: Path) -> str:
 
 
 def coverage() -> str:
-    """What is tested where."""
-    from tests.programs.coverage import markdown
-
-    return markdown()
+    """Return the table of what is tested where."""
+    return tested_where()
 
 
 PAGES: dict[str, Callable[[], str]] = {

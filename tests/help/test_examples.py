@@ -7,15 +7,11 @@ import pytest
 from desire_tui.help import topics
 from tests.programs.execution import execute
 
-STIFF = ("irule 14",)  # rules 9-16 have no reference back end
-
 
 @pytest.mark.parametrize("backend", ["native", "reference"])
 @pytest.mark.parametrize("name", [page.name for page in topics().values() if page.example])
 def test_example(name, backend, tmp_path):
     page = topics()[name]
-    if backend == "reference" and any(word in page.example for word in STIFF):
-        backend = "native"
     outcome = execute(page.example, backend, tmp_path)
     assert outcome.error is None, str(outcome.error)
     shown = [line.rstrip() for line in outcome.console.rstrip("\n").split("\n")]

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse
 from desire_tui.help import topics
 from tests.programs.expectations import read_expectations
 from tests.programs.features import DYNAMIC, FUNCTIONS, SCRIPT, features
+
+if TYPE_CHECKING:
+    from desire_tui.help import Topic
 
 ROOT = Path(__file__).parents[2]
 INTRODUCTION = """\
@@ -22,19 +26,14 @@ SHOWN = 3
 
 def command_tests() -> dict[str, list[str]]:
     """Return for every command the test files that give it: as a quoted line, alone or with an argument."""
-    files = {
-        str(path.relative_to(ROOT)): path.read_text(encoding="utf-8")
-        for path in sorted(ROOT.glob("tests/*/test_commands.py"))
-    }
+    paths = sorted(ROOT.glob("tests/*/test_*.py"), key=lambda path: (path.name != "test_commands.py", path))
+    files = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
     pages = [page for page in topics().values() if page.kind == "command"]
-    return {
-        page.name: [
-            name
-            for name, text in files.items()
-            if any(_gives(text, word) for word in (page.name, *page.words))
-        ]
-        for page in pages
-    }
+    return {page.name: [name for name in files if _holds(files[name], page)][:1] for page in pages}
+
+
+def _holds(text: str, page: Topic) -> bool:
+    return any(_gives(text, word) for word in (page.name, *page.words))
 
 
 def _gives(text: str, word: str) -> bool:

@@ -11,7 +11,6 @@
     --? go                                 STOPs are answered by go
     --? answers 3 | 14 | !                 what is typed at input
     --? reference TMAX = 1 | NN = 101      the slow reference back end runs with these values overridden
-    --? native only                        rules 9 to 16 have no reference back end (it must say so: error 411)
     --? compare 1e-4                       how far the two back ends may differ (relative; 1e-12 if not said)
 
 A number with six or more digits that stands alone on the right is met if it is met to half a unit of its last digit;
@@ -55,7 +54,6 @@ class Expectations:
     answers: list[str] = field(default_factory=list)
     reference: Settings = ()
     compare: float = 1e-12
-    native_only: bool = False
 
     @property
     def variants(self) -> list[Settings]:
@@ -79,8 +77,6 @@ def _read(found: Expectations, row: int, text: str) -> None:
     word, _, rest = text.partition(" ")
     if text == "go":
         found.go = True
-    elif text == "native only":
-        found.native_only = True
     elif text == "console":
         found.console = []
     elif word == "answers":

@@ -63,7 +63,7 @@ MESSAGES: dict[str, Wording] = {
         " it is not set). The difference that could not be reduced is in ERRMAX.",
     ),
     "not-finite": Wording(
-        300,
+        3,
         "'{name}' became {what} at t = {t:.6g}",
         "the samples before are kept; a smaller DT or another rule may help",
         _FAULT_PAGE,
