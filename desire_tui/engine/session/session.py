@@ -170,7 +170,8 @@ class Session:
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
         self._desk.program = self._desk.structure = None
-        self._stopped, self._interpreter = None, None
+        self._drop_interpreter()
+        self._stopped = None
         self._clear()
         self._world.rule, self._world.rule_is_set = 1, False
         self.values.assign(SCALE, 1.0)
@@ -240,7 +241,7 @@ class Session:
         self._stopped, self._edited = None, False
         self._world.forget_runs()
         tracing = self._interpreter is not None and self._interpreter.stepping
-        self._interpreter = None
+        self._drop_interpreter()
         self._desk.journal.program(program.source)
         with self._working():
             interpreter = self._interpreter_now()
@@ -260,6 +261,12 @@ class Session:
         for name, value in self._desk.overrides.items():
             self.values.assign(self.values.scalar(name).slot, value)
         self._listener.quantities_cleared()
+
+    def _drop_interpreter(self) -> None:
+        """Forget the script's interpreter; the files it connected are closed."""
+        if self._interpreter is not None:
+            self._interpreter.channels.close()
+        self._interpreter = None
 
     def _interpreter_now(self) -> Interpreter:
         if self._interpreter is None:
