@@ -188,14 +188,23 @@ class EngineThread:
             self._pending -= 1
 
     def _work(self) -> None:
-        from desire_tui.engine.session import Session
+        try:
+            from desire_tui.engine.session import Session
 
-        self._session = Session(self._listener, permissions=self._permissions)
+            self._session = Session(self._listener, permissions=self._permissions)
+        except Exception as error:  # noqa: BLE001 - an installation that lacks a part: the screen's thread ends the app
+            self._post(messages.EngineMissing(error))
+            return
         self._made.set()
         self._post(messages.EngineUp())
-        threading.Thread(target=warm_up, daemon=True, name="desire-warm-up").start()
+        threading.Thread(target=self._warm_up, daemon=True, name="desire-warm-up").start()
         while True:
             self._do(self._jobs.get())
+
+    @staticmethod
+    def _warm_up() -> None:
+        with contextlib.suppress(Exception):  # whatever fails here fails again, and is told, when it matters
+            warm_up()
 
     def _do(self, job: Callable[[], object]) -> None:
         from desire_tui.engine.interpreter.host import Interrupted
@@ -222,7 +231,6 @@ def warm_up() -> None:
     from desire_tui.engine.source import Source
 
     session = Session(Listener())
-    with contextlib.suppress(DesireError):
-        session.erun(Source(WARM_UP, "<warm-up>"))
+    session.erun(Source(WARM_UP, "<warm-up>"))
     if session.graph is not None:
         text_frame(session.graph, 40, 12)

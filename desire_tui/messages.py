@@ -25,6 +25,14 @@ class EngineUp(EngineMessage):
     """The engine is imported; the session is there."""
 
 
+class EngineMissing(EngineMessage):
+    """The engine cannot be imported."""
+
+    def __init__(self, error: Exception) -> None:
+        super().__init__()
+        self.error = error
+
+
 class ConsoleText(EngineMessage):
     """There is new console output; it waits in the listener, so that a flood of lines is one message."""
 

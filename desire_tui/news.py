@@ -33,6 +33,10 @@ class EngineNews(Controller):
         self.app.engine_ready()
 
     @handle.register
+    def _missing(self, message: messages.EngineMissing) -> None:
+        raise message.error
+
+    @handle.register
     def _text(self, message: messages.ConsoleText) -> None:
         del message
         self.app.command.console.write(self.app.listener.take_text())
