@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import marshal
 import subprocess
 import sys
 from time import process_time
@@ -13,6 +14,9 @@ from desire_tui.engine.nodes import Data
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse
 from desire_tui.engine.syntax import tables as tables_module
+
+WRONG = tables_module._check(marshal.dumps({"start": 1})) + marshal.dumps({"start": 1})
+"""Whole, but not what it should be."""
 
 HOSTILE = {
     "x = " + "(" * 10_000 + "1" + ")" * 10_000: "nested-too-deep",
@@ -49,19 +53,19 @@ def test_nested_blocks_of_any_depth() -> None:
     assert found.partner[0] == 9_999
 
 
-@pytest.mark.parametrize("content", [None, "", "{}", '{"start": 1}', "[1, 2]", "\0\0"])
+@pytest.mark.parametrize("content", [None, b"", b"{}", b"\0\0\0\0", b"\0\0\0\0{", WRONG])
 def test_tables_survive_a_bad_cache(content, tmp_path, monkeypatch) -> None:
-    file = tmp_path / "cache" / "grammar.json"
+    file = tmp_path / "cache" / "grammar.tables"
     if content is not None:
         file.parent.mkdir()
-        file.write_text(content)
+        file.write_bytes(content)
     monkeypatch.setattr(tables_module, "_cache_file", lambda _: str(file))
     before = tables_module.tables()
     tables_module.tables.cache_clear()
     try:
         again = tables_module.tables()
         assert len(again.actions) == len(before.actions)
-        assert len(file.read_text()) > 10_000, "the good tables are stored"
+        assert len(file.read_bytes()) > 10_000, "the good tables are stored"
         tables_module.tables.cache_clear()
         assert tables_module.tables() == again
     finally:
@@ -69,7 +73,7 @@ def test_tables_survive_a_bad_cache(content, tmp_path, monkeypatch) -> None:
 
 
 def test_tables_without_a_writable_cache(monkeypatch) -> None:
-    monkeypatch.setattr(tables_module, "_cache_file", lambda _: "/proc/nowhere/grammar.json")
+    monkeypatch.setattr(tables_module, "_cache_file", lambda _: "/proc/nowhere/grammar.tables")
     tables_module.tables.cache_clear()
     try:
         assert tables_module.tables().rules

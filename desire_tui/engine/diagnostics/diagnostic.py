@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics.wording import wording_of
@@ -68,6 +67,8 @@ class DesireError(Exception):
 
 def closest(name: str, known: Iterable[str]) -> str | None:
     """Return the known name that `name` was probably meant to be, or None."""
+    from difflib import get_close_matches  # 3 ms at every start, for the sake of mistakes
+
     found = get_close_matches(name, list(known), n=1, cutoff=0.7)
     return found[0] if found else None
 

@@ -6,7 +6,6 @@ hides the stack, which the messages need. The loop below is the textbook's.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 from desire_tui.engine.syntax.build import Builder, Misuse
@@ -22,12 +21,12 @@ HEIGHT_MAX = 200
 """Levels of an expression's tree: later passes recurse, twice for each level at worst."""
 
 
-@dataclass(frozen=True, slots=True)
 class Unexpected(Exception):  # noqa: N818 - not an error of this program
     """The token number `at` (one past the last: the statement's end) cannot stand there; `expected` could."""
 
-    at: int
-    expected: frozenset[str]
+    def __init__(self, at: int, expected: frozenset[str]) -> None:
+        super().__init__(at)
+        self.at, self.expected = at, expected
 
 
 def derive(kinds: Sequence[str], texts: Sequence[str]) -> Statement:

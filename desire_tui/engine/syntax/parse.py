@@ -14,7 +14,6 @@ from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
 from desire_tui.engine.syntax.chunk import Fault
-from desire_tui.engine.syntax.explain import explain
 from desire_tui.engine.syntax.shapes import statement
 from desire_tui.engine.syntax.tokens import scan
 from desire_tui.engine.syntax.words import keyword_like
@@ -195,6 +194,8 @@ def _item(chunk: Chunk) -> Statement | Fault:
     try:
         return statement(chunk)
     except Unexpected as problem:
+        from desire_tui.engine.syntax.explain import explain
+
         return explain(chunk, problem.at, problem.expected)
     except Misuse as problem:
         return Fault(problem.key, chunk.starts[problem.first], chunk.ends[problem.last], problem.facts)

@@ -95,9 +95,9 @@ def scan(text: str) -> Line:
                     chunk.add(way[1], way[1], way.start(1), pos)
                 continue
             if in_if and lexeme in ("else", "proceed") and _is_over(chunk):
-                chunk, words, depth = Chunk(start, [lexeme], [lexeme], [0], [pos - start]), None, 0
-                chunks.append(chunk)
-                chunk = None
+                chunks.append(Chunk(start))
+                chunks[-1].add(lexeme, lexeme, start, pos)
+                chunk, words, depth = None, None, 0
                 continue
             kinds.append(NAME)
             texts.append(lexeme)
@@ -127,7 +127,7 @@ def scan(text: str) -> Line:
             pos = add_odd(chunk, group, lexeme, start)
     code_from = comments[-1][1] if comments else 0
     continues = bool(chunk and _wants_more(chunk)) or text[code_from:].rstrip().endswith("_")
-    return Line(chunks, comments, continues)
+    return Line(chunks, comments, continues=continues)
 
 
 def _is_soft(chunk: Chunk, lexeme: str, text: str, pos: int) -> bool:

@@ -1,7 +1,8 @@
 """One method for each production of `desire.lark`: children in, node out.
 
-A node made here is a *pattern*: `start` and `end` hold token numbers, and names, numbers and strings remember the
-token they came from, so that `shapes` can make the same node again from another statement's tokens.
+A node made here is a *pattern*: `start` and `end` hold token numbers, and names, numbers and strings
+remember the token they came from, so that `shapes` can make the same node again from another statement's
+tokens.
 """
 
 from __future__ import annotations

@@ -4,9 +4,8 @@
 
 from __future__ import annotations
 
-
 from desire_tui.engine import nodes as n
-from desire_tui.engine.syntax.build.pieces import Kids, Token, nodes_in, plain, channel_of, mask_of
+from desire_tui.engine.syntax.build.pieces import Kids, Token, channel_of, mask_of, nodes_in, plain
 
 
 class Dynamic:
@@ -28,7 +27,9 @@ class Dynamic:
     def matrix(self, kids: Kids, first: int, last: int) -> n.Node:
         mask, rest = mask_of(kids[3:])
         lower, upper = (plain(rest[2]), plain(rest[4])) if len(rest) > 1 else (None, None)
-        return n.MatrixAssign(kids[1], plain(rest[0]), kids[0].kind == "DELTA", mask, lower, upper, first, last)
+        return n.MatrixAssign(
+            kids[1], plain(rest[0]), kids[0].kind == "DELTA", mask, lower, upper, first, last
+        )
 
     def dot(self, kids: Kids, first: int, last: int) -> n.Node:
         return n.Dot(kids[1], plain(kids[3]), kids[0].kind == "AVG", first, last)
@@ -71,7 +72,9 @@ class Dynamic:
     def learn(self, kids: Kids, first: int, last: int) -> n.Node:
         kind, output, weights, source = kids[0].kind, kids[1], kids[3], kids[5]
         if kind != "CLEARN":
-            return n.Learn(kind, output, weights, source, plain(kids[7]), None, conscience=False, start=first, end=last)
+            return n.Learn(
+                kind, output, weights, source, plain(kids[7]), None, conscience=False, start=first, end=last
+            )
         criterion = plain(kids[9])
         conscience = len(kids) > 10
         if isinstance(criterion, n.RowOf):  # `crit#`: the mark of the conscience, not a row of a matrix

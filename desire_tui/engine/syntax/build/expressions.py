@@ -7,7 +7,14 @@ from __future__ import annotations
 from typing import Any, cast
 
 from desire_tui.engine import nodes as n
-from desire_tui.engine.syntax.build.pieces import Kids, NumberToken, Token, without_separators, plain, condition
+from desire_tui.engine.syntax.build.pieces import (
+    Kids,
+    NumberToken,
+    Token,
+    condition,
+    plain,
+    without_separators,
+)
 from desire_tui.engine.syntax.chunk import NUMBER
 from desire_tui.engine.syntax.literals import octal_value
 

@@ -1,12 +1,12 @@
 """What the productions' methods are made of: tokens that know their number, and ways to take children apart.
 
-A node made here is a *pattern*: `start` and `end` hold token numbers, and names, numbers and strings remember the
-token they came from, so that `shapes` can make the same node again from another statement's tokens.
+A node made here is a *pattern*: `start` and `end` hold token numbers, and names, numbers and strings
+remember the token they came from, so that `shapes` can make the same node again from another statement's
+tokens.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine import nodes as n
@@ -40,14 +40,12 @@ _EXPRESSIONS = (
 CONDITIONS = (n.Relation, n.Logical, n.Not)
 
 
-@dataclass(frozen=True, slots=True)
 class Misuse(Exception):  # noqa: N818 - the user's, not the program's
     """The grammar allows it, its meaning does not: wording key, first and last token, facts."""
 
-    key: str
-    first: int
-    last: int
-    facts: dict[str, object] = field(default_factory=dict)
+    def __init__(self, key: str, first: int, last: int, facts: dict[str, object] | None = None) -> None:
+        super().__init__(key)
+        self.key, self.first, self.last, self.facts = key, first, last, facts
 
 
 def without_separators(kids: Kids) -> list[Any]:

@@ -6,9 +6,20 @@ from __future__ import annotations
 
 from typing import Any
 
-
 from desire_tui.engine import nodes as n
-from desire_tui.engine.syntax.build.pieces import CONDITIONS, Kids, Misuse, Token, names_in, halves, nodes_in, plain, condition, channel_of, items_in
+from desire_tui.engine.syntax.build.pieces import (
+    CONDITIONS,
+    Kids,
+    Misuse,
+    Token,
+    channel_of,
+    condition,
+    halves,
+    items_in,
+    names_in,
+    nodes_in,
+    plain,
+)
 
 DIMENSIONS_MAX = 10
 
@@ -133,7 +144,12 @@ class Script:
         mode, args = kids[1], tuple(map(plain, nodes_in(kids)))
         wanted = {"C": 1, "N": 1, "W": 2}.get(mode, 0)
         if len(args) != wanted:
-            raise Misuse("display-form", first, last, {"mode": str(mode), "wanted": ("no numbers", "one number", "two numbers")[wanted]})
+            raise Misuse(
+                "display-form",
+                first,
+                last,
+                {"mode": str(mode), "wanted": ("no numbers", "one number", "two numbers")[wanted]},
+            )
         return n.Display(mode, args, first, last)
 
     def plot(self, kids: Kids, first: int, last: int) -> n.Node:
