@@ -164,3 +164,21 @@ def test_no_such_segment_is_error_215():
 
     (problem,) = failure("TMAX = 1 | drun nowhere\nDYNAMIC\nd/dt x = 1\n")
     assert problem.code in (68, 215)
+
+
+def test_show_keeps_a_picture_of_each_sample():
+    session = session_for(
+        "ARRAY A[6] | TMAX = 2 | NN = 3 | DT = 0.5\ndrun\nDYNAMIC\nd/dt x = 1\nVector A = x\nSHOW A, 3\ndispt x\n"
+    )
+    pictures = session.runs[0].pictures
+    assert [film[0].tolist() for film in pictures] == [[0.0] * 6, [1.0] * 6, [2.0] * 6]
+    shown = session.graph.shown[0]
+    assert shown.latest().shape == (2, 3)
+
+
+def test_a_program_without_a_segment_cannot_run_one():
+    from running import failure
+
+    (problem,) = failure("TMAX = 1\ndrun\n")
+    assert problem.code == 215
+    assert problem.source.position(problem.span.start).row == 2
