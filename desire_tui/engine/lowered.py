@@ -358,6 +358,7 @@ class Entry:
     row: int
     column: int
     value: Value
+    where: Where | None = None
 
 
 @dataclass(frozen=True)

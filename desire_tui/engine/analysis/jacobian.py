@@ -67,7 +67,7 @@ def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
         elif not (1 <= row < order + 1 and 1 <= column < order + 1):
             context.report("jacobian-entry", target, order=order)
         else:
-            entries.append(Entry(int(row) - 1, int(column) - 1, value))
+            entries.append(Entry(int(row) - 1, int(column) - 1, value, context.where(node)))
     body, builder.body = tuple(builder.body), outer
     if slot is None:
         return None

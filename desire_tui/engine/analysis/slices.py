@@ -86,12 +86,13 @@ def jacobian_pass(segment: Segment, stride: int) -> Actions:
 
 def acts_at_steps(segment: Segment) -> bool:
     """Whether a pass at a step's start inside an interval does anything but compute derivatives."""
-    return not _is_pure(_resolve(segment.body, comm=False, step=True))
+    return not is_pure(_resolve(segment.body, comm=False, step=True))
 
 
-def _is_pure(actions: Actions) -> bool:
+def is_pure(actions: Actions) -> bool:
+    """Whether statements only compute: nothing is remembered, drawn or ended."""
     return all(
-        _is_pure(a.body) and _is_pure(a.orelse)
+        is_pure(a.body) and is_pure(a.orelse)
         if isinstance(a, Guard)
         else isinstance(a, Deriv | DerivVec)
         or (isinstance(a, Set | SetVec | SetMat | SetDot) and not a.persistent and not draws(a))
@@ -104,7 +105,7 @@ def _pure(actions: Actions) -> Actions:
     for action in actions:
         if isinstance(action, Guard):
             kept.append(_with_bodies(action, _pure(action.body), _pure(action.orelse)))
-        elif not isinstance(action, Deriv | DerivVec) and _is_pure((action,)):
+        elif not isinstance(action, Deriv | DerivVec) and is_pure((action,)):
             kept.append(action)
     return tuple(kept)
 

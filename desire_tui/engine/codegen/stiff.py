@@ -10,13 +10,14 @@ import numpy as np
 from desire_tui.engine.analysis.dependence import dependence
 from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.analysis.jacobian import checked_array
-from desire_tui.engine.analysis.slices import acts_at_steps, jacobian_pass
+from desire_tui.engine.analysis.slices import acts_at_steps, is_pure, jacobian_pass
 from desire_tui.engine.codegen.context import PASSES, Context
 from desire_tui.engine.codegen.natives import PassFunctions
 from desire_tui.engine.codegen.model import passes_of
 from desire_tui.engine.codegen.stiff_library import stiff_functions
 from desire_tui.engine.codegen.stiff_loop import stiff_loop
 from desire_tui.engine.codegen.tables import Tables
+from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import kind_of, plan
 from desire_tui.engine.integration.system import Functions, Natives, StiffSystem
@@ -26,7 +27,10 @@ from desire_tui.engine.values import DT
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from numpy.typing import NDArray
+
     from desire_tui.engine.codegen.backend import NativeBackend
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.integration.plan import Plan
     from desire_tui.engine.lowered import Action, Segment
     from desire_tui.engine.values import Values
@@ -38,8 +42,9 @@ class StiffModel:
     """Implements `runtime.backend.Model`. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
 
     def __init__(self, backend: NativeBackend, segment: Segment, rule: int, values: Values) -> None:
-        self._values = values
-        passes = passes_of(segment)
+        self.rule, self._segment, self._values = rule, segment, values
+        self._passes = passes = passes_of(segment)
+        self._advised = False
         extra, directions, array = _jacobian_passes(segment, rule, values)
         self._array = array
         natives = stiff_functions()
@@ -87,6 +92,27 @@ class StiffModel:
     def improve(self) -> Iterator[None]:
         """Compile fast code (`background.Improvable`)."""
         return self._tables.improve()
+
+    def advice(self) -> tuple[Diagnostic, ...]:
+        """Return warnings about the run that is to start here, once for a model."""
+        if self._advised or not is_pure(self._passes["derivative"]):
+            return ()
+        self._advised = True
+        values, slots, order = self._values.data, self._slots, self._slots.size
+        memory, kept, k = RunMemory(values=self._values.address), self._values.data[self._slots].copy(), np.zeros(order)
+
+        def derivatives(x: NDArray[np.float64]) -> NDArray[np.float64]:
+            values[slots] = x
+            self._functions.call("derivative", memory, k.ctypes.data)
+            values[slots] = kept
+            return k
+
+        def jacobian() -> NDArray[np.float64]:
+            self._clear_array()
+            self._functions.call("jacobian", memory)
+            return values[self._array : self._array + order * order].reshape(order, order).copy()
+
+        return advice(self.rule, self._segment, Probe(kept, derivatives, jacobian if self._array else None))
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on (`runtime.memory`)."""

@@ -17,6 +17,7 @@ from typing import Any
 
 from desire_tui.engine.codegen.stiff_builder import INT, INT32, POINTER, REAL, VOID, Function
 from desire_tui.engine.codegen.stiff_callbacks import scatter
+from desire_tui.engine.integration.problem import STUCK_FLAG, STUCK_MOST
 from desire_tui.engine.integration.sundials.signatures import ONE_STEP, TSTOP_RETURN
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 from desire_tui.engine.values import DT, T
@@ -113,6 +114,7 @@ def _add_interval(module: Any) -> None:
         build.icmp_signed("==", flag, INT32(TSTOP_RETURN)), build.fcmp_ordered(">=", t, t_next)
     )
     t = build.select(done, t_next, t)
+    flag = _watch_progress(f, problem, t, flag)
     f.store(values, INT(T), t)
     f.put(problem, "t", t)
     scatter(f, problem, states)
@@ -130,6 +132,15 @@ def _add_interval(module: Any) -> None:
     with build.if_then(stop, likely=False):
         build.ret(INT32(Ended.STOPPED.value))
     build.branch(start)
+
+
+def _watch_progress(f: Function, problem: Any, t: Any, flag: Any) -> Any:
+    """Count steps that do not change t; too many of them make a failure of a success."""
+    same = f.build.fcmp_ordered("==", t, f.get(problem, "t"))
+    stuck = f.build.select(same, f.build.add(f.get(problem, "stuck"), INT(1)), INT(0))
+    f.put(problem, "stuck", stuck)
+    hopeless = f.build.icmp_signed(">", stuck, INT(STUCK_MOST))
+    return f.build.select(hopeless, INT32(STUCK_FLAG), flag)
 
 
 def _record_step(f: Function, memory: Any, dt: Any) -> None:

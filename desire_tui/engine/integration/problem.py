@@ -12,6 +12,12 @@ from enum import IntEnum
 _ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
 
 
+STUCK_MOST = 100
+"""So many steps in a row that leave t as it was end the run: a pole, or a jump that no step gets across."""
+STUCK_FLAG = -1
+"""What is then reported: CVODE's flag for too much work."""
+
+
 class Matrix(IntEnum):
     """How the Jacobian's entries are found."""
 
@@ -80,4 +86,5 @@ class Problem(ctypes.Structure):
         ("failed", _INT),  # steps tried again before the last restart
         ("suspect", _INT),  # state whose derivative was not finite; -1: none
         ("restarts", _INT),
+        ("stuck", _INT),  # steps in a row that were too small to change t
     )

@@ -112,7 +112,7 @@ class StiffSystem:
         problem.memory = ctypes.addressof(memory)  # type: ignore[arg-type]
         problem.tolerance = memory.error_max
         problem.first_step = first_step
-        problem.started = problem.failed = problem.restarts = 0
+        problem.started = problem.failed = problem.restarts = problem.stuck = 0
         problem.jacobian_calls = problem.derivative_calls = 0
         problem.suspect = -1
         self.largest[:] = 0.0

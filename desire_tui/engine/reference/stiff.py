@@ -10,11 +10,13 @@ import numpy as np
 from desire_tui.engine.analysis.dependence import dependence
 from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.analysis.jacobian import checked_array
-from desire_tui.engine.analysis.slices import acts_at_steps, derivative_slice, jacobian_pass
+from desire_tui.engine.analysis.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.integration import TABLEAUS
+from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.callbacks import PythonCallbacks
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import kind_of, plan
+from desire_tui.engine.integration.problem import STUCK_FLAG, STUCK_MOST
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import Functions, StiffSystem
 from desire_tui.engine.reference.model import ReferenceModel
@@ -25,6 +27,7 @@ from desire_tui.engine.values import DT, T
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.integration.plan import Plan
     from desire_tui.engine.lowered import Segment
     from desire_tui.engine.runtime.memory import RunMemory
@@ -42,6 +45,7 @@ class StiffReferenceModel(ReferenceModel):
         self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._segment = segment
         self._directions = self._array = 0
+        self._advised = False
         self._others = Statements(values, segment.order)  # passes between steps write here
         self._stage = self._others.compile(derivative_slice(segment))
         self._acts = acts_at_steps(segment)
@@ -102,6 +106,23 @@ class StiffReferenceModel(ReferenceModel):
 
     # ------------------------------------------------------------------ the run
 
+    def advice(self) -> tuple[Diagnostic, ...]:
+        """Return warnings about the run that is to start here, once for a model."""
+        if self._advised or not is_pure(derivative_slice(self._segment)):
+            return ()
+        self._advised = True
+        t, kept, k = self.cells[T], self._states(), np.zeros(self.order)
+
+        def derivatives(x: Array) -> Array:
+            self.derivatives(t, x, k)
+            self._place(t, kept)
+            return k
+
+        def jacobian() -> Array:
+            return self.jacobian(t, kept).reshape(self.order, self.order).copy()
+
+        return advice(self.system.rule, self._segment, Probe(kept, derivatives, jacobian if self._array else None))
+
     def advance(self, memory: RunMemory) -> Ended:
         """Run on; see `ReferenceModel`."""
         system = self.system
@@ -131,6 +152,8 @@ class StiffReferenceModel(ReferenceModel):
                 raise failure
             done = flag == TSTOP_RETURN or t >= t_next
             t = t_next if done else t
+            problem.stuck = problem.stuck + 1 if t == problem.t else 0
+            flag = STUCK_FLAG if problem.stuck > STUCK_MOST else flag
             y = self._solution()
             self._place(t, y)
             system.last[:] = y
@@ -150,9 +173,7 @@ class StiffReferenceModel(ReferenceModel):
 
     def _follow(self) -> None:
         """Begin anew if t or a state is not what CVODE left."""
-        problem, x = self.system.problem, np.empty(self.order)
-        for slot, first, count in self.ranges:
-            x[first : first + count] = self.data[slot : slot + count]
+        problem, x = self.system.problem, self._states()
         t = self.cells[T]
         self._solution()[:] = x
         if problem.started and t == problem.t and np.array_equal(x, self.system.last):
@@ -162,6 +183,12 @@ class StiffReferenceModel(ReferenceModel):
             problem.restarts += 1
         self.system.solver.restart(t, 0.0 if problem.started else problem.first_step)
         problem.started, problem.t = 1, t
+
+    def _states(self) -> Array:
+        x = np.empty(self.order)
+        for slot, first, count in self.ranges:
+            x[first : first + count] = self.data[slot : slot + count]
+        return x
 
     def _solution(self) -> Array:
         return np.ctypeslib.as_array((ctypes.c_double * self.order).from_address(self.system.problem.states))

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.graph import GraphBook
     from desire_tui.engine.lowered import Request, Segment
     from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.control import Control
     from desire_tui.engine.session.desk import Desk
     from desire_tui.engine.session.listener import Listener
@@ -77,6 +78,7 @@ class World:
             segment = desk.segments.recovering(segment, desk.stash_path)
         plan = self.simulator.defaults.plan(segment, self.rule, desk.source_of(placed), placed.span())
         model = desk.segments.model(segment, plan.rule)
+        self._advise(model)
         self.runs_made += 1
         record = RunRecord(
             number=self.runs_made, segment=label, line=desk.line_of(placed), requests=segment.requests,
@@ -104,6 +106,13 @@ class World:
             raise Interrupted
         if segment.stash and not star:
             self._stash(segment, record)
+
+    def _advise(self, model: Model) -> None:
+        """Show what a model has to say before its first run (rules 9 … 16)."""
+        advice = getattr(model, "advice", None)
+        problems = advice() if advice is not None else ()
+        if problems:
+            self._listener.problems(problems)
 
     def _stash(self, segment: Segment, record: RunRecord) -> None:
         first = 1 + len(record.columns) - len(segment.stash)
