@@ -218,3 +218,19 @@ def test_text_plot_survives_everything(tmp_path):
     text = text_plot(page_of("dispt", t, wild), 80, 24, colored=True)
     assert "x, y, z vs. t" in text
     assert "\x1b[38;2;255;255;85m" in text  # yellow, colour 14
+
+
+def test_white_graphs_are_white_all_over_on_a_terminal():
+    text = text_plot(page_of("dispt", [0, 1], {"x": np.zeros(2)}, "N-10"), 40, 12, colored=True)
+    rows = [line for line in text.split("\n") if "│" in line]
+    assert len(rows) > 5
+    assert all("\x1b[48;2;255;255;255m" in line for line in rows)
+
+
+def test_pictures_as_text():
+    book = GraphBook()
+    book.show("A", np.linspace(-1, 1, 16), 4, 1.0)
+    text = text_plot(book.current, 40, 14, colored=False)
+    assert "scale = 1" in text
+    assert "A" in text
+    assert sum(0x2800 < ord(c) <= 0x28FF for c in text) > 20

@@ -37,8 +37,8 @@ def text_plot(graph: Graph, columns: int, rows: int, *, colored: bool) -> str:
 
 
 def _paint(text: str, color: int, graph: Graph, *, colored: bool) -> str:
-    if not colored or color == NO_COLOR or not text.strip():
-        return text
-    red, green, blue = rgb(color, white=graph.white)
     ground = "\x1b[48;2;255;255;255m" if graph.white else ""
+    if not colored or not (ground or text.strip()):
+        return text
+    red, green, blue = rgb(0 if color == NO_COLOR else color, white=graph.white)
     return f"{ground}\x1b[38;2;{red};{green};{blue}m{text}{_RESET}"

@@ -15,7 +15,7 @@ __all__ = ["Listener", "PermissionRequest", "Permissions", "Session", "State", "
 
 
 def __getattr__(name: str) -> object:
-    """Import `Session` when it is asked for: it brings the whole engine, and a screen wants to be seen first."""
+    """Import `Session` when it is asked for: it brings the whole engine, and a screen comes first."""
     if name == "Session":
         from desire_tui.engine.session.session import Session
 

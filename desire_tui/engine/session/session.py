@@ -302,7 +302,7 @@ class Session:
         except DesireError as error:
             raise DesireError(*(d.within(place) for d in error.diagnostics)) from error
         except MemoryError:
-            raise DesireError(Diagnostic("out-of-memory", facts={"elements": "the"}, source=place)) from None
+            raise DesireError(Diagnostic("memory-exhausted", source=place)) from None
         finally:
             world.state = before
             control.done()

@@ -6,6 +6,9 @@ from desire_tui.engine.diagnostics.wording.entry import Wording
 
 MESSAGES: dict[str, Wording] = {
     "out-of-memory": Wording(40, "no room for {elements} more numbers", "make the arrays smaller, or clear"),
+    "memory-exhausted": Wording(
+        40, "the machine's memory is full", "smaller arrays, fewer samples (NN, MM), or fewer runs"
+    ),
     "no-program": Wording(215, "there is no program to run", "type one into an editor tab, or load one"),
     "no-dynamic-segment": Wording(
         215, "there is no DYNAMIC program segment", "add a line DYNAMIC and a model below it"
