@@ -1,0 +1,211 @@
+"""The graph pane: window, pages, read-out, paper."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from desire_tui.engine.graph import rgb
+from desire_tui.engine.outputs import canvas as engine_canvas
+from desire_tui.panes import tiles
+from desire_tui.panes.window import Window
+
+from .conftest import OSCILLATOR, desktop
+
+parts = st.floats(0.01, 0.99)
+
+
+@given(st.floats(0.1, 10), parts, parts)
+def test_zooming_keeps_the_point_in_place_and_back_gives_the_window_back(factor: float, x: float, y: float):
+    before = Window(0.1, 0.7, -0.2, 0.9)
+    after = before.zoomed(factor, x, y)
+    for low, high, low2, high2, part in (
+        (before.left, before.right, after.left, after.right, x),
+        (before.bottom, before.top, after.bottom, after.top, y),
+    ):
+        assert math.isclose(low + part * (high - low), low2 + part * (high2 - low2), abs_tol=1e-9)
+    assert after.zoomed(1 / factor, x, y) == pytest.approx(before)
+
+
+@given(st.floats(-3, 3), st.floats(-3, 3))
+def test_panning_there_and_back(x: float, y: float):
+    assert Window().panned(x, y).panned(-x, -y) == pytest.approx(Window())
+
+
+def test_a_part_of_the_window():
+    assert Window().part(0.25, 0.75, 0.0, 0.5) == (0.25, 0.75, 0.0, 0.5)
+    assert Window().part(0.25, 0.75, 0.0, 0.5).part(0.5, 1.0, 0.5, 1.0) == (0.5, 0.75, 0.25, 0.5)
+
+
+def test_the_tiles_agree_with_the_canvas():
+    assert tiles.TILE_COLUMNS == engine_canvas.TILE_COLUMNS
+    assert tiles.NO_COLOR == engine_canvas.NO_COLOR
+
+
+def test_curve_colours_follow_the_paper():
+    assert tiles.curve_style(14, white=False).color.get_truecolor() == rgb(14, white=False)
+    assert tiles.curve_style(14, white=True).color.get_truecolor() == rgb(14, white=True)
+
+
+async def test_zoom_pan_reset_and_readout(program):
+    async with desktop(program(OSCILLATOR), size=(120, 40)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.focus()
+        graph.tick()
+        labels = "\n".join(graph.frame.lines)
+        assert " 3 " in labels
+        await desk.press("plus")
+        graph.tick()
+        assert graph.window == (0.25, 0.75, 0.25, 0.75)
+        zoomed = "\n".join(graph.frame.lines)
+        assert "1.5" in zoomed
+        assert "4.5" in zoomed
+        assert "zoom" in graph.page_mark
+        await desk.press("right")
+        assert graph.window.left > 0.25
+        await desk.press("0")
+        assert graph.window.is_whole
+        await desk.press("r")
+        assert graph.reading is not None
+        assert graph.reading.head == "t = 3"
+        values = {name: float(value) for name, _, value in graph.reading.values}
+        assert values["x"] == pytest.approx(math.cos(3), abs=1e-4)
+        assert values["v"] == pytest.approx(-math.sin(3), abs=1e-4)
+        column = graph.cursor_column
+        await desk.press("shift+right")
+        assert graph.cursor_column == column + 5
+        await desk.press("escape")
+        assert graph.reading is None
+
+
+async def test_dragging_zooms_into_the_rectangle(program):
+    async with desktop(program(OSCILLATOR), size=(120, 40)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.tick()
+        await desk.pilot.pause()
+        frame = graph.frame
+        width, height = frame.columns, frame.rows
+        await desk.pilot.mouse_down("#graph", offset=(frame.left + 1, frame.top))
+        await desk.pilot.hover("#graph", offset=(frame.left + width // 2, frame.top + height // 2))
+        assert graph.rubber is not None
+        await desk.pilot.mouse_up("#graph", offset=(frame.left + width // 2, frame.top + height // 2))
+        assert graph.window.left < 0.05
+        assert abs(graph.window.right - 0.5) < 0.05
+        assert graph.window.top == pytest.approx(1.0)
+        assert abs(graph.window.bottom - 0.5) < 0.05
+
+
+async def test_pages_and_overlay(program):
+    text = OSCILLATOR.replace("drun\n", "drunr | drunr | drunr\n")
+    async with desktop(program(text)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph, pages = desk.app.graph, list(desk.app.session.graphs)
+        assert len(pages) == 3
+        assert graph.page is pages[2]
+        await desk.press("alt+pageup")
+        assert graph.page is pages[1]
+        assert "page 2/3" in graph.page_mark
+        await desk.press("alt+pageup", "alt+pageup", "alt+pageup")
+        assert graph.page is pages[0]
+        await desk.press("alt+pagedown", "alt+pagedown")
+        assert graph.page is pages[2]
+        await desk.press("alt+o")
+        assert len(graph._painter.graph.curves) == 4
+        await desk.press("alt+o")
+        assert len(graph._painter.graph.curves) == 2
+
+
+async def test_what_is_drawn_does_not_depend_on_when_it_was_drawn(program):
+    """A picture that grew with the run equals one drawn at its end."""
+    async with desktop(program(OSCILLATOR)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.tick()
+        grown = graph.canvas.patterns.copy()
+        graph._drawn = ()
+        graph.tick()
+        assert np.array_equal(grown, graph.canvas.patterns)
+
+
+async def test_white_paper_by_program_and_by_theme(program):
+    async with desktop(program("display N-9\n" + OSCILLATOR)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        assert desk.app.graph.is_white
+    async with desktop(program(OSCILLATOR)) as desk:
+        assert not desk.app.graph.is_white
+        await desk.line("theme light")
+        assert desk.app.graph.is_white
+
+
+async def test_interpreter_plot_strip_chart_phase_plane_and_picture(program):
+    text = """\
+display A
+for i = 1 to 50 | plot i/50, (i/50)^2, 12 | next
+"""
+    async with desktop(program(text)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.tick()
+        # the points lie on a parabola in the upper right quarter
+        rows, columns = np.nonzero(graph.canvas.patterns)
+        assert columns.min() >= graph.canvas.columns // 2
+        assert rows.max() <= graph.canvas.rows // 2
+        assert set(graph.canvas.colors[rows, columns]) == {12}
+        desk.app.editor.front.load_text("ARRAY A[2,2]\nA[1,1] = 1\nSHOW A\n")
+        await desk.press("f5")
+        await desk.idle()
+        if graph.page.frame.kind == "picture":
+            graph.tick()
+            half = graph.canvas.patterns.shape[0] // 2, graph.canvas.patterns.shape[1] // 2
+            assert graph.canvas.patterns[: half[0], : half[1]].any()
+            assert not graph.canvas.patterns[half[0] + 1 :].any()
+        desk.app.editor.front.load_text(OSCILLATOR.replace("dispt x, v", "dispxy x, v"))
+        await desk.press("f5")
+        await desk.idle()
+        graph.tick()
+        assert graph.page.caption == "v vs. x"
+        await desk.do("graph.read")
+        reading = graph.reading
+        assert reading.head.startswith("t = 3  x = ")
+        assert float(reading.values[0][2]) == pytest.approx(-math.sin(3), abs=1e-3)
+
+
+async def test_snapshot_and_export(program, tmp_path):
+    async with desktop(program(OSCILLATOR)) as desk:
+        await desk.line("snapshot 'early.png'")
+        assert not (tmp_path / "early.png").exists()
+        await desk.press("f5")
+        await desk.idle()
+        await desk.line("snapshot 'g.svg'")
+        await desk.until((tmp_path / "g.svg").exists)
+        await desk.until(lambda: "g.svg" in desk.output.split("snapshot")[-1])
+        await desk.line("export 'g.csv'")
+        await desk.until((tmp_path / "g.csv").exists)
+        table = np.genfromtxt(tmp_path / "g.csv", delimiter=",", names=True)
+        assert table.dtype.names == ("t", "x", "v")
+        assert np.allclose(table["x"], np.cos(table["t"]), atol=1e-6)
+
+
+async def test_full_screen_and_back(program):
+    async with desktop(program(OSCILLATOR), size=(80, 24)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        narrow = desk.app.graph.size.width
+        await desk.press("f7")
+        await desk.pilot.pause()
+        assert desk.app.graph.size.width > 70 > narrow
+        await desk.press("f7")
+        await desk.pilot.pause()
+        assert desk.app.graph.size.width == narrow

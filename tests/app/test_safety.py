@@ -1,0 +1,231 @@
+"""Configuration, recovery, session, sizes, themes."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from textual.color import Color
+
+from desire_tui import config, places, themes
+from desire_tui.editor import recovery
+from desire_tui.editor.recovery import SavedTab
+from desire_tui.panes.history import History
+from desire_tui.panes.keynames import key_names
+from desire_tui.panes.status import speed
+
+from .conftest import OSCILLATOR, desktop
+
+
+def written(text: str) -> tuple[config.Config, list[str]]:
+    path = places.config_file()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    return config.load()
+
+
+def test_no_configuration_means_the_defaults():
+    assert config.load() == (config.Config(), [])
+
+
+def test_the_defaults_file_means_the_defaults():
+    assert written(config.defaults_text()) == (config.Config(), [])
+
+
+def test_a_wrong_configuration_names_file_key_and_nearest_key():
+    settings, wrong = written('them = "light"\nframes_per_second = 500\n[keys]\n"run.strat" = "f9"\n"run.pause" = 3\n')
+    assert settings == config.Config()
+    assert all(str(places.config_file()) in sentence for sentence in wrong)
+    assert "'them'" in wrong[0]
+    assert "did you mean 'theme'?" in wrong[0]
+    assert "1 … 60" in wrong[1]
+    assert "did you mean 'run.start'?" in wrong[2]
+    assert "run.pause" in wrong[3]
+
+
+def test_an_unreadable_configuration_is_told_and_the_defaults_are_used():
+    settings, wrong = written("theme = \n")
+    assert settings == config.Config()
+    assert "the defaults are used" in wrong[0]
+
+
+async def test_the_desktop_tells_what_is_wrong_with_the_configuration(program):
+    written('theme = "pink"\nfoo = 1\n')
+    async with desktop(program("x = 1\n")) as desk:
+        assert "no theme 'pink'" in desk.output
+        assert "unknown key 'foo'" in desk.output
+
+
+def dead_pid() -> int:
+    done = subprocess.Popen([sys.executable, "-c", ""])
+    done.wait()
+    return done.pid
+
+
+async def test_unsaved_work_of_a_dead_session_is_offered(program):
+    file = places.state_folder() / f"recovery-{dead_pid()}.json"
+    recovery.store(file, [SavedTab(None, "untitled-1", "lost = 1\n", front=True)])
+    async with desktop(program("x = 1\n")) as desk:
+        await desk.until(lambda: len(desk.app.screen_stack) > 1)
+        await desk.press("r")
+        await desk.until(lambda: any("lost" in area.text for area in desk.app.editor.areas))
+        assert not file.exists()
+        own = recovery.recovery_file()
+        assert "lost = 1" in own.read_text()
+        area = next(area for area in desk.app.editor.areas if "lost" in area.text)
+        assert area.is_dirty
+
+
+async def test_recovery_files_of_living_sessions_are_left_alone(program):
+    file = places.state_folder() / f"recovery-{os.getppid()}.json"
+    recovery.store(file, [SavedTab(None, "u", "theirs = 1\n")])
+    async with desktop(program("x = 1\n")) as desk:
+        await desk.pilot.pause(0.2)
+        assert len(desk.app.screen_stack) == 1
+        assert file.exists()
+
+
+@pytest.mark.parametrize("text", ["{", "[]", json.dumps({"version": 99, "tabs": []}), '{"version": 1, "tabs": [{"x": 1}]}'])
+async def test_a_damaged_recovery_file_is_kept_aside(program, text: str):
+    file = places.state_folder() / f"recovery-{dead_pid()}.json"
+    file.parent.mkdir(parents=True)
+    file.write_text(text)
+    async with desktop(program("x = 1\n")) as desk:
+        await desk.until(lambda: "another version or is damaged" in desk.output)
+        assert file.with_suffix(".unread").read_text() == text
+
+
+async def test_the_last_sessions_files_are_opened_again(program):
+    a, b = program("a = 1\n", "a.src"), program("b = 1\n\n\n", "b.src")
+    async with desktop(a, b) as desk:
+        desk.app.editor.show(desk.app.editor.areas[1])
+        desk.app.editor.front.go_to(1)
+        desk.app.leave()
+    async with desktop() as desk:
+        assert [area.buffer.name for area in desk.app.editor.areas] == ["a.src", "b.src"]
+        assert desk.app.editor.front.buffer.name == "b.src"
+        assert desk.app.editor.front.cursor_location == (1, 0)
+
+
+async def test_the_first_start_shows_an_example_and_a_tour():
+    async with desktop() as desk:
+        assert desk.app.editor.front.text
+        assert "Press F5" in desk.output
+        await desk.press("f5")
+        await desk.idle()
+        await desk.until(lambda: "press F5 again" in desk.output)
+
+
+def test_history_is_kept_and_searched(tmp_path):
+    history = History(tmp_path / "h.json")
+    for line in ("write x", "zz", "write y", "zz", "  "):
+        history.add(line)
+    assert history.lines == ["write x", "write y", "zz"]
+    again = History(tmp_path / "h.json")
+    assert again.lines == history.lines
+    assert again.previous("wr") == "write y"
+    assert again.previous("wr") == "write x"
+    assert again.previous("wr") is None
+    assert again.next() == "write y"
+    assert again.next() == "wr"
+    assert again.search("X") == (0, "write x")
+    (tmp_path / "bad.json").write_text("{")
+    assert History(tmp_path / "bad.json").lines == []
+
+
+async def test_history_keys(program):
+    async with desktop(program("x = 1\n")) as desk:
+        for line in ("a = 1", "b = 2"):
+            await desk.line(line)
+            await desk.idle()
+        prompt = desk.app.command.prompt
+        await desk.press("up", "up")
+        assert prompt.value == "a = 1"
+        await desk.press("down")
+        assert prompt.value == "b = 2"
+        await desk.press("escape", "ctrl+r", "a")
+        assert prompt.value == "a = 1"
+        await desk.press("enter")
+        await desk.idle()
+        assert desk.output.count("> a = 1") == 2
+
+
+@pytest.mark.parametrize("size", [(20, 5), (40, 10), (80, 24), (100, 30), (160, 50)])
+async def test_every_size_can_be_used(program, size: tuple[int, int]):
+    async with desktop(program(OSCILLATOR), size=size) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        desk.app.graph.tick()
+        await desk.pilot.pause()
+        assert desk.app.desk.has_class("-small") == (size == (20, 5))
+        await desk.pilot.resize_terminal(100, 30)
+        desk.app.graph.tick()
+        await desk.pilot.pause()
+        assert not desk.app.desk.has_class("-small")
+        assert desk.app.graph.canvas.columns > 40
+
+
+async def test_resizing_while_a_run_goes_on(program):
+    async with desktop(program(OSCILLATOR.replace("TMAX = 6", "TMAX = 1E6"))) as desk:
+        await desk.press("f5")
+        await desk.until(lambda: desk.app.session.runs)
+        for size in ((60, 20), (20, 5), (150, 45)):
+            await desk.pilot.resize_terminal(*size)
+            desk.app.graph.tick()
+            await desk.pilot.pause()
+        assert desk.app.is_running
+
+
+def contrast(one: str, other: str) -> float:
+    """WCAG's contrast ratio."""
+
+    def luminance(text: str) -> float:
+        parts = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in Color.parse(text).normalized]
+        return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+    high, low = sorted((luminance(one), luminance(other)), reverse=True)
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("theme", themes.THEMES, ids=lambda theme: theme.name)
+def test_text_can_be_read_in_every_theme(theme):
+    for colour in (theme.foreground, theme.primary, theme.accent, theme.error, theme.warning):
+        assert contrast(colour, theme.surface) >= 4.5
+    for style in themes.editor_theme(theme).syntax_styles.values():
+        if style.color is not None:
+            assert contrast(style.color.name, theme.surface) >= 4.5, style
+
+
+async def test_every_theme_can_be_shown(program):
+    async with desktop(program(OSCILLATOR)) as desk:
+        for _ in themes.THEMES:
+            await desk.press("alt+t")
+            await desk.pilot.pause()
+        assert desk.app.theme == "dark"
+        await desk.line("theme contrast")
+        assert desk.app.theme == "contrast"
+
+
+def test_names_of_keys():
+    assert key_names("ctrl+pagedown") == "Ctrl+PgDn"
+    assert key_names("f5,alt+l") == "F5, Alt+L"
+
+
+@pytest.mark.parametrize(("value", "text"), [(0, "0"), (999, "999"), (2.1e6, "2.1 M"), (3.5e10, "35 G")])
+def test_speeds(value: float, text: str):
+    assert speed(value) == text
+
+
+async def test_a_large_program_is_opened(tmp_path):
+    path = tmp_path / "large.src"
+    path.write_text("x = 1 -- a long comment that makes the line longer, for the sake of it\n" * 280_000)
+    assert path.stat().st_size > 19e6
+    async with desktop(path) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        area.go_to(200_000)
+        await desk.press("y")
+        assert area.document.get_line(200_000).startswith("yx = 1")
