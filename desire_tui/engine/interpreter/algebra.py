@@ -24,7 +24,7 @@ from desire_tui.engine.nodes import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.values import Quantity
 

@@ -16,7 +16,7 @@ from desire_tui.engine.values import SCALAR_SLOTS, Kind
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import Expr, Target
 
@@ -45,7 +45,7 @@ def assign(site: Site) -> Operation:
             values.defined[fresh] = 0
             raise
         values.defined[fresh] = 1
-        site.machine.operations[site.address] = operation
+        site.machine.codes.operations[site.address] = operation
         return following
 
     return once

@@ -15,7 +15,7 @@ from desire_tui.engine.values import Kind
 if TYPE_CHECKING:
     import ast
 
-    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
 
 _ROUNDING = 1e-9
@@ -78,7 +78,7 @@ def go_to(site: Site) -> Operation:
     """`go to L`."""
     node = site.node
     assert isinstance(node, GoTo)
-    place = site.code.structure.place(node.target)
+    place = site.code.text.structure.place(node.target)
     if place is None:
         raise Fault("no-such-label", node, name=node.target)
     address = site.code.base + place
@@ -116,8 +116,8 @@ def for_loop(site: Site) -> Operation:
 
 def next_pass(site: Site) -> Operation:
     """`next`: the variable is computed from the number of passes, so that steps do not drift."""
-    opening = site.code.structure.partner[site.place]
-    node = site.code.placed[opening].node
+    opening = site.code.text.structure.partner[site.place]
+    node = site.code.text.placed[opening].node
     assert isinstance(node, For)
     loop = site.code.loops.setdefault(opening, [0, 0, 0.0, 1.0, 0])
     kind = site.slot_code(node.variable)[1]
@@ -147,7 +147,7 @@ def leave_block(site: Site) -> Operation:
 
 def exit_block(site: Site) -> Operation:
     """`exit`: out of the innermost loop, or back from a PROCEDURE."""
-    closer = site.code.structure.exits[site.place]
+    closer = site.code.text.structure.exits[site.place]
     return site.machine.leave if closer is None else site.jump(site.code.base + closer + 1)
 
 

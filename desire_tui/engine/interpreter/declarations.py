@@ -12,7 +12,7 @@ from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import DeclaredGroup, Node
 

@@ -24,7 +24,7 @@ from desire_tui.engine.nodes import (
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
 
 RULES = frozenset(range(17)) - {6}

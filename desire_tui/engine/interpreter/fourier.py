@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
 
 _ARRAYS = {"F": 2, "I": 2, "R": 4, "C": 2}

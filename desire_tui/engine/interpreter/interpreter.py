@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NoReturn
 from desire_tui.engine.analysis.structure import Structure, script_structure
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.channels import Channels
+from desire_tui.engine.interpreter.codes import Statements
 from desire_tui.engine.interpreter.machine import Machine
 from desire_tui.engine.interpreter.reading import DataList
 from desire_tui.engine.interpreter.statements import make
@@ -48,8 +49,8 @@ class Interpreter:
         """The statement that `go` would carry out next, after a STOP; else None."""
         if self._machine.stopped is None:
             return None
-        code, place = self._machine.locate(self._machine.stopped.address)
-        return code.placed[min(place, len(code.placed) - 1)]
+        code, place = self._machine.codes.locate(self._machine.stopped.address)
+        return code.text.placed[min(place, len(code.text.placed) - 1)]
 
     def run(self) -> None:
         """Run the script from the top; files still connected are closed first."""
@@ -84,7 +85,8 @@ class Interpreter:
             raise DesireError(*problems)
         self._machine.define(structure.functions, source)
         machine = self._machine
-        code = machine.link(statements, structure, machine.scope, source, 0, len(statements), is_command=True)
+        text = Statements(statements, structure, source)
+        code = machine.link(text, machine.scope, 0, len(statements), is_command=True)
         stopped = machine.stopped
         try:
             self._run(code.base)
@@ -92,7 +94,7 @@ class Interpreter:
             if (
                 machine.stopped is None or machine.stopped is stopped
             ):  # else a PROCEDURE stopped, and comes back here
-                machine.unlink(code)
+                machine.codes.unlink(code)
 
     def _run(self, address: int) -> None:
         try:

@@ -7,13 +7,13 @@ kind of arguments), then the command line in hand. A call pushes the address to 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.builder import Builder
+from desire_tui.engine.interpreter.codes import Code, Codes, Finished, Operation, Statements
 from desire_tui.engine.interpreter.faults import Fault, Origins, explain
 from desire_tui.engine.interpreter.functions import Functions
 from desire_tui.engine.interpreter.host import Interrupted
@@ -21,7 +21,7 @@ from desire_tui.engine.interpreter.scope import Scope
 from desire_tui.engine.interpreter.translate import Translator
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable
 
     from desire_tui.engine.analysis.structure import Structure
     from desire_tui.engine.interpreter.channels import Channels
@@ -31,14 +31,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.source import Source
     from desire_tui.engine.values import Values
 
-Operation = Callable[[], int]
-
 _BURST = 1000
 """Operations between two looks at the world (`Host.interrupted`, tracing); every jump back looks too."""
-
-
-class Finished(Exception):  # noqa: N818 - control flow
-    """The script (or command line) ended, or came to a STOP."""
 
 
 class Turned(Exception):  # noqa: N818 - control flow
@@ -57,22 +51,6 @@ class Stop:
     returns: list[tuple[int, str]]
 
 
-@dataclass(eq=False)
-class Code:
-    """Some statements, from place `first` to `last`, whose operations stand at address `base` + place."""
-
-    placed: Sequence[Placed]
-    structure: Structure
-    scope: Scope
-    source: Source | None
-    translator: Translator
-    first: int
-    last: int
-    base: int
-    is_command: bool = False
-    loops: dict[int, list[float]] = field(default_factory=dict)
-
-
 class Machine:
     """Runs code over values; `make` turns the statement at a place into an operation."""
 
@@ -89,7 +67,6 @@ class Machine:
     ) -> None:
         self.values = values
         self.host = host
-        self.make = make
         self.structure = structure
         self.origins = Origins()
         self.build = Builder(values, self.origins)
@@ -97,10 +74,10 @@ class Machine:
         functions = dict(structure.functions)  # commands may add to it
         self.scope = Scope(values, functions, structure.procedures)
         self.functions = Functions(functions, self.scope, self.build, program.source)
-        self.operations: list[Operation] = []
-        self.codes: list[Code] = []
+        self.codes = Codes(partial(make, self))
         self.procedures: dict[tuple[object, ...], Code] = {}
-        self.script = self.link(program.script, structure, self.scope, program.source, 0, len(program.script))
+        text = Statements(program.script, structure, program.source)
+        self.script = self.link(text, self.scope, 0, len(program.script))
         self.returns: list[tuple[int, str]] = []
         self.stopped: Stop | None = None
         self._address = 0
@@ -111,43 +88,23 @@ class Machine:
 
     def link(
         self,
-        placed: Sequence[Placed],
-        structure: Structure,
+        text: Statements,
         scope: Scope,
-        source: Source | None,
         first: int,
         last: int,
         *,
         is_command: bool = False,
     ) -> Code:
-        """Add statements `first` … `last - 1` to the operations; the last one is followed by the end."""
-        base = len(self.operations) - first
+        """Add statements `first` … `last - 1` of a text to the operations."""
         translator = Translator(scope, self.build, self.functions)
-        code = Code(placed, structure, scope, source, translator, first, last, base, is_command)
-        self.operations += [partial(self._first, code, place) for place in range(first, last)]
-        self.operations.append(_finish)
-        self.codes.append(code)
-        return code
-
-    def unlink(self, code: Code) -> None:
-        """Take a command line's operations away again, unless something was added behind them."""
-        if self.codes[-1] is code:
-            self.codes.pop()
-            del self.operations[code.base + code.first :]
-
-    def _first(self, code: Code, place: int) -> int:
-        """Make the operation of a statement that is reached for the first time, and carry it out."""
-        operation = self.operations[code.base + place] = self.make(self, code, place)
-        return operation()
+        return self.codes.link(text, scope, translator, first, last, is_command=is_command)
 
     def forget(self) -> None:
         """Make all operations anew when they are next reached, and PROCEDUREs' bodies when next called."""
         self.procedures.clear()
         self.functions.forget()
         self.data.forget()
-        for code in self.codes:
-            for place in range(code.first, code.last):
-                self.operations[code.base + place] = partial(self._first, code, place)
+        self.codes.forget()
 
     def refresh(self) -> None:
         """Forget all operations if all names were cleared since they were made."""
@@ -179,7 +136,7 @@ class Machine:
             self.returns = before
 
     def _loop(self, address: int) -> None:
-        operations, host = self.operations, self.host
+        operations, host = self.codes.operations, self.host
         try:
             while True:
                 while not self.stepping:
@@ -187,29 +144,22 @@ class Machine:
                         address = operations[address]()
                     self.check()
                 while self.stepping:
-                    code, place = self.locate(address)
+                    code, place = self.codes.locate(address)
                     if place < code.last:
                         self._address = address
-                        host.before(code.placed[place])
+                        host.before(code.text.placed[place])
                     address = operations[address]()
         except (Finished, Turned, Interrupted):
             raise
         except Exception as error:
-            code, place = self.locate(address)
-            placed = code.placed[place]
-            raise explain(error, placed, code.source, self.origins, self._callers()) from error
+            code, place = self.codes.locate(address)
+            placed = code.text.placed[place]
+            raise explain(error, placed, code.text.source, self.origins, self._callers()) from error
 
     def _callers(self) -> list[tuple[Placed, Source | None]]:
         """Return the `call` statements that led here, the innermost first."""
-        found = (self.locate(back - 1) for back, _ in reversed(self.returns))
-        return [(code.placed[place], code.source) for code, place in found]
-
-    def locate(self, address: int) -> tuple[Code, int]:
-        """Return the code and the place in it that an address belongs to."""
-        for code in self.codes:
-            if code.first <= address - code.base <= code.last:
-                return code, address - code.base
-        raise IndexError(address)
+        found = (self.codes.locate(back - 1) for back, _ in reversed(self.returns))
+        return [(code.text.placed[place], code.text.source) for code, place in found]
 
     def turn_tracing(self, address: int) -> NoReturn:
         """`trace`: on, or off again; go on at `address`."""
@@ -250,7 +200,3 @@ class Machine:
             raise DesireError(Diagnostic("go-without-stop"))
         stop, self.stopped = self.stopped, None
         self.run(stop.address, stop.returns)
-
-
-def _finish() -> NoReturn:
-    raise Finished

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.analysis.structure import ProcedureText
-    from desire_tui.engine.interpreter.machine import Code, Operation
+    from desire_tui.engine.interpreter.codes import Code, Operation
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import Expr
 
@@ -139,9 +139,7 @@ def _body(site: Site, found: ProcedureText, kinds: list[Kind], references: list[
             continue
         box = [0, 0]
         dummies[name] = Reference(machine.build.share("r", box), bound.kind, box)
-    script, scope = machine.script, machine.scope.inner(dummies)
-    code = machine.link(
-        script.placed, machine.structure, scope, script.source, found.opens + 1, found.closes + 1
-    )
+    scope = machine.scope.inner(dummies)
+    code = machine.link(machine.script.text, scope, found.opens + 1, found.closes + 1)
     machine.procedures[key] = code
     return code

@@ -15,7 +15,8 @@ from desire_tui.engine.values import Kind, Quantity
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.machine import Machine, Operation
+    from desire_tui.engine.interpreter.codes import Operation
+    from desire_tui.engine.interpreter.machine import Machine
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import Target
 
@@ -45,7 +46,7 @@ class DataList:
         """Return the next item's value, evaluated now; error 51 if there is none."""
         while self._list < len(self._places):
             place = self._places[self._list]
-            node = self._code.placed[place].node
+            node = self._code.text.placed[place].node
             assert isinstance(node, Data)
             if self._item < len(node.items):
                 self._item += 1
@@ -65,7 +66,7 @@ class DataList:
                 known = site.value(site.node.items[item])[0]
             except Fault as fault:
                 if fault.placed is None:
-                    fault.placed, fault.source = site.placed, self._code.source
+                    fault.placed, fault.source = site.placed, self._code.text.source
                 raise
             self._evaluators[place, item] = known
         return known()

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from desire_tui.engine.interpreter.machine import Code, Machine, Operation
+    from desire_tui.engine.interpreter.codes import Code, Operation
+    from desire_tui.engine.interpreter.machine import Machine
     from desire_tui.engine.nodes import Expr, Placed, Statement, Target
     from desire_tui.engine.values import Quantity
 
@@ -34,7 +35,7 @@ class Site:
         self.code = code
         self.place = place
         self.address = code.base + place
-        self.placed: Placed = code.placed[place]
+        self.placed: Placed = code.text.placed[place]
         self.node: Statement = self.placed.node
         self.next = self.address + 1
         self.host = machine.host
@@ -44,7 +45,7 @@ class Site:
 
     def function(self, body: list[ast.stmt]) -> Callable[..., Any]:
         """Compile statements that belong to this statement."""
-        return self.machine.build.function(body, self.placed, self.code.source)
+        return self.machine.build.function(body, self.placed, self.code.text.source)
 
     def then(self, action: Callable[[], object]) -> Operation:
         """Return the operation that carries out `action` and goes on with the next statement."""
@@ -63,7 +64,7 @@ class Site:
     @property
     def partner(self) -> int:
         """Address of the statement that closes, divides or opens the block of this one."""
-        return self.code.base + self.code.structure.partner[self.place]
+        return self.code.base + self.code.text.structure.partner[self.place]
 
     def real(self, node: Expr) -> Callable[[], float]:
         """Return a function that evaluates a real expression."""

@@ -16,7 +16,8 @@ from desire_tui.engine.interpreter.site import Site
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.machine import Code, Machine, Operation
+    from desire_tui.engine.interpreter.codes import Code, Operation
+    from desire_tui.engine.interpreter.machine import Machine
 
     Maker = Callable[[Site], Operation]
 

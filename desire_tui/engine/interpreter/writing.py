@@ -20,7 +20,7 @@ from desire_tui.engine.values import Quantity
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from desire_tui.engine.interpreter.machine import Operation
+    from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import WriteItem
     from desire_tui.engine.values import Values
