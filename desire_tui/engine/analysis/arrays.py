@@ -49,7 +49,7 @@ def vector_derivative(builder: Builder, node: nodes.VectorDerivative) -> None:
     value = lower(context, node.value, (count,))
     if count != UNKNOWN and builder.is_second(quantity.slot, count):
         context.report("state-twice", node, name=quantity.name)
-    builder.derivative(quantity.slot, count, value, context.where(node))
+    builder.derivative(quantity.slot, count, value, context.where(node), array=True)
 
 
 def matrix_assign(builder: Builder, node: nodes.MatrixAssign) -> None:

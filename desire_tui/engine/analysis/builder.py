@@ -137,8 +137,8 @@ class Builder:
 
     # ------------------------------------------------------------------------------------------ derivatives
 
-    def derivative(self, slot: int, count: int, value: Value, where: Where) -> None:
-        """Add a derivative of `count` states from `slot` on.
+    def derivative(self, slot: int, count: int, value: Value, where: Where, *, array: bool = False) -> None:
+        """Add a derivative of `count` states from `slot` on; `array`: a vector's, even if it has one element.
 
         Under a guard the derivative keeps its last value where the guard is shut, 0 at first: it is computed
         into numbers of the compiler's own, and the derivative proper reads them at the end of the pass.
@@ -148,16 +148,16 @@ class Builder:
             return
         if not self.guards:
             self.body.append(
-                Deriv(number, value, where) if count == 1 else DerivVec(number, count, value, where)
+                DerivVec(number, count, value, where) if array else Deriv(number, value, where)
             )
             return
         held = self._held.get((slot, count))
         if held is None:
             held = self._held[slot, count] = (self.context.scope.hidden(count), where)
         made = (
-            Set(held[0], value, where, persistent=True)
-            if count == 1
-            else SetVec(held[0], count, value, where, persistent=True)
+            SetVec(held[0], count, value, where, persistent=True)
+            if array
+            else Set(held[0], value, where, persistent=True)
         )
         self.body.append(made)
 

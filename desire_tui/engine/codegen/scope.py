@@ -128,12 +128,16 @@ def value(node: Value, scope: Scope) -> None:
             value(node.x, scope)
             value(node.y, scope)
         case Vec() | Shifted():
+            scope.only_scalars = False
             scope.arrays.add((node.slot, node.count))
         case MatVec():
+            scope.only_scalars = False
             scope.arrays.add((node.slot, node.rows * node.cols))
             scope.arrays.add((node.x_slot, node.rows if node.transposed else node.cols))
         case RowOf():
+            scope.only_scalars = False
             scope.read.add(IROW)
             scope.arrays.add((node.slot, node.rows * node.cols))
         case Outer():
+            scope.only_scalars = False
             scope.arrays.update(((node.u_slot, node.u_count), (node.v_slot, node.v_count)))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.cells import Cells
     from desire_tui.engine.codegen.text import Text
-    from desire_tui.engine.lowered import Action, Value
+    from desire_tui.engine.lowered import Action
 
 
 class ScalarStatements:
@@ -44,10 +44,16 @@ class ScalarStatements:
         """Write one statement."""
         self.scalars.forget()
         match action:
-            case Set():
-                self.cells.store(action.slot, self._scalar(action.value))
-            case Deriv():
-                self.cells.derivative(action.state, self._scalar(action.value))
+            case Set() | Deriv():
+                value = templates.write(self.text, self.cells, action.value)
+                if value is None:
+                    if self.single_element(action):
+                        return
+                    value = self.scalars.value(action.value)
+                if isinstance(action, Set):
+                    self.cells.store(action.slot, value)
+                else:
+                    self.cells.derivative(action.state, value)
             case Guard():
                 self._guard(action)
             case Store():
@@ -63,9 +69,9 @@ class ScalarStatements:
             case _:
                 self.arrays(action)
 
-    def _scalar(self, value: Value) -> str:
-        """Write a scalar value, from a template where its shape allows."""
-        return templates.write(self.text, self.cells, value) or self.scalars.value(value)
+    def single_element(self, action: Set | Deriv) -> bool:  # noqa: ARG002 - for statements over arrays
+        """Write a statement over arrays of one element; return False for an ordinary one."""
+        return False
 
     def arrays(self, action: Action) -> None:
         """Write a statement over arrays."""

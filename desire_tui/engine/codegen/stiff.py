@@ -12,8 +12,8 @@ from desire_tui.engine.analysis.differentiate import NotDifferentiable, differen
 from desire_tui.engine.analysis.jacobian import checked_array
 from desire_tui.engine.analysis.slices import acts_at_steps, is_pure, jacobian_pass
 from desire_tui.engine.codegen.context import PASSES, Context
-from desire_tui.engine.codegen.natives import PassFunctions
 from desire_tui.engine.codegen.model import passes_of
+from desire_tui.engine.codegen.natives import PassFunctions
 from desire_tui.engine.codegen.stiff_library import stiff_functions
 from desire_tui.engine.codegen.stiff_loop import stiff_loop
 from desire_tui.engine.codegen.tables import Tables

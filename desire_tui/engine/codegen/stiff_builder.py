@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from llvmlite import ir
 
 from desire_tui.engine.integration.problem import Problem
-from desire_tui.engine.runtime.memory import RunMemory
 
 if TYPE_CHECKING:
     import ctypes
@@ -104,7 +103,8 @@ class Function:
 
     def _place(self, structure: Any, field: str, of: type[ctypes.Structure]) -> tuple[Any, Any]:
         offset: int = getattr(of, field).offset
-        code = dict((f[0], f[1]) for f in of._fields_)[field]._type_
+        fields: Any = of._fields_
+        code = next(kind for name, kind in fields if name == field)._type_
         kind = {"d": REAL, "i": INT32, "l": INT, "q": INT, "L": POINTER, "Q": POINTER}[code]
         return self.build.gep(structure, [INT(offset)], source_etype=BYTE), kind
 

@@ -17,7 +17,7 @@ from typing import Any
 
 from desire_tui.engine.codegen.stiff_builder import INT, INT32, POINTER, REAL, VOID, Function
 from desire_tui.engine.codegen.stiff_callbacks import scatter
-from desire_tui.engine.integration.problem import STUCK_FLAG, STUCK_MOST
+from desire_tui.engine.integration.problem import STUCK_AT_EDGE_FLAG, STUCK_FLAG, STUCK_MOST
 from desire_tui.engine.integration.sundials.signatures import ONE_STEP, TSTOP_RETURN
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 from desire_tui.engine.values import DT, T
@@ -107,7 +107,8 @@ def _add_interval(module: Any) -> None:
     build.branch(go)
 
     build.position_at_end(go)
-    f.put(problem, "suspect", INT(-1))
+    moving = build.icmp_signed("==", f.get(problem, "stuck"), INT(0))
+    f.put(problem, "suspect", build.select(moving, INT(-1), f.get(problem, "suspect")))
     flag = f.outside("CVode", INT32, [solver, t_next, vector, reached, INT32(ONE_STEP)])
     t = build.load(reached, typ=REAL)
     done = build.or_(
@@ -140,7 +141,9 @@ def _watch_progress(f: Function, problem: Any, t: Any, flag: Any) -> Any:
     stuck = f.build.select(same, f.build.add(f.get(problem, "stuck"), INT(1)), INT(0))
     f.put(problem, "stuck", stuck)
     hopeless = f.build.icmp_signed(">", stuck, INT(STUCK_MOST))
-    return f.build.select(hopeless, INT32(STUCK_FLAG), flag)
+    edge = f.build.icmp_signed(">=", f.get(problem, "suspect"), INT(0))
+    reason = f.build.select(edge, INT32(STUCK_AT_EDGE_FLAG), INT32(STUCK_FLAG))
+    return f.build.select(hopeless, reason, flag)
 
 
 def _record_step(f: Function, memory: Any, dt: Any) -> None:

@@ -41,6 +41,7 @@ def stiff_functions() -> StiffFunctions:
     add_interval(module)
     # level 2 and vectorised loops take three times as long to make and gain nothing here
     code = compile_text(str(module), level=1)
-    found = [code.address(f"desire_{name}") for name in ("rhs", "weights", "jacobian", "interval")]
-    return StiffFunctions(*found, keep=code)
-
+    rhs, weights, jacobian, interval = (
+        code.address(f"desire_{name}") for name in ("rhs", "weights", "jacobian", "interval")
+    )
+    return StiffFunctions(rhs, weights, jacobian, interval, keep=code)

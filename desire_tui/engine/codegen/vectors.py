@@ -16,7 +16,7 @@ from desire_tui.engine.codegen.reach import groups, needs_copy, statement_reach,
 from desire_tui.engine.codegen.statements import ScalarStatements
 from desire_tui.engine.codegen.strips import Strip
 from desire_tui.engine.lowered import (
-    DerivVec, Learn, MatVec, Outer, RowOf, SetDot, SetMat, SetVec, Shifted, Vec,
+    Deriv, DerivVec, Learn, MatVec, Outer, RowOf, Set, SetDot, SetMat, SetVec, Shifted, Vec,
 )  # fmt: skip
 from desire_tui.engine.values import IROW
 
@@ -59,6 +59,16 @@ class Statements(ScalarStatements):
             case _:
                 super().arrays(action)
         self._top = 0
+
+    def single_element(self, action: Set | Deriv) -> bool:
+        """Write a statement over arrays of one element; return False for an ordinary one."""
+        if not any(isinstance(n, Vec | Shifted | MatVec | RowOf | Outer) for n in walk(action.value)):
+            return False
+        if isinstance(action, Set):
+            self._fused([SetVec(action.slot, 1, action.value, action.where)])
+        else:
+            self._fused([DerivVec(action.state, 1, action.value, action.where)])
+        return True
 
     # ------------------------------------------------------------------ memory
 
