@@ -230,3 +230,25 @@ def test_a_broken_line_is_one_mistake():
 def test_a_misspelt_name_gets_a_hint():
     (problem,) = check(parse(source("velocity = 1\ndrun\nDYNAMIC\nd/dt x = velocty")))
     assert "velocity" in problem.hint
+
+
+@pytest.mark.parametrize(
+    ("script", "expected"),
+    [
+        ("x = y + 1", [(200, "y")]),
+        ("x = x + 1\nwrite x", []),
+        ("x = sine(1)", [(200, "sine")]),
+        ("FUNCTION f(a$) = a$*q\nx = f(1)", [(200, "q")]),
+        ("v[1] = 2", [(19, "v")]),
+        ("for i = 1 to n | write i | next", [(200, "n")]),
+        ("PROCEDURE p(a; B)\nB[1] = a\nend\nARRAY v[3]\ncall p(1; v)", []),
+        ("COMPLEX z\nz = 1 + 2*j\nwrite Re(z), PI, TMAX", []),
+        ("STOP\nwrite q", []),
+        ("read a | data 3 | write a", []),
+        ("write total\nNN = 3\ndrun\nDYNAMIC\ntotal = total + 1", []),
+        ("MATRIX A = $In(A)", [(200, "A")]),
+    ],
+)
+def test_names_of_the_script(script, expected):
+    problems = check(parse(source(script)))
+    assert [(d.code, d.facts["name"]) for d in problems] == expected

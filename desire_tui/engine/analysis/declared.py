@@ -59,6 +59,11 @@ class Survey:
         """Every array's name."""
         return frozenset(name for name, q in self._seen.quantities.items() if q.shape)
 
+    @property
+    def everything(self) -> frozenset[str]:
+        """Every name that some statement of the program assigns or declares."""
+        return frozenset().union(self._seen.scalars, self._seen.quantities, *self._by_segments.values())
+
     def scope_for(self, text: SegmentText) -> StaticScope:
         """Return the names that `text` may use. Results of other segments count as the script's."""
         scalars = set(self._before.get(text.label, self._seen.scalars))

@@ -10,6 +10,7 @@ from desire_tui.engine.analysis.declared import Survey
 from desire_tui.engine.analysis.scope import LiveScope
 from desire_tui.engine.analysis.segments import lower_segment
 from desire_tui.engine.analysis.structure import structure as find_structure
+from desire_tui.engine.analysis.unknown import unknown_names
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.nodes import Bare, Call, Derivative, Function, Invoke, Name
 
@@ -61,6 +62,7 @@ def check(program: Program) -> tuple[Diagnostic, ...]:
     for text in program.segments:
         scope = survey.scope_for(text)
         problems.extend(lower_segment(text, scope, program.source, functions, found.submodels)[1])
+    problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
     broken = _names_in_broken_lines(program)
     return tuple(in_order(p for p in problems if p.code not in _MISSING or p.facts.get("name") not in broken))
 

@@ -120,7 +120,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     # ------------------------------------------------------------------ vectors and matrices
     "shapes-disagree": Wording(
-        74, "'{name}' is {name}{shape}, {wanted} is needed here", "sizes must agree element by element"
+        74, "'{name}' has the shape {shape}, {wanted} is needed here", "sizes must agree element by element"
     ),
     "vector-recursion": Wording(
         85,
