@@ -59,6 +59,7 @@ class Session:
         self._world.carry_out = self._commands.carry_out
         self._world.write_to_channel = self._write_to_channel
         self._interpreter: Interpreter | None = None
+        self._checked: tuple[Source | None, tuple[Diagnostic, ...]] = (None, ())
         self._stopped: StoppedAt | None = None
         self._edited = False
 
@@ -136,7 +137,7 @@ class Session:
 
         A script that stopped at STOP cannot go on afterwards (error 43), unless the text is the same.
         """
-        from desire_tui.engine.analysis import check, structure
+        from desire_tui.engine.analysis import structure
         from desire_tui.engine.syntax import parse
 
         began = perf_counter()
@@ -147,8 +148,10 @@ class Session:
         self._desk.program = self._desk.with_breakpoints(self._desk.overridden(program))
         self._desk.structure = structure(self._desk.program)
         self._desk.journal.program(source)
-        found = check(program) if self._listener.wants_check else program.problems
-        problems = tuple(p.within(source) for p in found)
+        if self._listener.wants_check:
+            problems = self.check(source)
+        else:
+            problems = tuple(p.within(source) for p in program.problems)
         self._listener.program_accepted(program, problems)
         return problems
 
@@ -157,7 +160,11 @@ class Session:
         from desire_tui.engine.analysis import check
         from desire_tui.engine.syntax import parse
 
-        return tuple(d.within(source) for d in check(parse(source)))
+        known, problems = self._checked  # one reference: read and written as a whole
+        if known != source:
+            problems = tuple(d.within(source) for d in check(parse(source)))
+            self._checked = (source, problems)
+        return problems
 
     def override(self, settings: Mapping[str, float]) -> None:
         """Give scalars values that the script's own assignments do not change, from the next `accept` on."""
