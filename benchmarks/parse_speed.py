@@ -80,8 +80,8 @@ def main() -> None:
         "1401 equations, cold": seconds(lambda: parse(Source(text)), cold),
         "1401 equations, one line edited": seconds(edited),
         "1401 equations, again": seconds(lambda: parse(Source(text))),
-        "a page of 60 statements, cold": seconds(lambda: parse(Source(PAGE)), cold),
-        "a page of 60 statements, shapes known": seconds(lambda: parse(Source(PAGE)), forget_lines),
+        "a page of 45 statements, cold": seconds(lambda: parse(Source(PAGE)), cold),
+        "a page of 45 statements, shapes known": seconds(lambda: parse(Source(PAGE)), forget_lines),
     }
     print(f"{'Python reads the equations':40} {1e3 * yardstick:8.2f} ms")
     for name, value in rows.items():

@@ -12,8 +12,9 @@ import pytest
 from desire_tui.engine.analysis.structure import structure
 from desire_tui.engine.nodes import Data
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax import format_statement, parse
 from desire_tui.engine.syntax import tables as tables_module
+from desire_tui.engine.syntax.parse import forget_lines
 
 WRONG = tables_module._check(marshal.dumps({"start": 1})) + marshal.dumps({"start": 1})
 """Whole, but not what it should be."""
@@ -44,6 +45,35 @@ def test_long_lists_are_fine() -> None:
     node = program.script[0].node
     assert isinstance(node, Data)
     assert len(node.items) == 50_001
+
+
+@pytest.mark.parametrize(
+    "text", ["x = " + "-+" * 90 + "1", "x = " + "1 + " * 190 + "1", "x = " + "(" * 100 + "1" + ")" * 100]
+)
+def test_deep_expressions_below_the_limit(text: str) -> None:
+    results = []
+    for _ in range(4):
+        forget_lines()
+        program = parse(Source(text))
+        assert not program.problems
+        results.append(format_statement(program.script[0].node))
+    assert len(set(results)) == 1
+
+
+def test_messages_quote_only_the_beginning_of_long_words() -> None:
+    problems = parse(
+        Source("y" * 100_000 + " 3\nx = 1.1." + "1" * 100_000 + "\nx = 3 " + "z" * 100_000)
+    ).problems
+    assert len(problems) == 3
+    assert all(len(problem.message) < 120 for problem in problems)
+
+
+def test_the_store_of_lines_is_bounded(monkeypatch) -> None:
+    module = sys.modules[forget_lines.__module__]
+    monkeypatch.setattr(module, "KEPT_MAX", 10_000)
+    forget_lines()
+    parse(Source("\n".join(f"x = {i}" for i in range(1_000))))
+    assert 0 < len(module._lines) < 100
 
 
 def test_nested_blocks_of_any_depth() -> None:

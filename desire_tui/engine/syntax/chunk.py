@@ -13,6 +13,9 @@ OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%"
 """Kinds of tokens behind which an operator may follow."""
 
 
+QUOTED_MAX = 40
+
+
 class Fault:
     """Something wrong in a statement: wording key, place counted from the statement's start, facts."""
 
@@ -21,6 +24,11 @@ class Fault:
     def __init__(self, key: str, start: int, end: int, facts: dict[str, object] | None = None) -> None:
         self.key, self.start, self.end = key, start, end
         self.facts = facts if facts is not None else {}
+
+
+def shown(text: str) -> str:
+    """Return a text as messages quote it: its beginning, if it is long."""
+    return text if len(text) <= QUOTED_MAX else f"{text[: QUOTED_MAX - 1]}…"
 
 
 class Chunk:

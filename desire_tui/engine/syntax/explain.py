@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.chunk import CLASSES, LETTER, NAME, NUMBER, OCTAL, STRING, Fault
+from desire_tui.engine.syntax.chunk import CLASSES, LETTER, NAME, NUMBER, OCTAL, STRING, Fault, shown
 from desire_tui.engine.syntax.words import CLOSERS, OPENERS, RELATIONS, keyword_like
 
 if TYPE_CHECKING:
@@ -50,9 +50,9 @@ class _Stuck:
         self.after_operand = self.previous in _OPERAND_END
         self.wants_operand = NUMBER in expected
         self.facts: dict[str, object] = {
-            "text": self.text, "word": self.word, "first": chunk.texts[0],
+            "text": shown(self.text), "word": self.word, "first": shown(chunk.texts[0]),
             "closer": {"(": ")", "{": "}"}.get(self.opened, "]"),
-            "before": f" before '{self.text}'" if self.text else "",
+            "before": f" before '{shown(self.text)}'" if self.text else "",
         }  # fmt: skip
 
     def place(self, first: int, last: int | None = None) -> None:

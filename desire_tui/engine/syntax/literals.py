@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.chunk import NUMBER, OCTAL, STRING, Fault
+from desire_tui.engine.syntax.chunk import NUMBER, OCTAL, STRING, Fault, shown
 
 if TYPE_CHECKING:
     from desire_tui.engine.syntax.chunk import Chunk
@@ -29,7 +29,7 @@ def add_odd(chunk: Chunk, group: int, lexeme: str, start: int) -> int:
             chunk.add("&", "&", start, end)
         else:
             key = "octal-too-large" if _OCTAL.match(lexeme) else "octal-digits"
-            fault = Fault(key, start - base, end - base, {"text": lexeme})
+            fault = Fault(key, start - base, end - base, {"text": shown(lexeme)})
             chunk.add(OCTAL, "&0", start, end)
     elif group == 9:
         fault = Fault("quote-unclosed", start - base, end - base, {"quote": lexeme[0]})
@@ -41,13 +41,18 @@ def add_odd(chunk: Chunk, group: int, lexeme: str, start: int) -> int:
             end = start + good.end()
             chunk.add(NUMBER, good[0], start, end)
         else:
-            fault = Fault("number-format", start - base, end - base, {"text": lexeme})
+            fault = Fault("number-format", start - base, end - base, {"text": shown(lexeme)})
             chunk.add(NUMBER, "0", start, end)
     else:
         fault = Fault("strange-character", start - base, end - base, {"char": lexeme})
     if chunk.fault is None:
         chunk.fault = fault
     return end
+
+
+def too_large(lexeme: str) -> bool:
+    """Whether a number is beyond the largest that 64 bits hold."""
+    return float(lexeme) == float("inf")
 
 
 def octal_in_range(lexeme: str) -> bool:

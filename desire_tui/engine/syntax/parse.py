@@ -13,7 +13,7 @@ from desire_tui.engine.nodes import Bare, Call, Label, Name, Placed, Program, Se
 from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
-from desire_tui.engine.syntax.chunk import Fault
+from desire_tui.engine.syntax.chunk import Fault, shown
 from desire_tui.engine.syntax.shapes import statement
 from desire_tui.engine.syntax.tokens import scan
 from desire_tui.engine.syntax.words import keyword_like
@@ -27,10 +27,13 @@ if TYPE_CHECKING:
     Item = tuple[Statement | Fault, int]
     Entry = tuple[tuple[Item, ...], bool]
 
-LINES_MAX = 100_000
-"""Lines kept before the store is emptied; a program of that length still runs, only slower to start."""
+KEPT_MAX = 20_000_000
+"""Characters of lines kept before the store is emptied; a longer program runs too, it only starts slower."""
+LINE_COST = 100
+"""What a line adds to that beside its characters."""
 
 _lines: dict[str, Entry] = {}
+_kept = 0
 _NUMBERED = re.compile(r"[ \t]*([0-9]+)(?=[ \t]*(?:\r?\Z|--|—)|[ \t]+[A-Za-z|])")
 _HEADER = re.compile(r"[ \t]*(?:/[ \t]*(?:NEW)?[ \t\r]*\Z|PIC[ \t]*['\"‘’“”])")
 _STARTS_ODD = frozenset("0123456789/P \t")
@@ -98,7 +101,9 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
 
 def forget_lines() -> None:
     """Empty the store of parsed lines."""
+    global _kept  # noqa: PLW0603 - as in _parse_line
     _lines.clear()
+    _kept = 0
 
 
 def _swallowed(line: str, whole: Entry, parts: list[str]) -> bool:
@@ -125,7 +130,7 @@ def _no_statement(item: Bare) -> Fault:
     """Return the fault of an expression that stands alone in a program (a command line prints it)."""
     if isinstance(item.value, Name):
         name = item.value.name
-        return Fault("not-a-statement", 0, item.end, {"first": name, "close": keyword_like(name)})
+        return Fault("not-a-statement", 0, item.end, {"first": shown(name), "close": keyword_like(name)})
     return Fault("expression-alone", 0, item.end)
 
 
@@ -182,7 +187,9 @@ def _parse_line(line: str) -> Entry:
     """Parse the statements of a logical line, and keep them."""
     scanned = scan(line)
     entry: Entry = (tuple((_item(chunk), chunk.base) for chunk in scanned.chunks), scanned.continues)
-    if len(_lines) > LINES_MAX:
+    global _kept  # noqa: PLW0603 - it belongs to the store beside it
+    _kept += len(line) + LINE_COST
+    if _kept > KEPT_MAX:
         forget_lines()
     _lines[line] = entry
     return entry

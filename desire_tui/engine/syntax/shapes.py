@@ -7,6 +7,7 @@ the tokens, 20 times faster than parsing.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine import nodes
@@ -20,9 +21,11 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.syntax.chunk import Chunk
 
-    Maker = Callable[[list[str], list[int], list[int]], nodes.Statement]
+    Maker = Callable[[Chunk], nodes.Statement]
 
 SHAPES_MAX = 5_000
+SHARED_TOKENS_MAX = 300
+"""Longer statements (data lists, mostly) share no shape: they seldom look alike, and their text is kept anyway."""
 _LETTERED = frozenset({"display", "FFT"})
 """Statements whose letter decides how many arguments they take: it is part of their shape."""
 _patterns: dict[tuple[str, ...], nodes.Statement] = {}
@@ -35,9 +38,12 @@ def statement(chunk: Chunk) -> nodes.Statement:
     shape = tuple(chunk.kinds)
     if shape[0] in _LETTERED:
         shape = (*shape, *chunk.texts[1:2])
+    if len(shape) > SHARED_TOKENS_MAX:
+        alone: nodes.Statement = _filled(derive(chunk.kinds, chunk.texts), chunk)
+        return alone
     maker = _makers.get(shape)
     if maker is not None:
-        return maker(chunk.texts, chunk.starts, chunk.ends)
+        return maker(chunk)
     pattern = _patterns.get(shape)
     if pattern is None:
         if len(_patterns) > SHAPES_MAX:
@@ -46,7 +52,7 @@ def statement(chunk: Chunk) -> nodes.Statement:
         node: nodes.Statement = _filled(pattern, chunk)
         return node
     maker = _makers[shape] = _generate(pattern)
-    return maker(chunk.texts, chunk.starts, chunk.ends)
+    return maker(chunk)
 
 
 def forget() -> None:
@@ -77,9 +83,17 @@ def _filled(part: Any, chunk: Chunk) -> Any:
 
 
 def _generate(pattern: nodes.Statement) -> Maker:
-    """Compile a function of (texts, starts, ends) that makes the pattern's nodes."""
-    maker: Maker = eval(f"lambda v, s, e: {_code(pattern)}", _NAMESPACE)  # noqa: S307 - see _code
-    return maker
+    """Compile a function of a chunk that makes the pattern's nodes."""
+    body = f"lambda v, s, e: {_code(pattern)}"
+    try:
+        make = eval(body, _NAMESPACE)  # noqa: S307 - see _code
+    except (
+        SyntaxError,
+        MemoryError,
+        RecursionError,
+    ):  # Python nests 200 parentheses at most, this language more
+        return partial(_filled, pattern)
+    return lambda chunk: make(chunk.texts, chunk.starts, chunk.ends)
 
 
 def _code(part: Any) -> str:

@@ -11,7 +11,7 @@ import re
 
 from desire_tui.engine.syntax.chunk import MATFUN, NAME, NUMBER, OPERAND_END, STRING, Chunk, Fault, Line
 from desire_tui.engine.syntax.heads import add_head
-from desire_tui.engine.syntax.literals import add_odd
+from desire_tui.engine.syntax.literals import add_odd, too_large
 from desire_tui.engine.syntax.typography import normalised
 from desire_tui.engine.syntax.words import CLOSERS, OPENERS, SOFT_WORDS, STAND_ALONE
 
@@ -19,6 +19,9 @@ LINE_MAX = 1_000_000
 """Characters in one line, continuations included."""
 DEPTH_MAX = 100
 """Open brackets; every later pass may recurse once or twice for each."""
+
+INFINITE_MIN = len("1e309")
+"""Shorter numbers are finite."""
 
 _CONTINUES = frozenset("+*/^=-")
 _OPEN = frozenset(OPENERS.values())
@@ -104,6 +107,8 @@ def scan(text: str) -> Line:
             starts.append(start - base)
             ends.append(pos - base)
         elif group == 2:
+            if len(lexeme) >= INFINITE_MIN and too_large(lexeme):
+                chunk.fault = chunk.fault or Fault("number-too-large", start - base, pos - base)
             kinds.append(NUMBER)
             texts.append(lexeme)
             starts.append(start - base)

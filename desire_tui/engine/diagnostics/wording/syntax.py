@@ -14,6 +14,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     "expression-alone": Wording(1, "an expression is no statement", "assign it: y = …, or print it: write …"),
     "derivative-form": Wording(1, "this is no derivative", "write: d/dt x = …"),
+    "number-too-large": Wording(3, "the number is too large", "the largest is about 1.79E+308"),
     "number-format": Wording(6, "'{text}' is not a number", "numbers look like 12, .85, 1.2E-07"),
     "parenthesis-unclosed": Wording(7, "a parenthesis is not closed", "add )"),
     "parenthesis-stray": Wording(7, "')' closes no parenthesis", "remove it, or add ( before"),
