@@ -111,6 +111,24 @@ def test_procedures_may_call_others_and_pass_references_on():
     assert world["x"] == 5
 
 
+def test_a_new_reference_counts_as_zero_on_its_own_right_side():
+    world = run("PROCEDURE add(;r)\nr = r + 5\nend\ncall add(;x) | call add(;x)")
+    assert world["x"] == 10
+
+
+def test_functions_take_whole_arrays_and_shadow_names():
+    world = run(
+        "FUNCTION look(x, T) = func1(x; T) + T[1]\nFUNCTION twice(x) = 2*look(x, F)\nARRAY F[4]\n"
+        "data 0, 1, 10, 20\nread F\nx = 100 | a = look(0.5, F) | b = twice(1)"
+    )
+    assert (world["a"], world["b"], world["x"]) == (15, 40, 100)
+
+
+def test_j_is_free_until_the_first_complex_line():
+    world = run("s = 0\nfor j = 1 to 3 | s = s + j | next\nCOMPLEX z\nz = 2*j")
+    assert (world["s"], world["z"]) == (6, 2j)
+
+
 def test_functions_use_program_variables_when_called_and_nest():
     world = run("FUNCTION f(x$) = c*x$ + 1\nx$ = 77 | c = 2 | a = f(f(3))\nc = 10 | b = f(1)")
     assert (world["a"], world["b"], world["x$"]) == (15, 11, 77)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from stand_in import World, error_of, run
 
 
@@ -122,6 +124,30 @@ def test_dump_lists_scalars_then_arrays():
 def test_notes_and_shell_and_commands_go_to_the_host():
     world = run("x = 3 | note 'x is '; x\nsh ls\nsnapshot 'f.png'\ndisplay N14 | display W 10,20")
     assert world.calls == [
-        ("note", "x is 3\n"), ("shell", "ls"), ("command", "snapshot", "f.png"),
+        ("note", "x is 3"), ("shell", "ls"), ("command", "snapshot", "f.png"),
         ("display", "N", 14), ("display", "W", 10, 20),
     ]  # fmt: skip
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=8))
+def test_machine_readable_files_keep_every_bit(tmp_path, numbers):
+    world = World(tmp_path)
+    world.load("")
+    world.execute(f"ARRAY x[{len(numbers)}], y[{len(numbers)}]")
+    world["x"][:] = numbers
+    world.execute("connect 'bits' as output 2 | write ##2, x | disconnect 2")
+    world.execute("connect 'bits' as input 2 | input #2, y | disconnect 2")
+    assert world["y"].tolist() == numbers
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=8))
+def test_machine_readable_scalars_keep_every_bit(tmp_path, numbers):
+    world = World(tmp_path)
+    world.load("")
+    for number in numbers:
+        world.values.assign(world.values.scalar("x").slot, number)
+        world.execute("connect 'bits' as output 2 | write ##2, x | disconnect 2")
+        world.execute("connect 'bits' as input 2 | input #2, y | disconnect 2")
+        assert world["y"] == number

@@ -10,7 +10,7 @@ from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.scope import Reference
 from desire_tui.engine.interpreter.translate import literal
 from desire_tui.engine.interpreter.tree import at
-from desire_tui.engine.nodes import Assign, Name
+from desire_tui.engine.nodes import Assign, Name, Node
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
 
 if TYPE_CHECKING:
@@ -90,7 +90,19 @@ def store_code(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Ex
     meaning = site.scope.dummies.get(target.name)
     if isinstance(target, Name) and isinstance(meaning, Reference):
         body.append(py.carry_out(py.call("mark", py.load(meaning.variable))))
+        if _mentions(value, target.name):
+            body.insert(0, py.carry_out(py.call("count_as_zero", py.load(meaning.variable))))
     return body
+
+
+def _mentions(node: object, name: str) -> bool:
+    """Whether an expression reads a name."""
+    if isinstance(node, tuple):
+        return any(_mentions(part, name) for part in node)
+    if not isinstance(node, Node):
+        return False
+    parts: tuple[str, ...] = type(node).__slots__
+    return getattr(node, "name", None) == name or any(_mentions(getattr(node, part), name) for part in parts)
 
 
 def storer(site: Site, target: Target) -> Callable[[complex], None]:

@@ -92,7 +92,14 @@ def helpers(values: Values) -> dict[str, Any]:
             defined[box[0]] = 1
 
     noise = Noise(values.random)
+
+    def count_as_zero(box: list[int]) -> None:
+        if not box[1]:
+            box[1] = 1
+            cells[box[0]] = 0.0
+
     return {
+        "count_as_zero": count_as_zero,
         "ran": noise.uniform,
         "gauss": noise.normal,
         "__builtins__": {"int": int, "complex": complex},

@@ -131,7 +131,8 @@ def _define_j(site: Site) -> None:
     known = values.find("j")
     if known is not None and known.kind is Kind.COMPLEX:
         return
-    values.names.pop("j", None)
+    if values.names.pop("j", None) is not None:
+        site.machine.forget()  # code made so far knows another j
     made = values.scalar("j", Kind.COMPLEX)
     values.assign(made.slot, 0.0)
     values.cells[made.slot + 1] = 1.0

@@ -64,7 +64,7 @@ def note(site: Site) -> Operation:
     node = site.node
     assert isinstance(node, Note)
     line = line_of(site, node.items, raw=False)
-    return site.then(lambda: site.host.note("".join(line())))
+    return site.then(lambda: site.host.note("".join(line()).rstrip("\n")))
 
 
 def line_of(site: Site, items: tuple[WriteItem, ...], *, raw: bool = False) -> Piece:
