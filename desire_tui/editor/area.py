@@ -1,8 +1,8 @@
 """The text of one tab: Textual's TextArea, with the language's own colours, problem marks and habits.
 
 TextArea's internals are overridden in few places, each named here: `_build_highlight_map` (colours without
-tree-sitter), `edit` / `_undo_batch` / `_redo_batch` (marks move with the text), `render_line` (gutter marks),
-`_refresh_size` (the width is not measured anew at each key).
+tree-sitter), `_set_document` (no wrapping tables), `edit` / `_undo_batch` / `_redo_batch` (marks move with the text),
+`render_line` (gutter marks), `_refresh_size` (the width is not measured anew at each key).
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, ClassVar
 from rich.segment import Segment
 from rich.style import Style
 from textual.binding import Binding, BindingType
+from textual.document._document import Document
+from textual.document._document_navigator import DocumentNavigator
 from textual.geometry import Size
 from textual.message import Message
 from textual.strip import Strip
@@ -21,6 +23,7 @@ from textual.widgets.text_area import Selection
 from desire_tui.editor import indent
 from desire_tui.editor.highlighting import LineHighlights
 from desire_tui.editor.marks import Marks
+from desire_tui.editor.unwrapped import UnwrappedDocument
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -62,19 +65,16 @@ class CodeArea(TextArea):
             super().__init__()
             self.key = key
 
-    def __init__(self, buffer: Buffer, text: str, theme: str) -> None:
+    def __init__(self, buffer: Buffer, text: str) -> None:
         self.buffer = buffer
         self.marks = Marks()
         self.popup_open = False
         self._width_most = 0
         self._text: str | None = None
-        super().__init__(
-            text, show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500
-        )
+        super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
         self._highlights = LineHighlights()
         self.indent_width = indent.WIDTH
-        self._editor_theme = theme
-        self._build_highlight_map()
+        self._set_document(text, None)
 
     def on_mount(self) -> None:
         """Take the colours of the app's theme."""
@@ -117,6 +117,17 @@ class CodeArea(TextArea):
             highlights.document = self.document
             highlights.marks = self.marks.problems
 
+    def _set_document(self, text: str, language: str | None) -> None:
+        del language
+        self._highlight_query = None
+        self._width_most = 0
+        self.document = Document(text)
+        self.wrapped_document = UnwrappedDocument(self.document, tab_width=self.indent_width)
+        self.navigator = DocumentNavigator(self.wrapped_document)
+        self._build_highlight_map()
+        self.move_cursor((0, 0))
+        self._rewrap_and_refresh_virtual_size()
+
     def marks_changed(self) -> None:
         """Draw again after `marks` changed."""
         self._build_highlight_map()
@@ -154,11 +165,6 @@ class CodeArea(TextArea):
         width = self._width_most + self.gutter_width + 1
         self.virtual_size = Size(width, self.document.line_count)
         self._refresh_scrollbars()
-
-    def load_text(self, text: str) -> None:
-        """Replace the whole text; the undo history ends here."""
-        self._width_most = 0
-        super().load_text(text)
 
     def render_line(self, y: int) -> Strip:
         """Draw a row, with its mark in the gutter."""

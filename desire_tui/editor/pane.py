@@ -86,7 +86,7 @@ class EditorPane(Vertical):
 
     async def add(self, buffer: Buffer, text: str | None = None, *, front: bool = True) -> CodeArea:
         """Open a tab; an untouched empty one is replaced."""
-        area = CodeArea(buffer, buffer.saved_text if text is None else text, self.app.current_theme.name)
+        area = CodeArea(buffer, buffer.saved_text if text is None else text)
         blank = (
             self._front if self._front and not self._front.text and self._front.buffer.path is None else None
         )
