@@ -247,8 +247,9 @@ def test_a_misspelt_name_gets_a_hint():
         ("read a | data 3 | write a", []),
         ("write total\nNN = 3\ndrun\nDYNAMIC\ntotal = total + 1", []),
         ("MATRIX A = $In(A)", [(200, "A")]),
+        ("x = 1\nd/dt x = 2\nOUT\ntype q", [(300, None), (300, None), (300, None)]),
     ],
 )
 def test_names_of_the_script(script, expected):
     problems = check(parse(source(script)))
-    assert [(d.code, d.facts["name"]) for d in problems] == expected
+    assert [(d.code, d.facts.get("name")) for d in problems] == expected

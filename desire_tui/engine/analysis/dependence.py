@@ -15,7 +15,19 @@ import numpy as np
 
 from desire_tui.engine.analysis.reach import reads, writes
 from desire_tui.engine.analysis.slices import derivative_slice
-from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Op, Set, SetVec, Shifted, Table1, Table2, Vec
+from desire_tui.engine.lowered import (
+    Deriv,
+    DerivVec,
+    Guard,
+    Load,
+    Op,
+    Set,
+    SetVec,
+    Shifted,
+    Table1,
+    Table2,
+    Vec,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -42,7 +54,7 @@ _NONE: Bonds = frozenset()
 
 
 def dependence(segment: Segment) -> Entries:
-    """Return rows and columns of the entries of ∂(dx/dt)/∂x that may differ from 0; an entry may occur twice."""
+    """Return rows and columns of the entries of ∂(dx/dt)/∂x that may differ from 0, some twice."""
     finder = _Finder(segment)
     finder.run(derivative_slice(segment), certain=True)
     return finder.entries()
@@ -84,7 +96,9 @@ class _Finder:
             if count == 1:
                 self._scalars[slot] = bonds if certain else bonds | self._scalars.get(slot, _NONE)
             elif bonds or (slot, count) in self._arrays:
-                self._arrays[slot, count] = bonds if certain else bonds | self._arrays.get((slot, count), _NONE)
+                self._arrays[slot, count] = (
+                    bonds if certain else bonds | self._arrays.get((slot, count), _NONE)
+                )
 
     # ------------------------------------------------------------------ expressions
 
@@ -142,7 +156,7 @@ class _Finder:
 
 
 def extent(value: Value) -> int:
-    """Number of elements of an expression."""
+    """Return the number of elements of an expression."""
     if isinstance(value, Op):
         return max((extent(argument) for argument in value.args), default=1)
     if isinstance(value, Vec | Shifted):
@@ -162,10 +176,12 @@ def extent(value: Value) -> int:
 
 
 def _spread(bonds: Bonds, count: int) -> Bonds:
-    """A scalar's bonds among the elements of a vector: it goes into each of them."""
+    """Spread a scalar's bonds over the elements of a vector: it goes into each of them."""
     if count == 1:
         return bonds
-    return frozenset(b._replace(hi=count) if b.kind == "block" and (b.lo, b.hi) == (0, 1) else b for b in bonds)
+    return frozenset(
+        b._replace(hi=count) if b.kind == "block" and (b.lo, b.hi) == (0, 1) else b for b in bonds
+    )
 
 
 def _shift(bonds: Bonds, by: int, count: int) -> Bonds:

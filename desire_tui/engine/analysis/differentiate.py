@@ -16,8 +16,24 @@ from desire_tui.engine.analysis.slices import derivative_slice, draws, needed
 from desire_tui.engine.analysis.slopes import SLOPES, ZERO, op, plus
 from desire_tui.engine.analysis.tangents import NotDifferentiable, Tangents
 from desire_tui.engine.lowered import (
-    Const, Deriv, DerivVec, DotTerm, Guard, Load, MatVec, Op, Outer, RowOf, Set, SetDot, SetMat, SetVec, Shifted,
-    Table1, Table2, Vec,
+    Const,
+    Deriv,
+    DerivVec,
+    DotTerm,
+    Guard,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    Shifted,
+    Table1,
+    Table2,
+    Vec,
 )  # fmt: skip
 
 if TYPE_CHECKING:
@@ -26,20 +42,19 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered import Action, Segment, Value
 
 _NUDGE = Const(1e-6)
-"""Relative distance over which a table's slope is taken: exact inside an interval, where tables are linear."""
+"""Relative distance over which a table's slope is taken: exact inside an interval, where it is linear."""
 
 
 @dataclass(frozen=True)
 class Tangent:
-    """The tangent pass: `body`'s derivatives are J·v, v being the `order` numbers from slot `directions` on."""
+    """The tangent pass: `body`'s derivatives are J·v, v the `order` numbers from slot `directions` on."""
 
     body: tuple[Action, ...]
     directions: int
 
 
 def differentiate(segment: Segment, room: Callable[[int], int]) -> Tangent:
-    """Differentiate a segment's derivative pass; `room(count)` gives the first of `count` fresh slots that
-    are 0.
+    """Differentiate a segment's derivative pass; `room(count)` gives the first of `count` slots that are 0.
 
     NotDifferentiable: the pass draws random numbers, remembers, or uses a statement that has no derivative.
     """
@@ -123,7 +138,7 @@ class _Differentiator:
     # ------------------------------------------------------------------ expressions
 
     def of(self, value: Value) -> Value | None:
-        """Return the tangent of an expression, None for 0. An expression that occurs twice is treated once."""
+        """Return the tangent of an expression, None for 0. One that occurs twice is treated once."""
         known = self._known.get(id(value))
         if known is None:
             known = self._known[id(value)] = (value, self._of(value))

@@ -10,7 +10,7 @@ from desire_tui.engine.analysis.declared import Survey
 from desire_tui.engine.analysis.scope import LiveScope
 from desire_tui.engine.analysis.segments import lower_segment
 from desire_tui.engine.analysis.structure import structure as find_structure
-from desire_tui.engine.analysis.unknown import unknown_names
+from desire_tui.engine.analysis.unknown import misplaced, unknown_names
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.nodes import Bare, Call, Derivative, Function, Invoke, Name
 
@@ -56,7 +56,7 @@ def check(program: Program) -> tuple[Diagnostic, ...]:
     segment's first `drun` could assign it; sizes that the script computes are not checked.
     """
     found = find_structure(program)
-    problems = [*program.problems, *found.problems]
+    problems = [*program.problems, *found.problems, *misplaced(program, found)]
     survey = Survey(program, found)
     functions = functions_of(found)
     for text in program.segments:

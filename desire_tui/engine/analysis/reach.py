@@ -5,7 +5,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered import (
-    Deriv, DerivVec, Load, MatVec, Op, Outer, RowOf, Set, SetDot, SetMat, SetVec, Shifted, Table1, Table2, Vec,
+    Deriv,
+    DerivVec,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    Shifted,
+    Table1,
+    Table2,
+    Vec,
 )  # fmt: skip
 
 if TYPE_CHECKING:

@@ -1,8 +1,8 @@
 """Derivatives of the library functions, as lowered expressions of their arguments.
 
 Each entry of `SLOPES` takes the arguments x, … and their tangents x', … (None where a tangent is 0) and
-returns the tangent of the function's value, None for 0. Where a function has a kink, the derivative is one of its two
-sides' there.
+returns the tangent of the function's value, None for 0. Where a function has a kink, the derivative is that
+of one of its sides.
 """
 
 from __future__ import annotations

@@ -43,15 +43,17 @@ class Tangents:
             base = self.directions + s.first - (s.slot - self._starts[region])
             inside = self.directions <= base and base + self._size(region) <= self.directions + order
             if self._base[region] not in (None, base) or not inside:
-                raise NotDifferentiable(s)  # an array that overlaps states in another order, or reaches beyond
+                raise NotDifferentiable(
+                    s
+                )  # an array that overlaps states in another order, or reaches beyond
             self._base[region] = base
         self._spread(flat)
-        for region, base in enumerate(self._base):
-            if base == -1:
+        for region, place in enumerate(self._base):
+            if place == -1:
                 self._base[region] = room(self._size(region))
 
     def slot(self, slot: int) -> int | None:
-        """Return the slot of the tangent of the number in a slot; None if it does not depend on the states."""
+        """Return the slot of a number's tangent; None if it does not depend on the states."""
         region = self._region(slot)
         if region < 0 or slot >= self._ends[region]:
             return None

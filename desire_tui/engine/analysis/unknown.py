@@ -23,6 +23,11 @@ _NAMES_ARE_NOT_READ = (
     nodes.Declare, nodes.Label, nodes.GoTo, nodes.Drun, nodes.Restore, nodes.FileCommand, nodes.Submodel,
     nodes.Procedure, nodes.Display, nodes.Simple,
 )  # fmt: skip
+_SEGMENT_ONLY = (
+    nodes.Derivative, nodes.VectorDerivative, nodes.Store, nodes.Get, nodes.Delay, nodes.TrackHold,
+    nodes.FunctionTable, nodes.Term, nodes.Sample, nodes.Request, nodes.Learn, nodes.Invoke,
+)  # fmt: skip
+_SEGMENT_WORDS = frozenset({"OUT", "step", "JACOBIAN"})
 _SCRIPT_CONSTANTS = frozenset({"j", "PI"})
 
 
@@ -44,7 +49,7 @@ def unknown_names(
     problems: list[Diagnostic] = []
     complained: set[str] = set()
     for placed in program.script:
-        if id(placed) in in_bodies or isinstance(placed.node, _NAMES_ARE_NOT_READ):
+        if id(placed) in in_bodies or isinstance(placed.node, _NAMES_ARE_NOT_READ + _SEGMENT_ONLY):
             continue
         for part in _reads(placed.node):
             name = part.name
@@ -61,6 +66,20 @@ def unknown_names(
             complained.add(name)
             problems.append(_problem(program, placed, part, functions if is_call else known))
     return problems
+
+
+def misplaced(program: Program, structure: Structure) -> list[Diagnostic]:
+    """Return errors 300: statements of DYNAMIC segments in the script (bodies of submodels may hold them)."""
+    in_bodies = {id(p) for s in structure.submodels.values() for p in s.body}
+    return [
+        Diagnostic("not-in-script", placed.span(), {}, program.source)
+        for placed in program.script
+        if id(placed) not in in_bodies
+        and (
+            isinstance(placed.node, _SEGMENT_ONLY)
+            or (isinstance(placed.node, nodes.Simple) and placed.node.word in _SEGMENT_WORDS)
+        )
+    ]
 
 
 def _problem(
