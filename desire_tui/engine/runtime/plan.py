@@ -30,6 +30,8 @@ POINTS_DEFAULT = 251
 ROUNDING = 1e-9
 """Relative tolerance wherever steps are counted: 0.1 + 0.2 must not be one step longer than 0.3."""
 
+_ROUNDING_NN = 1e-6
+
 DUMMY = 0
 VARIABLE_STEP = frozenset({4, 7, 8})
 VARIABLE_ORDER = frozenset(range(9, 17))
@@ -121,8 +123,8 @@ class Defaults:
         nn = self._own(NN)
         if nn is not None and not isfinite(nn):
             raise _error("nn-not-a-number", value=nn)
-        if nn is not None and int(nn * (1 + ROUNDING)) > 1:
-            return int(nn * (1 + ROUNDING))
+        if nn is not None and int(nn + _ROUNDING_NN) > 1:
+            return int(nn + _ROUNDING_NN)  # TMAX/DT + 1 may be a little less than whole
         points = POINTS_DEFAULT
         t_max, dt = self._own(TMAX), self._own(DT)
         if nn is None and t_max is not None and dt is not None and dt > 0.0:
