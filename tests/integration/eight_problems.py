@@ -47,7 +47,9 @@ class Problem:
             settings.append(f"ERMAX = {ermax!r}")
         if rule in VARIABLE:
             settings.append(f"DTMIN = {step / 1e6!r}")
-            if self.checked:  # the test difference |x| + 1 says nothing about a state of 3.6e-5: watch that one
+            if (
+                self.checked
+            ):  # the test difference |x| + 1 says nothing about a state of 3.6e-5: watch that one
                 state = self.checked - 1
                 settings += [f"CHECKN = {self.checked}", f"ERMAX = {ermax * self.scale[state]!r}"]
         return "\n".join([self.script, *settings, "drun", "DYNAMIC", self.body, ""])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from stiff_programs import run
 
 from desire_tui.engine.analysis.dependence import dependence
 from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
@@ -11,8 +12,6 @@ from desire_tui.engine.analysis.slices import derivative_slice
 from desire_tui.engine.reference.backend import ReferenceBackend
 from desire_tui.engine.reference.statements import Statements
 from desire_tui.engine.values import T
-
-from stiff_programs import run
 
 
 def lowered(text):
@@ -134,7 +133,9 @@ def test_shifts_give_bands():
 
 
 def test_shifted_defined_vectors():
-    text = program("n = 8 | STATE u[n] | ARRAY flux[n]", "Vector flux = u*u - u{-1}\nVectr d/dt u = flux{1} - flux")
+    text = program(
+        "n = 8 | STATE u[n] | ARRAY flux[n]", "Vector flux = u*u - u{-1}\nVectr d/dt u = flux{1} - flux"
+    )
     pattern = compare(text)
     i, k = np.indices((8, 8))
     assert (pattern == (np.abs(k - i) <= 1)).all()
@@ -189,7 +190,7 @@ def test_what_remembers_or_draws_has_no_derivative(script, body):
         differentiate(segment, values.room)
 
 
-def test_nothing_but_the_states_moves(seed=2):
+def test_nothing_but_the_states_moves():
     """The tangent pass leaves states and t alone, and its own numbers are 0 before and after."""
     model = Model(program("x = 0.5 | y = 0.4", "p = x*y\nd/dt x = p\nd/dt y = -p*x"))
     x = np.array([0.3, 0.7])

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-
 from eight_problems import ERMAX, LOOSE, RULES, kepler, limit, problems, solve
+
 from desire_tui.engine.integration import TABLEAUS
 
 PROBLEMS = problems()
@@ -21,7 +21,9 @@ def test_every_rule(problem):
     assert not wrong
 
 
-@pytest.mark.parametrize("problem", [p for p in PROBLEMS if p.name in {"Robertson", "HIRES", "Lorenz"}], ids=lambda p: p.name)
+@pytest.mark.parametrize(
+    "problem", [p for p in PROBLEMS if p.name in {"Robertson", "HIRES", "Lorenz"}], ids=lambda p: p.name
+)
 @pytest.mark.parametrize("rule", [10, 11, 14, 15])
 def test_both_back_ends_agree(problem, rule):
     native, reference = (solve(problem, rule, ERMAX, backend) for backend in ("native", "reference"))

@@ -8,20 +8,19 @@ from math import cos, exp
 
 import numpy as np
 import pytest
+from stiff_programs import numbers as written
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.integration.callbacks import numbers
 from desire_tui.engine.integration.sundials import library
 from desire_tui.engine.integration.sundials.linear import Linear, positions
 from desire_tui.engine.integration.sundials.signatures import (
+    TSTOP_RETURN,
     JacobianFunction,
     RhsFunction,
-    TSTOP_RETURN,
     WeightFunction,
 )
 from desire_tui.engine.integration.sundials.solver import Callbacks, Solver
-
-from stiff_programs import numbers as written
 
 LINEARS = ("fixed-point", "dense", "dense", "diagonal")
 
@@ -108,8 +107,12 @@ def test_solvers_are_given_back():
 def test_positions_are_where_sundials_keeps_the_entries():
     """Write row·100 + column through `positions`, read through SUNDIALS' own accessors' layout (columns)."""
     n, lower, upper = 6, 2, 1
-    rows = np.array([r for c in range(n) for r in range(max(0, c - upper), min(n, c + lower + 1))], dtype=np.int32)
-    columns = np.array([c for c in range(n) for r in range(max(0, c - upper), min(n, c + lower + 1))], dtype=np.int32)
+    rows = np.array(
+        [r for c in range(n) for r in range(max(0, c - upper), min(n, c + lower + 1))], dtype=np.int32
+    )
+    columns = np.array(
+        [c for c in range(n) for r in range(max(0, c - upper), min(n, c + lower + 1))], dtype=np.int32
+    )
     loaded = library.libraries()
     context = ctypes.c_void_p()
     loaded.core.SUNContext_Create(0, ctypes.byref(context))

@@ -1,4 +1,4 @@
-"""A segment as native code under a rule 9 … 16: passes compiled here, steps made by CVODE, no Python between."""
+"""A segment as native code under a rule 9 … 16: compiled passes, CVODE's steps, no Python between."""
 
 from __future__ import annotations
 
@@ -76,7 +76,9 @@ class StiffModel:
 
     def _fill_context(self, segment: Segment, interval: int) -> None:
         order = segment.order
-        self._slots = np.concatenate([np.arange(s.slot, s.slot + s.count) for s in segment.states]).astype(np.int64)
+        self._slots = np.concatenate([np.arange(s.slot, s.slot + s.count) for s in segment.states]).astype(
+            np.int64
+        )
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
         self._temps, self._k1 = np.zeros(self._tables.temps), np.zeros(order)
         self.context = context = Context(values=self._values.address, states=order)
@@ -99,7 +101,11 @@ class StiffModel:
             return ()
         self._advised = True
         values, slots, order = self._values.data, self._slots, self._slots.size
-        memory, kept, k = RunMemory(values=self._values.address), self._values.data[self._slots].copy(), np.zeros(order)
+        memory, kept, k = (
+            RunMemory(values=self._values.address),
+            self._values.data[self._slots].copy(),
+            np.zeros(order),
+        )
 
         def derivatives(x: NDArray[np.float64]) -> NDArray[np.float64]:
             values[slots] = x
@@ -170,4 +176,3 @@ def _plan(segment: Segment, rule: int, extra: Mapping[str, object]) -> Plan:
     else:
         pattern = Pattern.of(order, *dependence(segment))
     return plan(rule, pattern, program="jacobian" in extra, tangent="tangent" in extra)
-

@@ -63,7 +63,7 @@ def _add_scatter(module: Any) -> None:
 
 
 def _add_rhs(module: Any) -> None:
-    """CVRhsFn. A derivative that is not finite: `suspect` is its state, and CVODE is asked for a smaller step."""
+    """CVRhsFn. A derivative that is not finite makes its state `suspect`, and CVODE try a smaller step."""
     f = Function(module, "desire_rhs", INT32, [REAL, POINTER, POINTER, POINTER])
     t, y, ydot, problem = f.arguments
     k = _numbers(f, ydot)
@@ -82,7 +82,7 @@ def _add_rhs(module: Any) -> None:
 
 
 def _all_finite(f: Function, k: Any, n: Any) -> Any:
-    """Whether all of n numbers are finite: 0·x is 0 for finite x only. Eight at a time: this follows every call."""
+    """Whether n numbers are finite: 0·x is 0 for finite x only. Eight at a time: this follows every call."""
     eight = ir.VectorType(REAL, _LANES)
     total, single = f.build.alloca(eight), f.build.alloca(REAL)
     f.build.store(eight([0.0] * _LANES), total)

@@ -111,9 +111,7 @@ def _add_interval(module: Any) -> None:
     f.put(problem, "suspect", build.select(moving, INT(-1), f.get(problem, "suspect")))
     flag = f.outside("CVode", INT32, [solver, t_next, vector, reached, INT32(ONE_STEP)])
     t = build.load(reached, typ=REAL)
-    done = build.or_(
-        build.icmp_signed("==", flag, INT32(TSTOP_RETURN)), build.fcmp_ordered(">=", t, t_next)
-    )
+    done = build.or_(build.icmp_signed("==", flag, INT32(TSTOP_RETURN)), build.fcmp_ordered(">=", t, t_next))
     t = build.select(done, t_next, t)
     flag = _watch_progress(f, problem, t, flag)
     f.store(values, INT(T), t)

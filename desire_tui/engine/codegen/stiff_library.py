@@ -14,8 +14,8 @@ from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 
 _CALLED = (
-    "CVode", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep", "CVodeGetNumErrTestFails",
-    "CVodeGetNumNonlinSolvConvFails",
+    "CVode", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
+    "CVodeGetNumErrTestFails", "CVodeGetNumNonlinSolvConvFails",
 )  # fmt: skip
 
 
@@ -31,7 +31,7 @@ class StiffFunctions(NamedTuple):
 
 @cache
 def stiff_functions() -> StiffFunctions:
-    """Compile callbacks and interval loop (about 0.1 s). DesireError 460, 461: SUNDIALS cannot be used here."""
+    """Compile callbacks and interval loop (about 0.1 s). DesireError 460, 461: no SUNDIALS."""
     cvode = libraries().cvode
     llvm = machine().llvm
     for name in _CALLED:

@@ -1,4 +1,4 @@
-"""The run loop of rules 9 … 16: language.md 8.2 as `driver` writes it, its step a whole communication interval."""
+"""The run loop of rules 9 … 16: language.md 8.2 as `driver` writes it, a step a whole interval."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class StiffDriver(Driver):
-    """Calls `desire_interval` where other rules make a step; step passes inside the interval are its business."""
+    """Calls `desire_interval` where others make a step; it also makes the step passes inside the interval."""
 
     def _step(self, tableau: Tableau) -> None:  # noqa: ARG002 - CVODE has its own coefficients
         text = self.text
@@ -45,7 +45,9 @@ class StiffDriver(Driver):
 def stiff_loop() -> Piece:
     """Write the loop; it is the same for all models and all eight rules."""
     text = Text()
-    tableau = TABLEAUS[2]  # one stage: what the loop wants to know is only that there are steps of constant rule
+    tableau = TABLEAUS[
+        2
+    ]  # one stage: what the loop wants to know is only that there are steps of constant rule
     storage = ArrayStorage(text, 1, 1, contiguous=False)
     StiffDriver(text, storage, tableau).write()
     return named(text)

@@ -1,4 +1,4 @@
-"""Warnings before a run: a JACOBIAN segment that is wrong, a diagonal approximation of a matrix that is none."""
+"""Warnings before a run: a JACOBIAN segment that is wrong, a diagonal for a matrix that is none."""
 
 from __future__ import annotations
 
@@ -68,7 +68,9 @@ def _compare(segment: Segment, given: Array, found: Array) -> tuple[Diagnostic, 
     excess = np.abs(given - found) - _AGREES * size - 1e-6 * size.max(initial=0.0)
     if not (excess > 0.0).any():
         return ()
-    row, column = (int(i) for i in np.unravel_index(np.argmax(excess / np.where(size == 0.0, 1.0, size)), size.shape))
+    row, column = (
+        int(i) for i in np.unravel_index(np.argmax(excess / np.where(size == 0.0, 1.0, size)), size.shape)
+    )
     facts = {
         "row": row + 1, "column": column + 1, "given": given[row, column], "found": found[row, column],
         "state": _name(segment, row), "by": _name(segment, column),

@@ -45,7 +45,7 @@ class PythonModel(Protocol):
 
 
 class PythonCallbacks:
-    """Function objects and their addresses. An exception in the model is kept in `failure`; CVODE then gives up."""
+    """Function objects and their addresses. A model's exception is kept in `failure`; CVODE gives up."""
 
     def __init__(self, model: PythonModel) -> None:
         self._model = model

@@ -16,10 +16,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """Entries (row, column) that may differ from 0, sorted by column, then row, each once, with the whole
-    diagonal.
+    """Entries (row, column) that may differ from 0, sorted by column, then row, each once.
 
-    (The diagonal is needed: the matrix of an implicit step is I − γJ.)
+    The whole diagonal is among them (it is needed: the matrix of an implicit step is I − γJ).
     """
 
     n: int

@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.problem import Matrix
 from desire_tui.engine.integration.sundials.library import superlu
 from desire_tui.engine.integration.sundials.linear import Linear, positions
 
 if TYPE_CHECKING:
-    from desire_tui.engine.integration.pattern import Numbers
+    from desire_tui.engine.integration.pattern import Numbers, Pattern
     from desire_tui.engine.integration.problem import Problem
 
 RULES = range(9, 17)
@@ -77,7 +76,7 @@ def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = 
 
 
 def _linear(pattern: Pattern) -> Linear:
-    """Compare the operations of one factorisation: n³/3 dense, n·l·(l + u) band; sparse pays if both are many."""
+    """Compare the operations of one factorisation: n³/3 dense, 2·n·l·(l + u) band."""
     n = pattern.n
     if n <= DENSE_MOST:
         return Linear("dense")

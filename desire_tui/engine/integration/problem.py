@@ -14,8 +14,8 @@ _ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
 
 STUCK_MOST = 100
 """So many steps in a row that leave t as it was end the run: a pole, or a jump that no step gets across."""
-STUCK_FLAG = -1
-"""What is then reported: CVODE's flag for too much work."""
+STUCK_FLAG, STUCK_AT_EDGE_FLAG = -1, -10
+"""What is then reported, as CVODE's flags: too much work; derivatives that were not finite."""
 
 
 class Matrix(IntEnum):

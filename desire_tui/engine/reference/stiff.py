@@ -16,7 +16,7 @@ from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.callbacks import PythonCallbacks
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import kind_of, plan
-from desire_tui.engine.integration.problem import STUCK_FLAG, STUCK_MOST
+from desire_tui.engine.integration.problem import STUCK_AT_EDGE_FLAG, STUCK_FLAG, STUCK_MOST
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import Functions, StiffSystem
 from desire_tui.engine.reference.model import ReferenceModel
@@ -121,7 +121,9 @@ class StiffReferenceModel(ReferenceModel):
         def jacobian() -> Array:
             return self.jacobian(t, kept).reshape(self.order, self.order).copy()
 
-        return advice(self.system.rule, self._segment, Probe(kept, derivatives, jacobian if self._array else None))
+        return advice(
+            self.system.rule, self._segment, Probe(kept, derivatives, jacobian if self._array else None)
+        )
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on; see `ReferenceModel`."""
@@ -145,7 +147,7 @@ class StiffReferenceModel(ReferenceModel):
         t_next = memory.t_start + memory.point * memory.comint
         while True:
             self._follow()
-            problem.suspect = -1
+            problem.suspect = problem.suspect if problem.stuck else -1
             flag, t = solver.step(t_next)
             if self._callbacks.failure is not None:
                 failure, self._callbacks.failure = self._callbacks.failure, None
@@ -153,7 +155,8 @@ class StiffReferenceModel(ReferenceModel):
             done = flag == TSTOP_RETURN or t >= t_next
             t = t_next if done else t
             problem.stuck = problem.stuck + 1 if t == problem.t else 0
-            flag = STUCK_FLAG if problem.stuck > STUCK_MOST else flag
+            if problem.stuck > STUCK_MOST:
+                flag = STUCK_AT_EDGE_FLAG if problem.suspect >= 0 else STUCK_FLAG
             y = self._solution()
             self._place(t, y)
             system.last[:] = y

@@ -1,7 +1,8 @@
 """The C functions of SUNDIALS 7.9 that are used, with result and argument types, and its constants.
 
-From the SUNDIALS 7.9 user guide ("Using CVODE for IVP Solution", "Serial NVECTOR", "SUNMatrix", "SUNLinearSolver").
-`sunrealtype` is a double, `sunindextype` a 32-bit int (checked in `library`), every handle a pointer.
+From the SUNDIALS 7.9 user guide ("Using CVODE for IVP Solution", "Serial NVECTOR", "SUNMatrix",
+"SUNLinearSolver"). `sunrealtype` is a double, `sunindextype` a 32-bit int (checked in `library`), every
+handle a pointer.
 """
 
 from __future__ import annotations

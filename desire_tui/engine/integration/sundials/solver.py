@@ -20,9 +20,11 @@ _FAILURES_ALLOWED = 40
 """Failed tests in one step. CVODE's own 7 to 10 are too few where the program's DT is a wild guess."""
 
 _DIAGONAL_CONVERGENCE = 1e-4
-"""Share of the error test left to the corrector with CVDiag. CVODE's 0.1 trusts an estimate of the rate of convergence
-that a diagonal matrix makes far too good: Robertson's problem then comes out wrong by many times ERMAX, and no flag
-says so."""
+"""Share of the error test left to the corrector with CVDiag.
+
+CVODE's 0.1 trusts an estimate of the rate of convergence that a diagonal matrix makes far too good:
+Robertson's problem then comes out wrong by many times ERMAX, and no flag says so.
+"""
 
 
 @dataclass(frozen=True)
