@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from desire_tui.engine.diagnostics.wording.entry import Wording
 
 _FOR = "write: for i = 1 to 10 step 2"
 _DISPLAY = "display takes 0, 1, 2, or a letter: A B C F N Q R W Y"
 
-MESSAGES: dict[str, Wording] = {
+_SENTENCES: dict[str, Wording] = {
     # ------------------------------------------------------------------ one statement
     "not-a-statement": Wording(
         1, "'{first}' begins no statement", "assign it with =, or begin with a keyword"
@@ -103,4 +105,89 @@ MESSAGES: dict[str, Wording] = {
     "call-missing": Wording(
         300, "'{name}(…)' is no statement of a script", "call a PROCEDURE: call {name}(…)"
     ),
+}
+
+_EXPLANATIONS = {
+    "not-a-statement": """
+        Every statement begins with a keyword or with the name that it assigns. Case matters: `drun` is a
+        keyword, `Drun` is not. In a program an expression alone does nothing; on the command line it is
+        printed.
+    """,
+    "number-format": """
+        Numbers are written `12`, `.85`, `0.5`, `1.2E-07`. An exponent needs its digits, and there is one
+        decimal point. Names begin with a letter: `x2`, not `2x`.
+    """,
+    "then-missing": """
+        In a script `if` asks a question: `if a > b then`. Its statements follow, on the same line behind
+        `|` or on lines of their own, up to `proceed`; `else` may stand between. In a DYNAMIC segment `if`
+        has no `then`: `if e` lets the rest of the segment execute only while e > 0.
+    """,
+    "relation-expected": """
+        A condition is a relation `= < > <= >= <>` between two expressions, or several of them joined by
+        `and`, `or`, `not` and parentheses. A number is no condition: write `x <> 0`.
+    """,
+    "relation-misplaced": """
+        Relations have no value here. Use `if`, or the functions `swtch(a - b)` (1 if a > b, else 0) and
+        `comp(a - b, minus, plus)`.
+    """,
+    "operand-missing": """
+        An operator, a bracket or a keyword needs a value behind it. A line that ends with `+ - * / ^ =`
+        or `_` goes on in the next one; no other does.
+    """,
+    "bracket-unclosed": """
+        Subscripts and dimensions stand in brackets: `A[2, 3]`; arguments in parentheses: `sin(x)`; index
+        shifts in braces: `x{-1}`.
+    """,
+    "quote-unclosed": """
+        A string begins and ends on one line, with the same quote. The other quote may stand inside:
+        `"it's"`.
+    """,
+    "octal-digits": """
+        `&17370` is octal, `&&FC2` hexadecimal. Both have 16 bits, and values above 32767 stand for
+        negative numbers: `&&FFFF` is −1.
+    """,
+    "unclosed-block": """
+        Each block has its own end: `for` … `next`, `while` … `end while`, `repeat` … `until`, `if` …
+        `proceed`. Blocks nest but do not cross.
+    """,
+    "unclosed-definition": """
+        A PROCEDURE or SUBMODEL is everything up to its `end`.
+    """,
+    "stray-closer": """
+        Perhaps the block's first line was removed, or an inner block is closed twice.
+    """,
+    "stray-else": """
+        `else` and `proceed` belong to the last `if … then` that is still open. In DYNAMIC segments `end
+        if` closes an `if e`, and `else` turns it.
+    """,
+    "jump-inside": """
+        Jumps out of blocks, and within one, are fine. A jump into a loop would enter it without its first
+        line; jump to a label before the block.
+    """,
+    "nested-definition": """
+        PROCEDUREs and SUBMODELs are defined side by side, outside of loops and ifs. They may call each
+        other.
+    """,
+    "request-expression": """
+        `dispt`, `dispxy`, `DISPXY`, `type` and `stash` name variables or single elements. To show an
+        expression, assign it to a variable above: `y2 = 2*y - 1`.
+    """,
+    "element-illegal": """
+        Vector and matrix statements assign whole arrays. One element is assigned without the keyword:
+        `x[2] = 3`, `d/dt x[2] = 3`.
+    """,
+    "fft-form": """
+        `FFT F, n, x, y` transforms x + jy, `FFT I, n, x, y` back; `FFT R, n, x, y, u, v` transforms two
+        real arrays at once; `FFT C, n, x, y` convolves cyclically.
+    """,
+    "expression-too-deep": """
+        An expression this long cannot be handled safely. Assign parts of it to variables; the compiler
+        makes no slower code of that.
+    """,
+}
+"""What the help page of a message says beyond sentence and hint."""
+
+MESSAGES: dict[str, Wording] = {
+    key: replace(wording, explanation=" ".join(_EXPLANATIONS.get(key, "").split()))
+    for key, wording in _SENTENCES.items()
 }
