@@ -2,31 +2,30 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph import GraphBook
-from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.runtime.control import Control
 from desire_tui.engine.session.commands import Commands
 from desire_tui.engine.session.desk import Desk
-from desire_tui.engine.session.listener import Listener, StoppedAt
+from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.permissions import Permissions
+from desire_tui.engine.session.script import Script
 from desire_tui.engine.session.status import State, Status
 from desire_tui.engine.session.world import World
 from desire_tui.engine.source import Source
 from desire_tui.engine.values import DT, SCALE, TMAX, T
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Mapping
     from pathlib import Path
 
     from desire_tui.engine.graph import Graph
-    from desire_tui.engine.interpreter import Interpreter
     from desire_tui.engine.nodes import Placed, Program
     from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.session.listener import StoppedAt
     from desire_tui.engine.values import Values
 
 BackendName = Literal["native", "reference"]
@@ -57,11 +56,8 @@ class Session:
         self._world = World(self._desk, self._listener, self._control, self.graphs)
         self._commands = Commands(self, self._desk, self._world, self._listener)
         self._world.carry_out = self._commands.carry_out
-        self._world.write_to_channel = self._write_to_channel
-        self._interpreter: Interpreter | None = None
+        self._script = Script(self._desk, self._world, self._control, self._listener)
         self._checked: tuple[Source | None, tuple[Diagnostic, ...]] = (None, ())
-        self._stopped: StoppedAt | None = None
-        self._edited = False
 
     # ------------------------------------------------------------------ what there is
 
@@ -108,7 +104,7 @@ class Session:
     @property
     def stopped_at(self) -> StoppedAt | None:
         """Where the script stopped, if `go` can continue it."""
-        return None if self._edited else self._stopped
+        return None if self._script.edited else self._script.stopped
 
     @property
     def status(self) -> Status:
@@ -127,7 +123,7 @@ class Session:
             t0=record.t0 if record else 0.0, t_max=record.t_max if record else cells[TMAX], steps=steps,
             steps_per_second=world.simulator.pace(steps, record), dt=cells[DT],
             rule=record.rule if record and memory is not None else world.rule,
-            program=self._desk.source.name if self.program else "", edited=self._edited,
+            program=self._desk.source.name if self.program else "", edited=self._script.edited,
         )  # fmt: skip
 
     # ------------------------------------------------------------------ the program
@@ -143,8 +139,8 @@ class Session:
         began = perf_counter()
         program = parse(source)
         self._desk.parse_seconds = perf_counter() - began
-        if self._stopped is not None and source.text != self._desk.source.text:
-            self._edited = True
+        if self._script.stopped is not None and source.text != self._desk.source.text:
+            self._script.edited = True
         self._desk.program = self._desk.with_breakpoints(self._desk.overridden(program))
         self._desk.structure = structure(self._desk.program)
         self._desk.journal.program(source)
@@ -177,11 +173,8 @@ class Session:
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
         self._desk.program = self._desk.structure = None
-        self._drop_interpreter()
-        self._stopped = None
-        self._clear()
+        self._script.forget()
         self._world.rule, self._world.rule_is_set = 1, False
-        self.values.assign(SCALE, 1.0)
 
     # ------------------------------------------------------------------ running
 
@@ -192,23 +185,15 @@ class Session:
             raise DesireError(Diagnostic("no-program"))
         self.accept(source)
         self._world.rule, self._world.rule_is_set = 1, False
-        self._start(scale=1.0)
+        self._script.run(scale=1.0)
 
     def run(self) -> None:
         """Run the active program's script again from the top, keeping irule and scale."""
-        self._start(scale=self.values.cells[SCALE])
+        self._script.run(scale=self.values.cells[SCALE])
 
     def go(self) -> None:
         """Continue after STOP; error 43 if there is nothing to continue or the program was edited."""
-        if self._interpreter is None or self._stopped is None:
-            raise DesireError(Diagnostic("go-without-stop"))
-        if self._edited:
-            raise DesireError(Diagnostic("go-after-edit"))
-        self._stopped = None
-        self._world.step_allowed = self._interpreter.stepping
-        with self._working():
-            self._interpreter.go()
-        self._note_stop()
+        self._script.go()
 
     def execute(self, text: str) -> None:
         """Carry out one command line; an empty line does nothing."""
@@ -223,99 +208,12 @@ class Session:
         waiting: list[Placed] = []
         for placed in statements:
             if self._commands.is_own(placed.node):
-                self._interpret(waiting, source)
+                self._script.interpret(waiting, source)
                 waiting = []
                 self._commands.carry_out_statement(placed, source)
             else:
                 waiting.append(placed)
-        self._interpret(waiting, source)
-
-    def _interpret(self, statements: list[Placed], source: Source) -> None:
-        if not statements:
-            return
-        before = self._desk.command
-        self._desk.command = source
-        try:
-            with self._working(source):
-                self._interpreter_now().execute(tuple(statements), source)
-        finally:
-            self._desk.command = before
-
-    def _start(self, scale: float) -> None:
-        program, script = self._desk.runnable()
-        self._clear()
-        self.values.assign(SCALE, scale)
-        self._stopped, self._edited = None, False
-        self._world.forget_runs()
-        tracing = self._interpreter is not None and self._interpreter.stepping
-        self._drop_interpreter()
-        self._desk.journal.program(program.source)
-        with self._working():
-            interpreter = self._interpreter_now()
-            interpreter.stepping = tracing
-            interpreter.run()
-        self._note_stop()
-        del script
-
-    def _clear(self) -> None:
-        from desire_tui.engine.analysis import state_order
-
-        self.values.clear()
-        self.graphs.begin_program()
-        if self.program is not None:
-            for name in state_order(self.program):
-                self.values.scalar(name, is_state=True)
-        for name, value in self._desk.overrides.items():
-            self.values.assign(self.values.scalar(name).slot, value)
-        self._listener.quantities_cleared()
-
-    def _drop_interpreter(self) -> None:
-        """Forget the script's interpreter; the files it connected are closed."""
-        if self._interpreter is not None:
-            self._interpreter.channels.close()
-        self._interpreter = None
-
-    def _interpreter_now(self) -> Interpreter:
-        if self._interpreter is None:
-            from desire_tui.engine.analysis import structure
-            from desire_tui.engine.interpreter import Interpreter
-            from desire_tui.engine.syntax import parse
-
-            program = self._desk.program or parse(Source("", "<none>"))
-            script = self._desk.structure or structure(program)
-            self._interpreter = Interpreter(program, script, self.values, self._world)
-            self._world.stop_here = self._interpreter.stop_here
-        return self._interpreter
-
-    def _note_stop(self) -> None:
-        """Tell where the script stands, if it came to a STOP."""
-        interpreter = self._interpreter
-        placed = interpreter.position if interpreter is not None else None
-        if interpreter is not None and placed is not None:
-            self._stopped = StoppedAt(placed, self._desk.source, tracing=interpreter.stepping)
-            self._listener.stopped_at(self._stopped)
-
-    @contextmanager
-    def _working(self, source: Source | None = None) -> Iterator[None]:
-        """Frame of everything that may be paused and ended; places problems that have no source yet."""
-        control, world = self._control, self._world
-        control.begin()
-        before, world.state = world.state, State.SCRIPT
-        place = source or self._desk.source
-        try:
-            yield
-        except Interrupted:
-            raise DesireError(Diagnostic("stopped-by-user", source=place)) from None
-        except DesireError as error:
-            raise DesireError(*(d.within(place) for d in error.diagnostics)) from error
-        except MemoryError:
-            raise DesireError(Diagnostic("memory-exhausted", source=place)) from None
-        finally:
-            world.state = before
-            control.done()
-
-    def _write_to_channel(self, channel: int, text: str) -> None:
-        self._interpreter_now().channels.write(channel, text)
+        self._script.interpret(waiting, source)
 
     # ------------------------------------------------------------------ steering, from any thread
 

@@ -10,10 +10,10 @@ import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.runtime import listing
 from desire_tui.engine.runtime.record import RunRecord
 from desire_tui.engine.runtime.run import Simulator
 from desire_tui.engine.runtime.stash import write_stash
+from desire_tui.engine.session.lister import Lister
 from desire_tui.engine.session.status import State
 from desire_tui.engine.values import SCALE
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from desire_tui.engine.graph import GraphBook
-    from desire_tui.engine.lowered import Request, Segment
+    from desire_tui.engine.lowered import Segment
     from desire_tui.engine.nodes import Placed
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.control import Control
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 
 RUNS_BYTES_MAX = 1 << 30
 """Samples of all runs kept; the oldest go first."""
-_SHELL_POLL_SECONDS = 0.05
 
 
 class World:
@@ -55,7 +54,7 @@ class World:
         self.step_allowed = False
         """The traced script may carry out the statement it stands at (`go` was given)."""
         self.carry_out: Callable[[str, str | None], None] = _nothing
-        self.write_to_channel: Callable[[int, str], None] = _nothing
+        self.write_to_channel: Callable[[int, str], object] = _nothing
 
     # ------------------------------------------------------------------ runs
 
@@ -88,7 +87,7 @@ class World:
         )  # fmt: skip
         self._keep(record)
         graph = self._graphs.begin_run(record, segment.pictures)
-        lister = _Lister(record, self)
+        lister = Lister(record, self.write, self.write_to_channel)
         self.state = State.RUNNING
         self._listener.run_started(record)
         if graph is not None:
@@ -124,6 +123,10 @@ class World:
         self.runs.append(record)
         while self._runs_bytes > RUNS_BYTES_MAX:
             self._runs_bytes -= self.runs.pop(0).rows.nbytes
+
+    def begin_program(self) -> None:
+        """Set the display back to where a program starts."""
+        self._graphs.begin_program()
 
     def forget_runs(self) -> None:
         """Begin a program: its runs count from 1."""
@@ -204,26 +207,10 @@ class World:
 
     def shell(self, command: str) -> None:
         """Run a shell command, its output to the console; Ctrl-C ends it."""
-        import subprocess
+        from desire_tui.engine.session.shell import run_shell
 
         self._desk.permissions.shell_command(command, self._listener.permit)
-        process = subprocess.Popen(  # noqa: S602 - a shell is what the statement is for; permission was asked
-            command, shell=True, cwd=self._desk.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-        )  # fmt: skip
-        while True:
-            try:
-                output, _ = process.communicate(timeout=_SHELL_POLL_SECONDS)
-                break
-            except subprocess.TimeoutExpired:
-                if self._control.ending:
-                    process.kill()
-        self.write(output.decode(errors="replace"))
-        if self._control.ending:
-            raise Interrupted
-        if process.returncode:
-            facts = {"command": command, "status": process.returncode}
-            raise DesireError(Diagnostic("shell-failed", facts=facts))
+        run_shell(command, self._desk.folder, self.write, lambda: self._control.ending)
 
     def permit(self, path: Path, mode: Literal["read", "write"]) -> Path:
         """Return the resolved path if the program may open it."""
@@ -247,30 +234,6 @@ class World:
             self._control.wait()
             self.state = before
         return self._control.ending
-
-
-class _Lister:
-    """Writes the samples of a `type` request as they come."""
-
-    def __init__(self, record: RunRecord, world: World) -> None:
-        self._world = world
-        self._request: Request | None = next((r for r in record.requests if r.kind == "type"), None)
-        if self._request is not None:
-            self._first = record.first_column(self._request)
-            self._write(listing.header(self._request) + "\n")
-
-    def block(self, record: RunRecord, first_row: int) -> None:
-        if self._request is None:
-            return
-        rows = record.rows[first_row : record.count]
-        self._write(listing.lines(rows, self._first, len(self._request.columns)))
-
-    def _write(self, text: str) -> None:
-        assert self._request is not None
-        if self._request.channel is None:
-            self._world.write(text)
-        else:
-            self._world.write_to_channel(self._request.channel, text)
 
 
 def _placed_at(error: DesireError, desk: Desk, placed: Placed) -> DesireError:
