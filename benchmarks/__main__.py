@@ -1,4 +1,4 @@
-"""Runs every benchmark (`bench_*.py`): `python -m benchmarks [name …]`. Each prints its own table beside its yardstick."""
+"""Runs every benchmark, `bench_*.py`: `python -m benchmarks [name …]`."""
 
 from __future__ import annotations
 

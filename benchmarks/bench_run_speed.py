@@ -1,8 +1,8 @@
-"""Speed of runs beside C (gcc -O3 -march=native, loops written as one would by hand), same step, rule and sums.
+"""Speed of runs beside C (gcc -O3 -march=native, loops as one would write them by hand).
 
-Goals (performance.md): Lorenz and the ladder ≤ 1.1 times C, Monte Carlo ≤ 0.35 times; one million states within the
-memory of 20 such arrays. Runs are measured once fast code is in; the first run, with everything that comes before
-it, stands beside.
+Goals (performance.md): Lorenz and the ladder ≤ 1.1 times C, Monte Carlo ≤ 0.35 times; one million states
+within the memory of 20 such arrays. Runs are measured once fast code is in; the first run, with everything
+that comes before it, stands beside.
 """
 
 from __future__ import annotations
@@ -58,8 +58,9 @@ def lorenz() -> Work:
         "a = 10 | b = 8/3 | r = 28 | irule 3\nx = 1 | y = 1 | z = 1 | t = 0\n"
         f"TMAX = {steps * 1e-4:g} | DT = 0.0001 | NN = 251\ndrun\nDYNAMIC\n"
         "d/dt x = a*(y - x)\nd/dt y = x*(r - z) - y\nd/dt z = x*y - b*z\ndispt x, y, z\n",
-        "#define N 3\nstatic double a = 10, b = 8./3, r = 28;\nstatic inline void f(const double *x, double *d)"
-        "{ d[0] = a*(x[1] - x[0]); d[1] = x[0]*(r - x[2]) - x[1]; d[2] = x[0]*x[1] - b*x[2]; }" + _RK4,
+        "#define N 3\nstatic double a = 10, b = 8./3, r = 28;\n"
+        "static inline void f(const double *x, double *d) {"
+        "d[0] = a*(x[1] - x[0]); d[1] = x[0]*(r - x[2]) - x[1]; d[2] = x[0]*x[1] - b*x[2]; }" + _RK4,
         "x[0] = x[1] = x[2] = 1;",
         f"for (long i = 0; i < {steps}; i++) step(0.0001);",
         "x[2]*0 + 1",  # chaos: rounding alone makes the ends differ
@@ -126,7 +127,8 @@ def layer() -> Work:
         "for i = 1 to n | x[i] = 0.01*i - 1 | for k = 1 to n | W[i,k] = sin(i*k)/n | next | next\n"
         f"t = 0 | TMAX = {steps * 1e-2} | DT = 0.01 | NN = 2\ndrun\nDYNAMIC\n"
         "Vectr d/dt x = tanh(W*x) - 0.1*x\nx1 = x[1]\ndispt x1\n",
-        f"#define N {n}\nstatic double W[N][N];\nstatic void f(const double *restrict x, double *restrict d) {{\n"
+        f"#define N {n}\nstatic double W[N][N];\n"
+        "static void f(const double *restrict x, double *restrict d) {\n"
         "    for (int i = 0; i < N; i++) { double s = 0; for (int k = 0; k < N; k++) s += W[i][k]*x[k];\n"
         "        d[i] = tanh(s) - 0.1*x[i]; }\n}" + _RK4,
         "for (int i = 0; i < N; i++) { x[i] = 0.01*(i+1) - 1;"
@@ -157,7 +159,7 @@ def heat() -> Work:
 
 
 def measure(work: Work) -> tuple[float, float, float, float]:
-    """Return seconds of the first run, seconds of the next ones (median), megabytes more, the variable at the end."""
+    """Return seconds of the first run, median of later ones, megabytes more, the variable at the end."""
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     session = Session()
     session.erun(Source(work.program, work.name))
@@ -176,7 +178,8 @@ def measure(work: Work) -> tuple[float, float, float, float]:
 
 
 def main() -> None:
-    print(f"{'work':64} {'C s':>9} {'ours s':>9} {'ratio':>6} {'goal':>5} {'first s':>8} {'MB':>6}  same result")
+    heads = f"{'C s':>9} {'ours s':>9} {'ratio':>6} {'goal':>5} {'first s':>8} {'MB':>6}  same result"
+    print(f"{'work':64} {heads}")
     for work in (lorenz(), ladder(), monte_carlo(), layer(), heat()):
         c, wanted = run_c(work.declarations, work.before, work.work, work.result)
         first, ours, more, found = measure(work)

@@ -22,7 +22,8 @@ int main(void) {{
         clock_gettime(CLOCK_MONOTONIC, &begun);
         {work}
         clock_gettime(CLOCK_MONOTONIC, &ended);
-        printf("%.9f %.17g\\n", (ended.tv_sec - begun.tv_sec) + 1e-9*(ended.tv_nsec - begun.tv_nsec), {result});
+        printf("%.9f %.17g\\n", (ended.tv_sec - begun.tv_sec) + 1e-9*(ended.tv_nsec - begun.tv_nsec),
+        {result});
     }}
 }}
 """

@@ -9,7 +9,7 @@ from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.runtime.memory import Ended
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse
-from desire_tui.engine.values import ERRMAX, Values, T
+from desire_tui.engine.values import ERRMAX, T, Values
 from tests.codegen.conftest import advance_to_end, improve, memory_for, run
 
 LORENZ = "DYNAMIC\nd/dt x = a*(y - x)\nd/dt y = x*(r - z) - y\nd/dt z = x*y - b*z\nn = x + y\ndispt x, n, z\n"

@@ -14,7 +14,8 @@ Loops that others drive (rules 9 … 16) take the passes as C functions:
     functions = PassFunctions(backend.store, values, segment.order, passes_of(segment))
     functions.address("derivative")   # int64 f(RunMemory *memory, double *k), see `natives`
 
-with the names `derivative`, `step`, `full`, `tail`, or any others with statements of their own (tangents, JACOBIAN).
+with the names `derivative`, `step`, `full`, `tail`, or any others with statements of their own (tangents,
+JACOBIAN).
 """
 
 from __future__ import annotations

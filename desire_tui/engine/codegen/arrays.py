@@ -1,7 +1,7 @@
 """Storage for models of any size: states and derivatives in arrays, passes as tables of compiled pieces.
 
-Nothing here depends on the model but whether its states stand side by side, so one compiled loop serves all models of
-a rule.
+Nothing here depends on the model but whether its states stand side by side, so one compiled loop serves all
+models of a rule.
 """
 
 from __future__ import annotations
@@ -171,4 +171,4 @@ class ArrayStorage:
         """k1 stays in its array."""
 
     def recall_first_stage(self) -> None:
-        """It is there."""
+        """Nothing to do: it is there."""

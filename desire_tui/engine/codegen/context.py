@@ -1,4 +1,4 @@
-"""What compiled code knows besides the values and the run's memory: where its own work arrays and pieces are."""
+"""What compiled code knows besides values and memory: where its own work arrays and pieces are."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.text import Text
 
 PASSES = ("derivative", "step", "full", "tail")
-"""The pass with its flags folded in: stages after the first; step starts; communication points; after `term`."""
+"""The pass with its flags folded in: later stages, step starts, communication points, after `term`."""
 
 
 class Context(ctypes.Structure):
@@ -78,9 +78,9 @@ class Fields:
 def _offsets(structure: type[ctypes.Structure]) -> dict[str, tuple[int, str]]:
     known = _TABLES.get(structure)
     if known is None:
+        fields = [(entry[0], entry[1]) for entry in structure._fields_]
         known = _TABLES[structure] = {
-            name: (getattr(structure, name).offset, _KINDS[kind])
-            for name, kind in structure._fields_  # type: ignore[misc]
+            name: (getattr(structure, name).offset, _KINDS[kind]) for name, kind in fields
         }
     return known
 

@@ -1,7 +1,8 @@
 """`ran()`: the 48-bit linear congruential sequence of language.md 4.1, with jumps of any length.
 
-X ← (MULTIPLIER·X + INCREMENT) mod 2⁴⁸, u = X / 2⁴⁸. A jump of k draws is again such a step, with constants that are
-known when the code is written, so lanes and blocks of a vector draw independently and still in the exact order.
+X ← (MULTIPLIER·X + INCREMENT) mod 2⁴⁸, u = X / 2⁴⁸. A jump of k draws is again such a step, with constants
+that are known when the code is written, so lanes and blocks of a vector draw independently and still in the
+exact order.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ def jump(count: int) -> tuple[int, int]:
     """Return (a, c) so that `count` steps of the sequence (backwards if negative) are X ← a·X + c mod 2⁴⁸."""
     step = (MULTIPLIER, INCREMENT) if count >= 0 else (_INVERSE, -_INVERSE * INCREMENT & MASK)
     total = (1, 0)
-    for bit in bin(abs(count))[2:]:
+    for bit in f"{abs(count):b}":
         a, c = total
         total = (a * a & MASK, (a * c + c) & MASK)
         if bit == "1":

@@ -1,4 +1,4 @@
-"""The run loop of language.md 8.2 as one function, with everything that depends on rule or storage asked from parts.
+"""The run loop of language.md 8.2 as one function; what depends on rule or storage is asked from parts.
 
 The loop, in blocks:
 
@@ -7,8 +7,8 @@ The loop, in blocks:
     step   ── the rule: stages, new states, t ──► attend where something is to be looked at, else again
     attend ── stop flag, inf and nan ──► point or again
 
-Times are t_base + k·dt_base while DT does not change. A fixed step that ends at t ≥ t_start + point·COMINT - 1e-9·DT
-has reached the next point.
+Times are t_base + k·dt_base while DT does not change. A fixed step that ends at t ≥ t_start + point·COMINT -
+1e-9·DT has reached the next point.
 """
 
 from __future__ import annotations
@@ -32,13 +32,14 @@ _CHECK_EVERY = 1024  # steps between two looks for inf and nan inside a communic
 
 _VARIABLES = {
     "k": "i64", "steps": "i64", "calls": "i64", "t_base": "double", "dt_base": "double", "t_next": "double",
-    "t_here": "double", "h": "double", "phase": "i32", "ended": "i32", "last": "i1", "reached": "i1", "stop": "i1",
-    "lands": "i1", "cut": "i1",
+    "t_here": "double", "h": "double", "phase": "i32", "ended": "i32", "last": "i1", "reached": "i1", "stop":
+    "i1", "lands": "i1", "cut": "i1",
 }  # fmt: skip
 
 
 _KEPT = {
-    "k": "k", "t_base": "t_base", "dt_base": "dt_base", "phase": "phase", "steps": "steps", "calls": "derivative_calls",
+    "k": "k", "t_base": "t_base", "dt_base": "dt_base", "phase": "phase", "steps": "steps", "calls":
+    "derivative_calls",
 }  # fmt: skip
 """Variables of the loop that live on in the run's memory, by their fields there."""
 
@@ -160,7 +161,7 @@ class Driver:
         self.text.jump("exit")
 
     def _exit(self) -> None:
-        """The one way out: everything back to memory."""
+        """Write the one way out: everything back to memory."""
         text = self.text
         text.begin("exit")
         self.storage.leave()
@@ -309,7 +310,7 @@ class Driver:
         return self.text.op(f"icmp ne i64 {self.context.load('hurry', volatile=True)}, 0")
 
     def _attend(self) -> None:
-        """A step has ended and something is to be looked at."""
+        """Write what happens where a step has ended and something is to be looked at."""
         text = self.text
         text.begin("attend")
         text.branch(self.storage.wild(), "wild", "attend.finite")
@@ -334,7 +335,7 @@ class Driver:
         return lanes.add(self.get("t_base"), lanes.mul(lanes.add(k, lanes.const(c)), dt))
 
     def _follow_step(self) -> None:
-        """h ← DT; a changed DT begins a new count of steps."""
+        """H ← DT; a changed DT begins a new count of steps."""
         text = self.text
         dt = self.storage.load(DT)
         text.branch(self.lanes.compare("une", dt, self.get("dt_base")), "step.changed", "step.same")

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 
 class Prepared:
-    """What a statement's loop needs from before it: invariants in every lane, bases, products, the random state.
+    """What a statement's loop needs from before it: invariants in all lanes, bases, products, random state.
 
-    `states` is a stack cell with the random state of each lane *before* its first draw; `per_element` numbers are
-    taken for each element.
+    `states` is a stack cell with the random state of each lane *before* its first draw; `per_element` numbers
+    are taken for each element.
     """
 
     def __init__(self) -> None:
@@ -116,7 +116,7 @@ class ElementExpressions(Expressions):
         return draws.advance(self.lanes, self._state, self._drawn)
 
     def finish(self) -> None:
-        """Move the lanes' random states on to the next strip (backwards: elements draw from the last one down)."""
+        """Move the random states to the next strip: backwards, elements draw from the last one down."""
         if self.prepared.per_element:
             assert self._drawn == self.prepared.per_element
             moved = draws.advance(self.lanes, self._state, -self.strip.active * self.prepared.per_element)
@@ -124,7 +124,7 @@ class ElementExpressions(Expressions):
 
 
 def lane_states(lanes: Lanes, start: str, count: int, per_element: int) -> str:
-    """Write each lane's random state before it draws for element `lane` of `count`; `start` is the sequence's."""
+    """Write each lane's random state before it draws for element `lane` of `count`, from the sequence's."""
     jumps = [draws.jump((count - 1 - lane) * per_element) for lane in range(lanes.width)]
     a = ", ".join(f"i64 {jump[0]}" for jump in jumps)
     c = ", ".join(f"i64 {jump[1]}" for jump in jumps)

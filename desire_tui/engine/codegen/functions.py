@@ -47,7 +47,8 @@ def _if_positive(lanes: Lanes, x: str, yes: str, no: str) -> str:
 
 def _sgn(lanes: Lanes, x: str) -> str:
     negative = lanes.compare("olt", x, lanes.const(0.0))
-    return _if_positive(lanes, x, lanes.const(1.0), lanes.choose(negative, lanes.const(-1.0), lanes.const(0.0)))
+    other = lanes.choose(negative, lanes.const(-1.0), lanes.const(0.0))
+    return _if_positive(lanes, x, lanes.const(1.0), other)
 
 
 def _deadc(lanes: Lanes, x: str) -> str:

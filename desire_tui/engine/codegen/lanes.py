@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 class Lanes:
     """Writes elementwise instructions `width` elements wide into a text.
 
-    Every operation is one IEEE 754 operation on each element: no fast-math flag, no contraction, so neither the
-    width nor the optimiser's level changes a bit.
+    Every operation is one IEEE 754 operation on each element: no fast-math flag, no contraction, so neither
+    the width nor the optimiser's level changes a bit.
     """
 
     __slots__ = ("flags", "integers", "kind", "suffix", "text", "width")

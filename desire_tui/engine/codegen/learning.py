@@ -28,7 +28,8 @@ def write_learning(statements: Statements, action: Learn) -> None:
         criterion = "0.0" if action.criterion is None else statements.scalars.value(action.criterion)
         wins = "null" if action.count_slot is None else statements.at(action.count_slot)
         text.needs.add(_compete())
-        text.do(f"call void @compete(ptr {out}, ptr {weights}, ptr {x}, {sizes}, double {criterion}, ptr {wins})")
+        arrays = f"ptr {out}, ptr {weights}, ptr {x}"
+        text.do(f"call void @compete({arrays}, {sizes}, double {criterion}, ptr {wins})")
         return
     text.needs.add(products.matrix_times_vector())
     text.do(f"call void @matvec(ptr {weights}, ptr {x}, ptr {out}, i64 {rows}, i64 {cols})")
@@ -127,7 +128,8 @@ def _compete() -> str:
         wins_now = text.op(f"select i1 {none}, i1 1, i1 {less}")
         for cell, kind, new in ((best, "double", value), (best_raw, "double", raw), (winner, "i64", i)):
             old = text.op(f"load {kind}, ptr {cell}")
-            text.do(f"store {kind} {text.op(f'select i1 {wins_now}, {kind} {new}, {kind} {old}')}, ptr {cell}")
+            kept = text.op(f"select i1 {wins_now}, {kind} {new}, {kind} {old}")
+            text.do(f"store {kind} {kept}, ptr {cell}")
 
     text.do(f"store double 0.0, ptr {best}")
     text.do(f"store double 0.0, ptr {best_raw}")

@@ -65,7 +65,7 @@ class NativeModel:
     @property
     def _contiguous(self) -> bool:
         states = self._states
-        return not states.size or bool(states[-1] - states[0] == states.size - 1 and (np.diff(states) == 1).all())
+        return bool((np.diff(states) == 1).all())
 
     def _stage_memory(self, stages: int) -> None:
         order = max(self._states.size, 1)

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 class PassFunctions:
     """C functions `int64 f(RunMemory *memory, double *k)`, one for each of `passes` (name → statements).
 
-    A function runs the pass with t, states and everything else where they stand in the values, and returns 0, or
-    1 + the number of the `term` that fired. Derivatives go to `k` (`order` numbers) or, for those named in `own`, whose
-    second argument is not looked at, to `self.k1`. Addresses stay valid, and faster code comes into use behind
-    them, as long as this object lives; hand it to `NativeBackend.improver.add` for that.
+    A function runs the pass with t, states and everything else where they stand in the values, and returns 0,
+    or 1 + the number of the `term` that fired. Derivatives go to `k` (`order` numbers) or, for those named in
+    `own`, whose second argument is not looked at, to `self.k1`. Addresses stay valid, and faster code comes
+    into use behind them, as long as this object lives; hand it to `NativeBackend.improver.add` for that.
     """
 
     def __init__(

@@ -1,7 +1,7 @@
 """Cuts a pass into compiled pieces of a few dozen statements.
 
-Code shape matters more than the optimiser's level: one function with 1,401 equations costs LLVM ten times as much as
-fourteen with 100. A piece is kept by its text, so a one-line edit compiles one piece.
+Code shape matters more than the optimiser's level: one function with 1,401 equations costs LLVM ten times as
+much as fourteen with 100. A piece is kept by its text, so a one-line edit compiles one piece.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
-"""Sums over products as functions that pieces carry with them: dot products, matrix times vector, largest element.
+"""Sums over products as functions that pieces carry with them: dot, matrix times vector, largest element.
 
-Sums run in eight lanes whatever the machine has, so that they are the same everywhere; rows are taken four at a time.
+Sums run in eight lanes whatever the machine has, so that they are the same everywhere; rows are taken four at
+a time.
 """
 
 from __future__ import annotations
@@ -177,4 +178,5 @@ def largest() -> str:
     loop(text, "0", "%n", 1, lambda i: put(single, "%y", i, single.const(0.0)))
     put(single, "%y", text.op(f"load i64, ptr {where}"), text.op(f"load double, ptr {most}"))
     text.do("ret void")
-    return _function("void", "largest", "ptr noalias readonly %x, ptr noalias %y, i64 %n", text, "argmem: readwrite")
+    parameters = "ptr noalias readonly %x, ptr noalias %y, i64 %n"
+    return _function("void", "largest", parameters, text, "argmem: readwrite")

@@ -7,7 +7,18 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.draws import DRAWS
 from desire_tui.engine.lowered import (
-    Const, DerivVec, Load, MatVec, Op, Outer, RowOf, SetVec, Shifted, Table1, Table2, Vec,
+    Const,
+    DerivVec,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    SetVec,
+    Shifted,
+    Table1,
+    Table2,
+    Vec,
 )  # fmt: skip
 from desire_tui.engine.values import IROW
 
@@ -130,7 +141,8 @@ def groups(actions: Iterable[Action]) -> Iterator[list[Action]]:
     total = Reach()
     count = 0
     for action in actions:
-        if not isinstance(action, SetVec | DerivVec) or (isinstance(action, SetVec) and action.mode == "largest"):
+        if not isinstance(action, SetVec | DerivVec) or (isinstance(action, SetVec) and action.mode ==
+        "largest"):
             if group:
                 yield group
                 group = []

@@ -120,7 +120,7 @@ class RegisterStorage:
     # ------------------------------------------------------------------ looking
 
     def _is_wild(self, values: list[str]) -> str:
-        """x - x is 0 for every finite x, and not a number else; so is the sum."""
+        """X - x is 0 for every finite x, and not a number else; so is the sum."""
         total = self.lanes.const(0.0)
         for value in values:
             total = self.lanes.add(total, self.lanes.sub(value, value))

@@ -6,8 +6,29 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered import (
-    Const, DelayLine, Deriv, DerivVec, Get, Guard, Learn, Load, MatVec, Op, Outer, RowOf, Set, SetDot, SetMat, SetVec,
-    Shifted, Store, Table1, Table2, Terminate, TrackHold, Vec,
+    Const,
+    DelayLine,
+    Deriv,
+    DerivVec,
+    Get,
+    Guard,
+    Learn,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    Shifted,
+    Store,
+    Table1,
+    Table2,
+    Terminate,
+    TrackHold,
+    Vec,
 )  # fmt: skip
 from desire_tui.engine.values import IROW
 
@@ -19,7 +40,7 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Scope:
-    """Scalar slots read and written one by one; arrays as (slot, count), and whether any statement is over arrays."""
+    """Scalar slots read and written one by one; arrays (slot, count); `only_scalars`: no array operand."""
 
     read: set[int] = field(default_factory=set)
     written: set[int] = field(default_factory=set)

@@ -9,7 +9,14 @@ from desire_tui.engine.codegen.context import context_fields, memory_fields
 from desire_tui.engine.codegen.expressions import ScalarExpressions
 from desire_tui.engine.codegen.lanes import Lanes
 from desire_tui.engine.lowered import (
-    DelayLine, Deriv, Get, Guard, Set, Store, Terminate, TrackHold,
+    DelayLine,
+    Deriv,
+    Get,
+    Guard,
+    Set,
+    Store,
+    Terminate,
+    TrackHold,
 )  # fmt: skip
 
 if TYPE_CHECKING:
@@ -23,8 +30,8 @@ if TYPE_CHECKING:
 class ScalarStatements:
     """Writes statements whose pass flags are already folded in (`slices`).
 
-    Names the text must provide: `%v` values, `%dx` derivatives (with memory cells), `%m` the run's memory, `%c` the
-    model's context, `%random` the state of `ran()`.
+    Names the text must provide: `%v` values, `%dx` derivatives (with memory cells), `%m` the run's memory,
+    `%c` the model's context, `%random` the state of `ran()`.
     """
 
     def __init__(self, text: Text, cells: Cells) -> None:
@@ -107,7 +114,7 @@ class ScalarStatements:
             self.write(guard.body)
 
     def _sampled(self, every: int) -> str:
-        """Whether this point's number, counted through continued runs, is a multiple; a joint has had its turn."""
+        """Whether this point's number, through continued runs, is a multiple; a joint has had its turn."""
         op = self.text.op
         before = op(f"add i64 {self.memory.load('points_before')}, {self.memory.load('point')}")
         number = op(f"add i64 {before}, 1")
@@ -117,7 +124,8 @@ class ScalarStatements:
     def _fresh_point(self) -> str:
         """Whether this is not the joint of a continued run, which was already counted.
 
-        The driver moves `point` on before the first step, so steps inside an interval never look like a joint.
+        The driver moves `point` on before the first step, so steps inside an interval never look like a
+        joint.
         """
         op = self.text.op
         later = op(f"icmp ne i64 {self.memory.load('point')}, 0")
@@ -180,7 +188,8 @@ class ScalarStatements:
         lag = op(f"load i64, ptr {op(f'getelementptr i64, ptr {lags}, i64 {action.counter}')}")
         done = self._skip_unless(self._fresh_point())
         behind = op(f"add i64 {op(f'sub i64 {position}, {lag}')}, {action.count}")
-        old = op(f"load double, ptr {self._element(action.buffer_slot, op(f'urem i64 {behind}, {action.count}'))}")
+        old_place = self._element(action.buffer_slot, op(f"urem i64 {behind}, {action.count}"))
+        old = op(f"load double, ptr {old_place}")
         now = op(f"icmp eq i64 {lag}, 0")
         self.cells.store(action.slot, op(f"select i1 {now}, double {source}, double {old}"))
         place = self._element(action.buffer_slot, op(f"urem i64 {position}, {action.count}"))

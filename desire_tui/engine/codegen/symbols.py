@@ -1,7 +1,7 @@
 """Outside functions: the mathematical library's addresses under names that LLVM does not know.
 
-Vectors use glibc's libmvec (at most 4 ulp off) where it has the function for the machine's vector width, and else the
-scalar function lane by lane; quick and fast code call the same ones.
+Vectors use glibc's libmvec (at most 4 ulp off) where it has the function for the machine's vector width, and
+else the scalar function lane by lane; quick and fast code call the same ones.
 """
 
 from __future__ import annotations
@@ -59,7 +59,8 @@ def lane_by_lane(name: str, width: int) -> str:
         result = f"%s{lane}"
     arguments = ", ".join(f"{kind} %x{k}" for k in range(count))
     body = "\n".join(lines)
-    return f"define internal {kind} @desire.{name}.{width}({arguments}) #1 {{\n{body}\nret {kind} {result}\n}}"
+    head = f"define internal {kind} @desire.{name}.{width}({arguments}) #1"
+    return f"{head} {{\n{body}\nret {kind} {result}\n}}"
 
 
 def _address(library: ctypes.CDLL, name: str) -> int:

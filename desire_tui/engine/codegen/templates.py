@@ -1,7 +1,7 @@
 """Statements that differ only in names and numbers are written from one template.
 
-1,401 equations of a circuit have a handful of shapes. A shape is written once by the ordinary writer; every further
-statement of that shape costs one walk over its nodes and one formatting.
+1,401 equations of a circuit have a handful of shapes. A shape is written once by the ordinary writer; every
+further statement of that shape costs one walk over its nodes and one formatting.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class NotPlainError(Exception):
 
 
 def shape(node: Value, key: list[object], leaves: list[int | float]) -> None:
-    """Append a value's shape to `key`, its slots (int) and numbers (float) to `leaves`, in the order of evaluation.
+    """Append a value's shape to `key`, its slots (int) and numbers (float) to `leaves`, in order.
 
     NotPlainError: it holds more than scalars, numbers and operations, or very many of them.
     """
@@ -46,7 +46,9 @@ def shape(node: Value, key: list[object], leaves: list[int | float]) -> None:
         key.append(name)
         if name == "ipow":
             shape(args[0], key, leaves)
-            key.append(args[1].value)
+            exponent = args[1]
+            assert isinstance(exponent, Const)
+            key.append(exponent.value)
         elif name in _PLAIN_NEVER:
             raise NotPlainError
         else:

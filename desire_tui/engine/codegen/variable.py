@@ -18,9 +18,9 @@ _TOLERANCE = 1e-9
 class VariableStep:
     """Writes the step of a rule that controls it.
 
-    A step ends on every communication point. A test difference above ERMAX halves the step and repeats it from
-    the same states and the same k1; half a step below DTMIN is a deadlock. A difference below ERMIN doubles DT up to
-    DTMAX, unless the step was shortened for a communication point.
+    A step ends on every communication point. A test difference above ERMAX halves the step and repeats it
+    from the same states and the same k1; half a step below DTMIN is a deadlock. A difference below ERMIN
+    doubles DT up to DTMAX, unless the step was shortened for a communication point.
     """
 
     def __init__(self, driver: Driver, tableau: Tableau) -> None:
@@ -39,8 +39,8 @@ class VariableStep:
         self._judge()
 
     def _choose(self) -> None:
-        """h ← DT, or what is left to the next communication point."""
-        lanes, text = self.lanes, self.text
+        """H ← DT, or what is left to the next communication point."""
+        lanes = self.lanes
         here, dt = self.storage.load(T), self.storage.load(DT)
         self.driver.put("t_here", here)
         left = lanes.sub(self.driver.get("t_next"), here)

@@ -7,16 +7,31 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen import products
 from desire_tui.engine.codegen.draws import advance
 from desire_tui.engine.codegen.elements import (
-    ElementExpressions, Prepared, invariants, lane_states, needed_draws,
+    ElementExpressions,
+    Prepared,
+    invariants,
+    lane_states,
+    needed_draws,
 )  # fmt: skip
 from desire_tui.engine.codegen.lanes import Lanes
 from desire_tui.engine.codegen.learning import write_learning
 from desire_tui.engine.codegen.loops import loop
-from desire_tui.engine.codegen.reach import groups, needs_copy, statement_reach, touches, value_reach, walk
+from desire_tui.engine.codegen.reach import Reach, groups, needs_copy, statement_reach, value_reach, walk
 from desire_tui.engine.codegen.statements import ScalarStatements
 from desire_tui.engine.codegen.strips import Strip
 from desire_tui.engine.lowered import (
-    Deriv, DerivVec, Learn, MatVec, Outer, RowOf, Set, SetDot, SetMat, SetVec, Shifted, Vec,
+    Deriv,
+    DerivVec,
+    Learn,
+    MatVec,
+    Outer,
+    RowOf,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    Shifted,
+    Vec,
 )  # fmt: skip
 from desire_tui.engine.values import IROW
 
@@ -29,7 +44,7 @@ if TYPE_CHECKING:
 
 
 class Statements(ScalarStatements):
-    """All statements. Scratch arrays stand at the context's `temps`; `temps` says how many doubles they take."""
+    """All statements. `temps` says how many doubles of scratch the context's `temps` must hold."""
 
     def __init__(self, text: Text, cells: Cells, width: int) -> None:
         super().__init__(text, cells)
@@ -145,7 +160,7 @@ class Statements(ScalarStatements):
     # ------------------------------------------------------------------ loops
 
     def sweep(self, count: int, below: int, above: int, body: Callable[[Strip], None]) -> None:
-        """Write a loop over `count` elements; the first `below` and last `above` reach outside their operands."""
+        """Write a loop over `count` elements; the first `below` and last `above` reach outside operands."""
         text, wide = self.text, self.wide
         low, high = min(below, count), max(count - above, 0)
         if low >= high:
@@ -212,13 +227,15 @@ class Statements(ScalarStatements):
             return
         if action.mode == "largest":
             self.text.needs.add(products.largest())
-            self.text.do(f"call void @largest(ptr {self._written}, ptr {self.at(action.slot)}, i64 {action.count})")
+            target = self.at(action.slot)
+            self.text.do(f"call void @largest(ptr {self._written}, ptr {target}, i64 {action.count})")
             return
         self._move(self._written, self.at(action.slot), action.count)
 
     def _move(self, source: str, target: str, count: int) -> None:
         self.text.needs.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
-        self.text.do(f"call void @llvm.memcpy.p0.p0.i64(ptr {target}, ptr {source}, i64 {8 * count}, i1 false)")
+        arguments = f"ptr {target}, ptr {source}, i64 {8 * count}, i1 false"
+        self.text.do(f"call void @llvm.memcpy.p0.p0.i64({arguments})")
 
     # ------------------------------------------------------------------ matrices and sums
 
@@ -227,8 +244,7 @@ class Statements(ScalarStatements):
         values = (action.value, action.lower, action.upper)
         prepared = self.prepare(count, needed_draws(*values), *values)
         reads = value_reach(action.value)
-        written = [(action.slot, action.slot + count)]
-        copies = touches(written, reads.other) or any(r != written[0] and touches(written, [r]) for r in reads.same)
+        copies = needs_copy(Reach(reads.same, reads.other, {(action.slot, action.slot + count)}))
         own = self.at(action.slot)
         target = self.temp(count) if copies else own
         mask = None if action.mask_slot is None else self.at(action.mask_slot)
