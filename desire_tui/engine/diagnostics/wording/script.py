@@ -6,7 +6,14 @@ from desire_tui.engine.diagnostics.wording.entry import Wording
 
 MESSAGES: dict[str, Wording] = {
     # ------------------------------------------------------------------------------ names and values
-    "undefined-variable": Wording(200, "undefined variable '{name}'", "assign it a value before this line"),
+    "undefined-variable": Wording(
+        200,
+        "undefined variable '{name}'",
+        "assign it a value before this line",
+        "Every name gets its value from the script, or from a run that sets it. Only on its own "
+        "right side does a "
+        "new name count as 0, so that `n = n + 1` may begin to count.",
+    ),
     "undefined-function": Wording(
         200, "there is no function '{name}'", "an array needs square brackets: {name}[…]"
     ),
@@ -19,7 +26,12 @@ MESSAGES: dict[str, Wording] = {
     "constant-assigned": Wording(55, "'{name}' is a constant", "choose another name"),
     "name-of-something-else": Wording(73, "'{name}' is {what} already", "choose another name"),
     "script-subscript-out-of-range": Wording(
-        2, "subscript {value} is not between 1 and {size}", "this is subscript number {place}"
+        2,
+        "subscript {value} is not between 1 and {size}",
+        "this is subscript number {place}",
+        "Subscripts run from 1 to the dimension that the declaration gives. A subscript may be "
+        "any real expression: "
+        "it is checked first, then truncated.",
     ),
     "script-subscript-count": Wording(
         53, "'{name}' has {needed} subscripts, not {given}", "give one for each dimension"
@@ -29,20 +41,39 @@ MESSAGES: dict[str, Wording] = {
         53,
         "'{name}' is an array; a single number is needed here",
         "choose an element with {dimensions} subscript(s)",
+        "Whole arrays stand in `Vector`, `MATRIX`, `DOT`, `FFT`, `read`, `input`, `write`, "
+        "`func1`, and as arguments. "
+        "Everywhere else one element is meant: `x[3]`.",
     ),
     "array-name-expected": Wording(
         19, "the name of a whole array is needed here", "write it without subscripts"
     ),
     # ------------------------------------------------------------------------------ arithmetic
-    "division-by-zero": Wording(5, "division by zero", "test the divisor before this line"),
-    "overflow": Wording(3, "the result is too large for a number", "numbers end at about 1.8E+308"),
+    "division-by-zero": Wording(
+        5,
+        "division by zero",
+        "test the divisor before this line",
+        "In scripts a division by zero stops the program at once. In DYNAMIC segments it gives "
+        "inf or nan, and the "
+        "run ends at the first state or displayed variable that shows it.",
+    ),
+    "overflow": Wording(
+        3,
+        "the result is too large for a number",
+        "numbers end at about 1.8E+308",
+        "A result beyond 1.8E+308 has no value. Often a loop does not converge, or a step DT is too large.",
+    ),
     "integer-overflow": Wording(20, "{value} is too large for a whole number", "whole numbers end at 2^53"),
     "logarithm-argument": Wording(9, "{function} needs a positive number", "check its argument"),
     "root-of-negative": Wording(
         47, "square root of a negative number", "check the argument, or take sqrt(abs(x))"
     ),
     "power-argument": Wording(
-        9, "a power that is no whole number needs a positive base", "whole powers are written as numbers: x^2"
+        9,
+        "a power that is no whole number needs a positive base",
+        "whole powers are written as numbers: x^2",
+        "`x^3` and `x^-2` are products and take any x. With an exponent that is a variable or a fraction, "
+        "`x^a` is exp(a ln x), and x must be positive.",
     ),
     "argument-out-of-domain": Wording(44, "{function} has no value there", "check its argument"),
     "argument-count": Wording(44, "{name} takes other arguments than {given}", "write {name}({needed})"),
@@ -66,7 +97,10 @@ MESSAGES: dict[str, Wording] = {
         84, "a COMPLEX value is not possible here", "take Re(z), Im(z), Cabs(z) or Arg(z)"
     ),
     "complex-to-real": Wording(
-        84, "a COMPLEX value does not fit into the real '{name}'", "declare: COMPLEX {name}, or take Re(…)"
+        84,
+        "a COMPLEX value does not fit into the real '{name}'",
+        "declare: COMPLEX {name}, or take Re(…)",
+        "Conversion goes one way only: a real value may be assigned to a COMPLEX name.",
     ),
     "complex-not-ordered": Wording(
         84, "COMPLEX values cannot be compared with {operator}", "compare Cabs(z)"
@@ -78,7 +112,12 @@ MESSAGES: dict[str, Wording] = {
     "matrix-operator": Wording(209, "'{operator}' belongs into MATRIX statements", "use min(x, y)"),
     # ------------------------------------------------------------------------------ declarations
     "declared-twice": Wording(
-        28, "'{name}' is declared already, as {before}", "use clear, or choose another name"
+        28,
+        "'{name}' is declared already, as {before}",
+        "use clear, or choose another name",
+        "A program that runs again starts with `clear`, or with `erun`, which clears. The same "
+        "name with the same "
+        "dimensions may be declared again: that fills it with zeroes.",
     ),
     "bad-dimension": Wording(
         32, "'{name}' cannot have {value} elements in a row", "dimensions are 1 or more"
@@ -94,7 +133,10 @@ MESSAGES: dict[str, Wording] = {
     "loop-variable": Wording(48, "'{name}' cannot count a loop", "loop variables are real"),
     "reached-from-here": Wording(52, "reached from here"),
     "procedure-recursion": Wording(
-        52, "PROCEDURE '{name}' is being executed already", "write a loop instead"
+        52,
+        "PROCEDURE '{name}' is being executed already",
+        "write a loop instead",
+        "The dummy arguments of a PROCEDURE exist once, so it cannot be called again before it has returned.",
     ),
     "end-without-call": Wording(
         4, "nothing to return to: no PROCEDURE was called", "remove it, or call the PROCEDURE"
@@ -114,7 +156,14 @@ MESSAGES: dict[str, Wording] = {
         1, "an expression alone does nothing in a program", "write {name} = …, or write …"
     ),
     # ------------------------------------------------------------------------------ data, files, console
-    "out-of-data": Wording(51, "no data left to read", "add items to a data line, or restore"),
+    "out-of-data": Wording(
+        51,
+        "no data left to read",
+        "add items to a data line, or restore",
+        "`read` takes the items of all `data` lines in the order they stand. `restore` goes back "
+        "to the first, "
+        "`restore label` to those behind a label.",
+    ),
     "channel-number": Wording(50, "there is no channel {channel}", "channels are numbered from 0 to 10"),
     "channel-connected": Wording(
         30,
@@ -122,7 +171,11 @@ MESSAGES: dict[str, Wording] = {
         "disconnect {channel}, or take another channel",
     ),
     "channel-not-connected": Wording(
-        63, "channel {channel} is not connected", "connect a file: connect 'name' as output {channel}"
+        63,
+        "channel {channel} is not connected",
+        "connect a file: connect 'name' as output {channel}",
+        "A channel belongs to a file between `connect` and `disconnect`. Starting a program "
+        "closes all channels.",
     ),
     "channel-wrong-way": Wording(64, "channel {channel} is connected for {mode}", "connect another channel"),
     "cannot-connect": Wording(11, "cannot connect '{file}': {reason}", "check the file's name and folder"),
@@ -141,7 +194,12 @@ MESSAGES: dict[str, Wording] = {
     "input-ended": Wording(18, "there is no more input", "an input statement waits for a value"),
     "character-code": Wording(44, "{value} is no character's number", "ordinary characters are 32 to 126"),
     # ------------------------------------------------------------------------------ arrays
-    "nonconformable": Wording(74, "sizes do not fit: {have} and {want}", "check the arrays' dimensions"),
+    "nonconformable": Wording(
+        74,
+        "sizes do not fit: {have} and {want}",
+        "check the arrays' dimensions",
+        "In `A*x` the matrix has as many columns as the vector has elements; sums need equal dimensions.",
+    ),
     "not-a-matrix": Wording(74, "'{name}' is not a matrix", "a matrix has two dimensions"),
     "not-a-vector": Wording(74, "'{name}' is not a vector", "a vector has one dimension"),
     "not-square": Wording(74, "only a square matrix has an inverse, not {have}", "check the dimensions"),
