@@ -184,6 +184,7 @@ def _errors() -> list[Topic]:
     by_code: dict[int, list[tuple[str, str, str]]] = {}
     for wording in all_wordings().values():
         by_code.setdefault(wording.code, []).append((wording.message, wording.hint, wording.explanation))
+    by_code.pop(0, None)  # "used here": a note beside a message, no message of its own
     return [_error_page(code, by_code[code]) for code in sorted(by_code)]
 
 
@@ -194,7 +195,12 @@ def _error_page(code: int, messages: list[tuple[str, str, str]]) -> Topic:
         heading = f"**{_readable(message)}**" if len(plain) > 1 else ""
         paragraphs += [heading, f"Hint: {_readable(hint)}." if hint else "", explanation]
     text = "\n\n".join(dict.fromkeys(part for part in paragraphs if part))
-    return Topic(name=f"error {code}", kind="error", summary="; ".join(plain), text=text)
+    return Topic(
+        name=f"error {code}",
+        kind="error",
+        summary=plain[0] + (", and others" if len(plain) > 1 else ""),
+        text=text,
+    )
 
 
 def _readable(template: str) -> str:

@@ -52,7 +52,7 @@ def test_a_page_says_what_it_is_about(page):
 
 
 def test_every_error_number_has_a_page():
-    for wording in all_wordings().values():
+    for wording in (wording for wording in all_wordings().values() if wording.code):
         page = find(str(wording.code))
         assert page is find(f"error {wording.code}")
         assert page.kind == "error"
