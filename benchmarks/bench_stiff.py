@@ -197,7 +197,7 @@ dispt u[1]
 """
 
 
-def heat(n: int, *, dense: bool = False, repeats: int = 5) -> float:
+def heat(n: int, *, dense: bool = False, repeats: int = 15) -> float:
     """Seconds for a heat equation of n states under rule 14."""
     from desire_tui.engine.integration import plan
     from desire_tui.engine.integration.sundials.linear import Linear
