@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from desire_tui.engine.session import Session
+from desire_tui.engine.source import Source
 from tests.programs.expectations import read_expectations
 from tests.programs.runner import faults_of_program
 
@@ -23,3 +25,10 @@ def test_program(path, tmp_path):
 def test_program_expects_something(path):
     expected = read_expectations(path.read_text(encoding="utf-8"))
     assert expected.checks or expected.prints or expected.console or expected.error
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_program_that_works_has_no_problems(path):
+    text = path.read_text(encoding="utf-8")
+    if read_expectations(text).error is None:
+        assert Session().check(Source(text, path.name)) == ()
