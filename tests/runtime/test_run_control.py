@@ -159,3 +159,22 @@ def test_memory_of_ended_runs_is_given_back():
         "TMAX = 1 | NN = 1.0E+06 | DT = 1.0E-06 | drun\nDYNAMIC\nd/dt x = 1\ndispt x\nterm x - 0.001\n"
     )
     assert session.runs[0].rows.nbytes < 1 << 16
+
+
+def test_many_long_runs_do_not_fill_the_memory(monkeypatch):
+    from desire_tui.engine.session import world
+
+    monkeypatch.setattr(world, "RUNS_BYTES_MAX", 1_000_000)
+    monkeypatch.setattr(world, "THINNED_ROWS", 100)
+    session = running.session_for(
+        "TMAX = 1 | NN = 10001 | DT = 0.0001\ndisplay 2\nfor k = 1 to 12\nx = k | drunr\nnext\n"
+        "DYNAMIC\nd/dt x = 1\ndispt x\n"
+    )
+    assert sum(r.rows.nbytes for r in session.runs) < 1_400_000
+    assert len(session.runs) < 12
+    assert session.status.run == 12
+    curves = session.graph.curves
+    assert len(curves) == 12  # the page shows them all, the old ones from fewer samples
+    assert curves[0].count <= 100
+    x, y = curves[0].samples()
+    assert y == pytest.approx(1 + x, abs=1e-9)

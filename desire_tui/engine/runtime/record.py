@@ -58,6 +58,14 @@ class RunRecord:
         count = self.count
         return self.rows[:count, 0]
 
+    def thin(self, rows_most: int) -> None:
+        """Keep only every n-th sample, at most `rows_most` of them: enough for a graph."""
+        step = -(-self.count // rows_most)
+        if step > 1:
+            kept = self.rows[: self.count : step].copy()
+            self.count = min(self.count, len(kept))
+            self.rows = kept
+
     def first_column(self, request: Request) -> int:
         """Return where a request's variables begin in `columns`, which holds all requests' in turn."""
         before = 0

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 RUNS_BYTES_MAX = 1 << 30
 """Samples of all runs kept; the oldest go first."""
+THINNED_ROWS = 10_000
+"""Samples left of those, for the graphs that show them."""
 
 
 class World:
@@ -122,7 +124,9 @@ class World:
             self._runs_bytes += self.runs[-1].rows.nbytes
         self.runs.append(record)
         while self._runs_bytes > RUNS_BYTES_MAX:
-            self._runs_bytes -= self.runs.pop(0).rows.nbytes
+            oldest = self.runs.pop(0)
+            self._runs_bytes -= oldest.rows.nbytes
+            oldest.thin(THINNED_ROWS)  # pages may show it still
 
     def begin_program(self) -> None:
         """Set the display back to where a program starts."""
