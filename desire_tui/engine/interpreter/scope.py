@@ -92,6 +92,11 @@ class Scope:
         arrays = [q.name for q in self.values if q.shape]
         raise Fault("not-an-array", node, name=node.name, close=closest(node.name, arrays))
 
+    def whole_array(self, node: Name, quantity: Quantity) -> Fault:
+        """Return error 53: an array's name stands where one number is needed."""
+        example = f"{node.name}[{','.join('1' * len(quantity.shape))}]"
+        return Fault("array-without-subscripts", node, name=node.name, example=example)
+
     def undefined(self, node: Name | Element) -> Fault:
         """Return error 200 with the nearest name that has a value."""
         known = [q.name for q in self.values if self.values.is_defined(q)]

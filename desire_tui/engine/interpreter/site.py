@@ -125,7 +125,7 @@ class Site:
             box = py.index(meaning.variable, py.number(0))
             return at(box, target), meaning.kind
         if meaning.shape:
-            raise Fault("array-without-subscripts", target, name=target.name, dimensions=len(meaning.shape))
+            raise self.scope.whole_array(target, meaning)
         return py.number(meaning.slot), meaning.kind
 
     def numbers(self, quantity: Quantity) -> NDArray[np.float64]:

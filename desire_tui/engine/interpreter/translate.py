@@ -101,7 +101,7 @@ class Translator:
         if isinstance(meaning, Reference):
             return self._reference(node, meaning)
         if meaning.shape:
-            raise Fault("array-without-subscripts", node, name=node.name, dimensions=len(meaning.shape))
+            raise self.scope.whole_array(node, meaning)
         return self.stored(node, py.number(meaning.slot), meaning.kind)
 
     def _reference(self, node: Name, meaning: Reference) -> Typed:

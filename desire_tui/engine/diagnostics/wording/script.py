@@ -40,7 +40,7 @@ MESSAGES: dict[str, Wording] = {
     "array-without-subscripts": Wording(
         53,
         "'{name}' is an array; a single number is needed here",
-        "choose an element with {dimensions} subscript(s)",
+        "choose an element: {example}",
         "Whole arrays stand in `Vector`, `MATRIX`, `DOT`, `FFT`, `read`, `input`, `write`, "
         "`func1`, and as arguments. "
         "Everywhere else one element is meant: `x[3]`.",
@@ -76,7 +76,7 @@ MESSAGES: dict[str, Wording] = {
         "`x^a` is exp(a ln x), and x must be positive.",
     ),
     "argument-out-of-domain": Wording(44, "{function} has no value there", "check its argument"),
-    "argument-count": Wording(44, "{name} takes other arguments than {given}", "write {name}({needed})"),
+    "argument-count": Wording(44, "'{name}' cannot take {given} arguments", "write {name}({needed})"),
     "arguments-do-not-match": Wording(
         56, "'{name}' is called with {given} arguments, but has {needed}", "give one for each dummy argument"
     ),
