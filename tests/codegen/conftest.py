@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen import NativeBackend, model
+from desire_tui.engine.codegen import NativeBackend, background, model
 from desire_tui.engine.reference import ReferenceBackend
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 from desire_tui.engine.session import Session
@@ -40,9 +40,10 @@ def run(text, backend="native"):
     return Made(record.rows[: record.count].copy(), session, record)
 
 
-@pytest.fixture(params=["registers", "arrays"])
+@pytest.fixture(params=["quick", "arrays", "registers"])
 def storage(request, monkeypatch):
-    """Run small models out of registers, or as large ones run."""
+    """Which code tests run: as compiled first, well compiled as for large models, or out of registers."""
+    monkeypatch.setattr(background.Improver, "add", lambda _self, _work: None)
     if request.param == "arrays":
         monkeypatch.setattr(model, "SMALL", -1)
     return request.param

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 _MODELS_MOST = 32
+_RULES_BY_USE = (1, 3, 0, 2, 4, 5, 7, 8)
 STIFF_RULES = range(9, 17)
 _STORE = Store()
 """One for all back ends of a process: code depends on nothing but its text."""
@@ -39,9 +40,10 @@ class NativeBackend:
         threading.Thread(target=self._warm_up, name="desire starts LLVM", daemon=True).start()
 
     def _warm_up(self) -> None:
-        """Load LLVM and let it compile something: its first module costs 20 ms more than any other."""
+        """Load LLVM and compile every rule's loop: the first module costs 20 ms more than any other."""
         machine()
-        self.store.quick([array_loop(1, contiguous=True)])
+        for rule in _RULES_BY_USE:
+            self.store.quick([array_loop(rule, contiguous=True)])
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
         """Prepare `segment` for integration rule `rule`; the same segment again costs nothing."""

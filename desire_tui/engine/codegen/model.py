@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
+_ARRAYS = 5  # states at the step's start and four stages' derivatives
 SMALL = 200
 """Segments with at most this many statements and states run out of registers."""
 
@@ -31,30 +32,27 @@ SMALL = 200
 class NativeModel:
     """A compiled segment: starts on quick code, goes over to fast code when that is ready.
 
-    Both compute the same bits: neither reassociates, contracts or replaces anything.
+    Quick code is a table of pieces compiled without optimisation, run by the loop over arrays that all models of a
+    rule share. Fast code is the same well compiled or, for small models, one function that keeps everything in
+    registers. All compute the same bits: none reassociates, contracts or replaces anything.
     """
 
     def __init__(self, backend: NativeBackend, segment: Segment, rule: int, values: Values) -> None:
         self._store = backend.store
         self._segment = segment
+        self._rule = rule
         self._values = values
         self._states = _state_slots(segment)
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
-        self.context = Context(values=values.address)
+        self._passes = passes_of(segment)
+        self._tables = Tables(self._store, self._passes)
+        self._temps = np.zeros(self._tables.temps)
+        self.context = Context(values=values.address, temps=self._temps.ctypes.data)
+        for kind in PASSES:
+            setattr(self.context, kind, self._tables.addresses[kind])
         self._kept: list[object] = []
-        self._tables: Tables | None = None
-        passes = passes_of(segment)
-        self._small = segment.order <= SMALL and len(segment.body) <= SMALL and _is_small(passes)
-        self._stage_memory(4 if not self._small else 1)
-        if self._small:
-            self._loop = register_loop(passes, rule, self._states.tolist(), self._columns.tolist())
-        else:
-            self._tables = Tables(self._store, passes)
-            for kind in PASSES:
-                setattr(self.context, kind, self._tables.addresses[kind])
-            self._temps = np.zeros(self._tables.temps)
-            self.context.temps = self._temps.ctypes.data
-            self._loop = array_loop(rule, contiguous=self._contiguous)
+        self._stage_memory()
+        self._loop = array_loop(rule, contiguous=bool((np.diff(self._states) == 1).all()))
         self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
         self.improved = False
@@ -62,17 +60,12 @@ class NativeModel:
 
     # ------------------------------------------------------------------ making
 
-    @property
-    def _contiguous(self) -> bool:
-        states = self._states
-        return bool((np.diff(states) == 1).all())
-
-    def _stage_memory(self, stages: int) -> None:
+    def _stage_memory(self) -> None:
         order = max(self._states.size, 1)
         room = -(-order // 8) * 8 + 8  # whole cache lines, and no two arrays at the same place of a page
-        flat = np.zeros((1 + stages) * room + 8)
+        flat = np.zeros(_ARRAYS * room + 8)
         aligned = flat[-(flat.ctypes.data // 8) % 8 :]
-        arrays = [aligned[i * room :] for i in range(1 + stages)]
+        arrays = [aligned[i * room :] for i in range(_ARRAYS)]
         context = self.context
         context.states = self._states.size
         context.state_slots = self._states.ctypes.data
@@ -89,12 +82,22 @@ class NativeModel:
 
     def improve(self) -> Iterator[None]:
         """Compile fast code and put it in use, piece by piece."""
+        small = self._is_small()
+        if small:
+            states, columns = self._states.tolist(), self._columns.tolist()
+            self._loop = register_loop(self._passes, self._rule, states, columns)
         self._better = self._store.fast(self._loop)
         self.context.hurry = 1
         yield
-        if self._tables is not None:
+        if not small:
             yield from self._tables.improve()
         self.improved = True
+
+    def _is_small(self) -> bool:
+        if self._segment.order > SMALL or len(self._segment.body) > SMALL:
+            return False
+        scope = survey(self._passes.values())
+        return scope.only_scalars and scope.statements <= SMALL
 
     # ------------------------------------------------------------------ running
 
@@ -122,11 +125,6 @@ class NativeModel:
             if wild.size:
                 return int(wild[0]) if number == 0 else -1 - int(wild[0])
         return 0
-
-
-def _is_small(passes: dict[str, tuple[Action, ...]]) -> bool:
-    scope = survey(passes.values())
-    return scope.only_scalars and scope.statements <= SMALL
 
 
 def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:
