@@ -34,6 +34,9 @@ def write_picture(graph: Graph, path: Path) -> None:
     kind = path.suffix.lower()
     if kind not in KINDS:
         raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
+    import logging
+
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its font cache is nobody's business here
     from matplotlib import rc_context
 
     with rc_context({"svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000}):
