@@ -9,6 +9,7 @@ from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetVec,
 
 if TYPE_CHECKING:
     from desire_tui.engine.analysis.context import Context
+    from desire_tui.engine.analysis.flow import Snapshot
     from desire_tui.engine.analysis.states import StateTable
     from desire_tui.engine.lowered import Action, Column, Picture, Request, Value, Where
     from desire_tui.engine.source import Span
@@ -25,12 +26,12 @@ class OpenGuard:
     where: Where
     serial: int
     outer: list[Action]
-    saved: tuple[dict[str, Load], set[int], set[tuple[int, int]]]
+    saved: Snapshot
     condition: Value | None = None
     every: int = 1
     otherwise: bool = False
     then: tuple[Action, ...] = ()
-    after_then: tuple[dict[str, Load], set[int], set[tuple[int, int]]] | None = None
+    after_then: Snapshot | None = None
 
 
 @dataclass

@@ -7,9 +7,11 @@ must be carried out in every pass it belongs to (language.md 9.1, 9.2; book, sec
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.analysis.intervals import Intervals
 from desire_tui.engine.analysis.scope import SYSTEM_SLOTS
 from desire_tui.engine.lowered import Load, Set, SetDot, SetMat, SetVec
 
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered import Action
 
 Assignment = Set | SetVec | SetMat | SetDot
-Interval = tuple[int, int]
+Snapshot = tuple[dict[str, "Load"], set[int], Intervals]
 
 
 @dataclass
@@ -30,53 +32,59 @@ class Flow:
 
     ready: dict[str, Load] = field(default_factory=dict)
     set_slots: set[int] = field(default_factory=set)
-    set_ranges: set[Interval] = field(default_factory=set)
+    set_ranges: Intervals = field(default_factory=Intervals)
     early_slots: set[int] = field(default_factory=set)
-    early_ranges: set[Interval] = field(default_factory=set)
+    early_ranges: Intervals = field(default_factory=Intervals)
     assignments: list[Assignment] = field(default_factory=list)
 
-    def snapshot(self) -> tuple[dict[str, Load], set[int], set[Interval]]:
+    def snapshot(self) -> Snapshot:
         """Return what is surely set here, to come back to when a guard ends."""
-        return dict(self.ready), set(self.set_slots), set(self.set_ranges)
+        return dict(self.ready), set(self.set_slots), self.set_ranges.copy()
 
-    def restore(self, saved: tuple[dict[str, Load], set[int], set[Interval]]) -> None:
+    def restore(self, saved: Snapshot) -> None:
         """Forget what was set inside a guard."""
         self.ready, self.set_slots, self.set_ranges = saved
 
-    def keep_common(self, other: tuple[dict[str, Load], set[int], set[Interval]]) -> None:
+    def keep_common(self, other: Snapshot) -> None:
         """After if/else: surely set is what both branches set."""
         ready, slots, ranges = other
         self.ready = {name: load for name, load in self.ready.items() if name in ready}
         self.set_slots &= slots
-        self.set_ranges &= ranges
+        self.set_ranges = self.set_ranges.common(ranges)
 
     def read_slot(self, slot: int) -> None:
         """Note that a number which the segment may assign is read."""
-        if slot not in self.set_slots and not any(a <= slot < a + n for a, n in self.set_ranges):
+        if slot not in self.set_slots and not self.set_ranges.covers(slot, 1):
             self.early_slots.add(slot)
 
     def read_range(self, slot: int, count: int) -> None:
         """Note that a whole array is read."""
-        if not any(a <= slot and slot + count <= a + n for a, n in self.set_ranges):
-            self.early_ranges.add((slot, count))
+        if not self.set_ranges.covers(slot, count):
+            self.early_ranges.add(slot, count)
 
-    def mark_persistent(self, states: list[Interval]) -> None:
-        """Mark the assignments whose numbers are read early, or that move a state or system variable."""
-        early, ranges = self.early_slots, sorted(self.early_ranges | set(states))
+    def mark_persistent(self, states: list[tuple[int, int]]) -> None:
+        """Mark the assignments whose numbers are read early, or that move a state or system variable.
+
+        `states`: slot and count of each range of states.
+        """
+        slots, ranges = self.early_slots, self.early_ranges
+        for slot, count in states:
+            if count == 1:
+                slots.add(slot)
+            else:
+                ranges.add(slot, count)
+        early = sorted(slots)
         for made in self.assignments:
             slot = made.slot
             if isinstance(made, Set | SetDot):
-                kept = slot in early or slot < SYSTEM_SLOTS or _overlaps(ranges, slot, 1)
+                kept = slot in slots or slot < SYSTEM_SLOTS or ranges.touches(slot, 1)
             else:
                 count = made.count if isinstance(made, SetVec) else made.rows * made.cols
                 kept = made.mode == "add" or (isinstance(made, SetMat) and made.mask_slot is not None)
-                kept = kept or any(slot <= s < slot + count for s in early) or _overlaps(ranges, slot, count)
+                at = bisect_left(early, slot)
+                kept = kept or (at < len(early) and early[at] < slot + count) or ranges.touches(slot, count)
             if kept:
                 made.persistent = True  # type: ignore[misc]  # nodes are frozen for the type checker only
-
-
-def _overlaps(ranges: list[Interval], slot: int, count: int) -> bool:
-    return any(a < slot + count and slot < a + n for a, n in ranges)
 
 
 def walk(actions: tuple[Action, ...] | list[Action]) -> list[Action]:

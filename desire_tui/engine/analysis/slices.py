@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.analysis.intervals import Intervals
 from desire_tui.engine.lowered import (
     Const,
     DelayLine,
@@ -35,7 +36,7 @@ from desire_tui.engine.lowered import (
     TrackHold,
     Vec,
 )  # fmt: skip
-from desire_tui.engine.values import IROW
+from desire_tui.engine.values import IROW, SCALAR_SLOTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -178,34 +179,36 @@ def _with_bodies(guard: Guard, body: Actions, orelse: Actions) -> Guard:
 
 
 class _Reads:
-    """Numbers that kept statements read: single slots, and whole arrays as intervals."""
+    """Numbers that kept statements read: scalars by slot, arrays and their elements as intervals."""
 
     def __init__(self) -> None:
         self.slots: set[int] = set()
-        self.ranges: list[tuple[int, int]] = []
-        self._seen: set[tuple[int, int]] = set()
+        self.ranges = Intervals()
         self._shared: dict[int, Op] = {}
 
+    def add_slot(self, slot: int) -> None:
+        if slot < SCALAR_SLOTS:
+            self.slots.add(slot)
+        else:
+            self.ranges.add(slot, 1)
+
     def add_range(self, slot: int, count: int) -> None:
-        if (slot, count) not in self._seen:
-            self._seen.add((slot, count))
-            self.ranges.append((slot, slot + count))
+        self.ranges.add(slot, count)
 
     def has(self, slot: int) -> bool:
-        if slot in self.slots:
-            return True
-        return any(a <= slot < b for a, b in self.ranges) if self.ranges else False
+        return slot in self.slots or self.ranges.touches(slot, 1)
 
     def touches(self, slot: int, count: int) -> bool:
-        end = slot + count
-        return any(a < end and slot < b for a, b in self.ranges) or any(slot <= s < end for s in self.slots)
+        if self.ranges.touches(slot, count):
+            return True
+        return slot < SCALAR_SLOTS and any(slot <= s < slot + count for s in self.slots)
 
     def value(self, value: Value | None) -> None:
         """Add what an expression reads."""
         if value is None or isinstance(value, Const):
             return
         if isinstance(value, Load):
-            self.slots.add(value.slot)
+            self.add_slot(value.slot)
         elif isinstance(value, Op):
             # an argument of a FUNCTION is one object in many places: looked at once
             if id(value) not in self._shared:
@@ -252,7 +255,7 @@ class _Reads:
                 self.value(term.left)
                 self.value(term.right)
         elif isinstance(action, Store):
-            self.slots.add(action.slot)
+            self.add_slot(action.slot)
         elif isinstance(action, Get):
             self.add_range(action.array_slot, action.count)
         elif isinstance(action, DelayLine):
@@ -261,7 +264,8 @@ class _Reads:
         elif isinstance(action, TrackHold):
             self.value(action.control)
             self.value(action.value)
-            self.slots.update((action.held_slot, action.tracked_slot))
+            self.add_slot(action.held_slot)
+            self.add_slot(action.tracked_slot)
         elif isinstance(action, Learn):
             self.value(action.rate)
             self.value(action.criterion)

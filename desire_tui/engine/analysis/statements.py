@@ -104,7 +104,7 @@ def store(builder: Builder, node: nodes.Store) -> None:
     value = lower(context, node.variable)
     if quantity is not None and isinstance(value, Load):
         count = size_of(quantity)
-        context.flow.set_ranges.add((quantity.slot, count))
+        context.flow.set_ranges.add(quantity.slot, max(count, 1))
         builder.body.append(Store(quantity.slot, count, value.slot, builder.counter(), context.where(node)))
 
 

@@ -84,4 +84,4 @@ def _array(context: Context, node: Node, name: str, rank: int) -> Quantity | Non
 def mark_array(context: Context, slot: int, count: int) -> None:
     """Note that the pass has set a whole array."""
     if count != UNKNOWN:
-        context.flow.set_ranges.add((slot, count))
+        context.flow.set_ranges.add(slot, count)
