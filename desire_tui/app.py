@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import inspect
-import os
 import signal
 import threading
 import traceback
@@ -12,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from textual import on
-from textual.app import App, SystemCommand
+from textual.app import SystemCommand
 from textual.screen import ModalScreen
 
 from desire_tui import commands, config, places, themes
@@ -29,7 +28,6 @@ from desire_tui.editor.completer import Completer
 from desire_tui.editor.keeper import Keeper
 from desire_tui.editor.pane import EditorPane
 from desire_tui.editor.popup import CompletionPopup
-from desire_tui.engine.session import State
 from desire_tui.engine_thread import EngineThread, ScreenListener
 from desire_tui.line import CommandLine
 from desire_tui.live import Live
@@ -38,13 +36,12 @@ from desire_tui.news import EngineNews
 from desire_tui.panes.command import CommandPane
 from desire_tui.panes.console import Console
 from desire_tui.panes.graph import GraphPane
-from desire_tui.panes.help import HelpPane
 from desire_tui.panes.history import History
 from desire_tui.panes.keynames import key_names
 from desire_tui.panes.problems import ProblemsPane
 from desire_tui.panes.prompt import Prompt
 from desire_tui.panes.quantities import QuantitiesPane
-from desire_tui.panes.status import StatusBar
+from desire_tui.shell import Shell
 from desire_tui.startup import open_first
 from desire_tui.tour import Tour
 
@@ -53,19 +50,17 @@ if TYPE_CHECKING:
 
     from textual.binding import BindingType
     from textual.screen import Screen
-    from textual.widget import Widget
 
     from desire_tui.actions import Controller
-    from desire_tui.desk import Side
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.session import Permissions, Session
+    from desire_tui.engine.session import Permissions
 
 STATUS_EVERY_S, QUANTITIES_EVERY_S = 0.1, 0.35
 EDITOR_ONLY = {"edit.undo", "edit.redo", "edit.select_all", "edit.comment", "file.close", "view.editor"}
 """Their keys mean something else inside a one-line field."""
 
 
-class DesireApp(App[None]):
+class DesireApp(Shell):
     """`DesireApp(files).run()` opens the IDE with these files in tabs."""
 
     TITLE = "Desire"
@@ -91,44 +86,13 @@ class DesireApp(App[None]):
         self.file = FileActions(self)
         self.actions_view = ViewActions(self)
         self._controllers: dict[str, Controller] = {
-            "run": self.run_actions, "file": self.file, "edit": EditActions(self), "graph": GraphActions(self),
+            "run": self.run_actions, "file": self.file, "edit": EditActions(self),
+            "graph": GraphActions(self),
             "view": self.actions_view, "help": HelpActions(self),
         }  # fmt: skip
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.desk = Desk(History(places.state_folder() / "history.json"), self.settings.keys)
-
-    @property
-    def session(self) -> Session:
-        """The engine; waits for it during the first moments."""
-        return self.engine.session
-
-    # ----------------------------------------------------------------------------------------------- panes
-
-    @property
-    def editor(self) -> EditorPane:
-        """The editor pane."""
-        return self.desk.query_one(EditorPane)
-
-    @property
-    def command(self) -> CommandPane:
-        """The command pane."""
-        return self.desk.query_one(CommandPane)
-
-    @property
-    def graph(self) -> GraphPane:
-        """The graph pane."""
-        return self.desk.query_one(GraphPane)
-
-    @property
-    def quantities(self) -> QuantitiesPane:
-        """The quantities pane."""
-        return self.desk.query_one(QuantitiesPane)
-
-    @property
-    def help_pane(self) -> HelpPane:
-        """The help pane."""
-        return self.desk.query_one(HelpPane)
 
     # ------------------------------------------------------------------------------------- start and end
 
@@ -149,6 +113,7 @@ class DesireApp(App[None]):
         for number in (signal.SIGTERM, signal.SIGHUP):
             if threading.current_thread() is threading.main_thread():
                 asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
+        self.theme_changed_signal.subscribe(self.desk, lambda _: self.editor.follow_theme())
         self.call_after_refresh(self.engine.start)
 
     def engine_ready(self) -> None:
@@ -191,6 +156,10 @@ class DesireApp(App[None]):
     def _stop_engine(self) -> None:
         if self.engine.is_up:
             self.session.end()
+
+    def show_problems(self, diagnostics: Sequence[Diagnostic]) -> None:
+        """Show problems as those of a program."""
+        self.news.show(diagnostics)
 
     def checkpoint(self) -> None:
         """Write unsaved work to the recovery file."""
@@ -250,78 +219,7 @@ class DesireApp(App[None]):
         """Do something slow that is not the engine's, such as drawing a picture."""
         threading.Thread(target=job, daemon=True, name="desire-picture").start()
 
-    # ----------------------------------------------------------------------------------------------- layout
-
-    def open_side(self, name: Side, *, toggle: bool = False) -> None:
-        """Show a side pane and move there."""
-        if not self.desk.open_side(name, toggle=toggle):
-            self.bring(self.command.prompt)
-            return
-        if name == "quantities":
-            self.quantities.show(self.session.values)
-            self.quantities.table.focus()
-        elif name == "problems":
-            self.list_problems()
-            self.desk.query_one("#problems").focus()
-
-    def close_side(self) -> None:
-        """Hide the side pane."""
-        if self.desk.close_side():
-            self.command.prompt.focus()
-
-    def side_focus(self) -> Widget | None:
-        """Return what gets the keys in the side pane, None if it is hidden."""
-        match self.desk.side:
-            case "quantities":
-                return self.quantities.table
-            case "problems":
-                return self.desk.query_one("#problems")
-            case "help":
-                return self.help_pane.query_one("#help-search")
-        return None
-
-    def bring(self, widget: Widget) -> bool:
-        """Move the keys to a widget; a pane shown alone gives way to the widget's."""
-        if self.desk.alone is not None:
-            self.desk.show_alone(self.desk.pane_of(widget))
-        widget.focus()
-        return widget.focusable
-
-    def toggle_maximized(self, pane: Widget | None) -> None:
-        """Show a pane (default: the focused one) alone, or all again."""
-        if self.desk.alone is not None:
-            self.desk.show_alone(None)
-            return
-        self.desk.show_alone(pane or self.desk.pane_of(self.focused))
-        if pane is not None:
-            pane.focus()
-
-    # --------------------------------------------------------------------------------------------- refresh
-
-    def show_status(self) -> None:
-        """Bring the status bar up to date."""
-        self.desk.query_one(StatusBar).status = self.session.status
-        self.show_hint()
-
-    def draw_frame(self) -> None:
-        """Draw what is new in the graph, unless the terminal has not yet taken the last frame."""
-        if not self.output_is_backed_up:
-            self.graph.tick()
-
-    @property
-    def output_is_backed_up(self) -> bool:
-        """Whether the terminal is slower than the app."""
-        writer = getattr(self._driver, "_writer_thread", None)
-        return writer is not None and writer._queue.qsize() > 0  # noqa: SLF001 - Textual is pinned; it has no public way
-
-    @property
-    def clipboard_hint(self) -> str:
-        """What stands between OSC 52 and the clipboard."""
-        if os.environ.get("TMUX"):
-            return "In tmux this needs: set -g set-clipboard on"
-        return ""
-
-    # -------------------------------------------------------------------------------------- what panes ask for
+    # ------------------------------------------------------------------------------ what panes ask for
 
     @on(EngineMessage)
     def _engine_says(self, message: EngineMessage) -> None:
@@ -387,57 +285,3 @@ class DesireApp(App[None]):
     def _pause_wanted(self) -> None:
         if self.engine.is_busy:
             self.do("run.pause")
-
-    # ------------------------------------------------------------------------------------------------ telling
-
-    def complain(self, sentence: str, *, code: int | None) -> None:
-        """Tell the user that something of his cannot be done."""
-        text = f"error {code}: {sentence}" if code else sentence
-        self.command.console.add(text, "error" if code else "warning")
-        self.notify(text, severity="error" if code else "warning", markup=False, timeout=6)
-
-    def show_problems(self, diagnostics: Sequence[Diagnostic]) -> None:
-        """Show problems as those of a program."""
-        self.news.show(diagnostics)
-
-    def list_problems(self) -> None:
-        """Bring the problems pane up to date."""
-        self.desk.query_one(ProblemsPane).show(self.editor.areas)
-
-    def snapshot_written(self, path: Path) -> None:
-        """Tell where the picture is."""
-        self.command.console.add(f"{path}", "notice")
-        self.notify(f"Saved {path}", markup=False, timeout=3)
-
-    def samples(self, separator: str) -> str:
-        """Return the last run's samples as a table: t, then every column."""
-        record = self.session.runs[-1]
-        head = separator.join(("t", *(column.name for column in record.columns)))
-        rows = record.rows[: record.count].tolist()
-        return "\n".join((head, *(separator.join(f"{value:.17g}" for value in row) for row in rows))) + "\n"
-
-    def write_up(self, summary: str, details: str) -> None:
-        """Keep a fault of ours in a file and say so; the session goes on."""
-        path = places.state_folder() / "faults.log"
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            with path.open("a", encoding="utf-8") as file:
-                file.write(details + "\n")
-            where = f"; details in {path}"
-        except OSError:
-            where = ""
-        self.complain(f"a fault of this program, not of yours: {summary}{where}", code=None)
-
-    def show_hint(self) -> None:
-        """Say in the status row what a paused or waiting program expects."""
-        hints = {
-            State.PAUSED: "Paused · Enter goes on · Space Enter ends",
-            State.ASKING: "The program waits for input · Ctrl+C breaks off",
-            State.STOPPED: "Stopped · F10 or go continues",
-        }
-        self.desk.query_one(StatusBar).hint = hints.get(self.session.status.state, "")
-
-    def send_breakpoints(self) -> None:
-        """Tell the engine the breakpoints of the active program."""
-        area = self.editor.active or self.editor.front
-        self.session.set_breakpoints({row + 1 for row in area.marks.breakpoints})

@@ -1,7 +1,7 @@
 """One table of everything the desktop can do.
 
-Keys, command palette, command line, help pages and documentation are made from it. `id` is `part.action`: the method
-`action` of the app's controller `part` carries it out (see `actions/`).
+Keys, command palette, command line, help pages and documentation are made from it. `id` is `part.action`:
+the method `action` of the app's controller `part` carries it out (see `actions/`).
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""The user's configuration: a TOML file. What is wrong in it is named by file, key and nearest key; the rest counts."""
+"""The user's configuration: a TOML file.
+
+What is wrong in it is named by file, key and nearest key; the rest counts.
+"""
 
 from __future__ import annotations
 

@@ -35,11 +35,20 @@ if TYPE_CHECKING:
 Side = Literal["quantities", "problems", "help"]
 SMALLEST = (40, 10)
 NARROW_BELOW, LOW_BELOW = 100, 28
-SHOWN_KEYS = ("run.start", "run.accept", "run.pause", "view.palette", "help.word", "view.next_pane", "view.maximize",
-              "graph.full", "edit.next_problem", "file.save", "file.quit")  # fmt: skip
-_TITLES = {"run.accept": "OK", "run.pause": "pause", "view.palette": "palette", "run.start": "run", "help.word": "help",
-           "view.next_pane": "next pane", "view.maximize": "zoom", "graph.full": "graph", "edit.next_problem": "problem",
-           "file.save": "save", "file.quit": "quit"}  # fmt: skip
+SHOWN_KEYS = {
+    "run.start": "run",
+    "run.accept": "OK",
+    "run.pause": "pause",
+    "view.palette": "palette",
+    "help.word": "help",
+    "view.next_pane": "next pane",
+    "view.maximize": "zoom",
+    "graph.full": "graph",
+    "edit.next_problem": "problem",
+    "file.save": "save",
+    "file.quit": "quit",
+}
+"""Keys of the status row, the most wanted first, with a word for each."""
 
 
 class Desk(Screen[None]):
@@ -57,10 +66,12 @@ class Desk(Screen[None]):
     Desk #left { width: 1fr; }
     Desk #right { width: 1fr; }
     Desk #editor { height: 2fr; }
-    Desk #command { height: 1fr; min-height: 4; border-top: solid $secondary; border-title-color: $foreground 70%; }
+    Desk #command { height: 1fr; min-height: 4; border-top: solid $secondary;
+            border-title-color: $foreground 70%; }
     Desk #command:focus-within { border-top: solid $primary; border-title-color: $accent; }
     Desk #graph { height: 2fr; border-left: solid $secondary; }
-    Desk #side { height: 1fr; min-height: 6; display: none; border-top: solid $secondary; border-left: solid $secondary;
+    Desk #side { height: 1fr; min-height: 6; display: none; border-top: solid $secondary;
+            border-left: solid $secondary;
                  border-title-color: $foreground 70%; background: $surface; }
     Desk #side:focus-within { border-top: solid $primary; border-title-color: $accent; }
     Desk #side.-shown { display: block; }
@@ -88,7 +99,7 @@ class Desk(Screen[None]):
                     yield QuantitiesPane()
                     yield ProblemsPane()
                     yield HelpPane()
-        yield StatusBar([(self._key(command), _TITLES[command]) for command in SHOWN_KEYS])
+        yield StatusBar([(self._key(command), title) for command, title in SHOWN_KEYS.items()])
         yield CompletionPopup()
         yield Label(
             f"Desire needs a terminal of at least\n{SMALLEST[0]} × {SMALLEST[1]} characters.", id="too-small"

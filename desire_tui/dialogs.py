@@ -26,15 +26,19 @@ _BOX = """
 
 
 class Choice(ModalScreen[str | None]):
-    """A sentence and buttons; each answers to its first letter. Dismissed with the button's word, Esc: None."""
+    """A sentence and buttons; each answers to its first letter, too.
+
+    Dismissed with the button's word, Esc: None.
+    """
 
     DEFAULT_CSS = f"""
     Choice {{ {_CSS} }}
     Choice > Vertical {{ {_BOX} }}
     Choice Label {{ width: 1fr; height: auto; margin-bottom: 1; }}
     Choice Horizontal {{ height: auto; align-horizontal: right; }}
-    Choice Button {{ margin-left: 1; min-width: 10; height: 1; border: none; background: $surface; }}
-    Choice Button:focus {{ background: $primary; color: $background; text-style: bold; }}
+    Choice Button {{ margin-left: 1; min-width: 10; background: $surface; }}
+    Choice Button:focus {{ background: $primary !important; color: $background !important;
+                          text-style: bold !important; }}
     """
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "dismiss(None)", "Cancel"),
@@ -54,7 +58,7 @@ class Choice(ModalScreen[str | None]):
             yield Label(self._sentence, markup=False)
             with Horizontal():
                 for number, choice in enumerate(self._choices):
-                    yield Button(f"{choice} ({choice[0].lower()})", id=f"choice-{number}")
+                    yield Button(choice, id=f"choice-{number}", compact=True)
 
     def on_button_pressed(self, event: Button.Pressed) -> None:
         """Answer."""

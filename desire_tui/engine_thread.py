@@ -29,7 +29,10 @@ if TYPE_CHECKING:
     Post = Callable[[messages.EngineMessage], object]
 
 WAITING_CHARS_MAX = 200_000
-"""Console output the screen has not taken yet; above it the program waits, so that a flood cannot fill the memory."""
+"""Console output the screen has not taken yet.
+
+Above it the program waits, so that a flood cannot fill the memory.
+"""
 STOPPED_BY_USER = 301
 WARM_UP = "TMAX = 1 | DT = 0.5 | NN = 3 | x = 1\ndrun\nDYNAMIC\nd/dt x = -x\ndispt x\n"
 
@@ -225,7 +228,10 @@ class EngineThread:
 
 
 def warm_up() -> None:
-    """Compile and run a small program for nobody and frame its graph: what this imports, the first `zz` need not."""
+    """Compile and run a small program for nobody and frame its graph.
+
+    What this imports, the first `zz` need not.
+    """
     from desire_tui.engine.outputs.frame import text_frame
     from desire_tui.engine.session import Session
     from desire_tui.engine.source import Source

@@ -27,7 +27,10 @@ def examples_folder() -> Path:
 
 
 def full(path: Path, folder: Path | None = None) -> Path:
-    """Return the absolute path, `~` and links resolved; relative ones start at `folder` (default: where we are)."""
+    """Return the absolute path, `~` and links resolved.
+
+    Relative ones start at `folder` (default: where we are).
+    """
     path = path.expanduser()
     return ((folder / path) if folder is not None else path).resolve()
 

@@ -1,4 +1,7 @@
-"""What is open when the desktop appears: the files named, else the last session's, else an example with a tour."""
+"""What is open when the desktop appears.
+
+The files named, else the last session's, else an example with a tour.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +53,8 @@ async def _offer_recovery(app: DesireApp) -> None:
     for file in unreadable:
         recovery.set_aside(file)
         app.complain(
-            f"{file} was left by another version or is damaged; it is kept as {file.with_suffix('.unread').name}",
+            f"{file} was left by another version or is damaged; "
+            f"it is kept as {file.with_suffix('.unread').name}",
             code=None,
         )
     for leftover in found:

@@ -7,20 +7,28 @@ from textual.theme import Theme
 from textual.widgets.text_area import TextAreaTheme
 
 DARK = Theme(
-    "dark", primary="#4fa3d9", secondary="#3d7ea6", accent="#e5c07b", foreground="#d7dae0", background="#15181e",
-    surface="#1a1e25", panel="#262c36", success="#7fc97f", warning="#e5c07b", error="#f4737b", dark=True,
+    "dark", primary="#4fa3d9", secondary="#3d7ea6", accent="#e5c07b", foreground="#d7dae0",
+    background="#15181e", surface="#1a1e25", panel="#262c36", success="#7fc97f",
+    warning="#e5c07b", error="#f4737b",
+    dark=True,
 )  # fmt: skip
 LIGHT = Theme(
-    "light", primary="#1f6fa8", secondary="#4a86ad", accent="#8a5a00", foreground="#23272e", background="#f4f4f0",
-    surface="#fbfbf8", panel="#dfe2e6", success="#1f7a33", warning="#8a5a00", error="#b3202c", dark=False,
+    "light", primary="#1f6fa8", secondary="#4a86ad", accent="#8a5a00", foreground="#23272e",
+    background="#f4f4f0", surface="#fbfbf8", panel="#dfe2e6", success="#1f7a33",
+    warning="#8a5a00", error="#b3202c",
+    dark=False,
 )  # fmt: skip
 CONTRAST = Theme(
-    "contrast", primary="#00d7ff", secondary="#00afff", accent="#ffff00", foreground="#ffffff", background="#000000",
-    surface="#000000", panel="#303030", success="#00ff00", warning="#ffff00", error="#ff6060", dark=True,
+    "contrast", primary="#00d7ff", secondary="#00afff", accent="#ffff00", foreground="#ffffff",
+    background="#000000", surface="#000000", panel="#303030", success="#00ff00",
+    warning="#ffff00", error="#ff6060",
+    dark=True,
 )  # fmt: skip
 PUBLICATION = Theme(
     "publication", primary="#303030", secondary="#505050", accent="#000000", foreground="#000000",
-    background="#ffffff", surface="#ffffff", panel="#e4e4e4", success="#000000", warning="#303030", error="#900000",
+    background="#ffffff", surface="#ffffff", panel="#e4e4e4", success="#000000",
+    warning="#303030",
+    error="#900000",
     dark=False,
 )  # fmt: skip
 
@@ -37,7 +45,10 @@ _COLOURS = {
 
 
 def editor_theme(theme: Theme) -> TextAreaTheme:
-    """Return the editor's colours for a theme; for a theme that is not ours, those of our light or dark one."""
+    """Return the editor's colours for a theme.
+
+    For a theme that is not ours, those of our light or dark one.
+    """
     name = theme.name if theme.name in _COLOURS else ("dark" if theme.dark else "light")
     styles = {word: Style(color=colour) for word, colour in zip(_WORDS, _COLOURS[name], strict=True)}
     styles["keyword"] += Style(bold=True)

@@ -66,7 +66,10 @@ class FileActions(Controller):
         return await self.app.push_screen_wait(FileOpen(self._folder(), filters=filters))
 
     async def open_path(self, path: Path, *, focus: bool = True) -> CodeArea | None:
-        """Open a file in a tab, or show the tab that holds it. None where it cannot be read; the user is told."""
+        """Open a file in a tab, or show the tab that holds it.
+
+        None where it cannot be read; the user is told.
+        """
         path = full(path)
         editor = self.app.editor
         if (known := next((a for a in editor.areas if a.buffer.path == path), None)) is not None:

@@ -1,8 +1,8 @@
 """The text of one tab: Textual's TextArea, with the language's own colours, problem marks and habits.
 
 TextArea's internals are overridden in few places, each named here: `_build_highlight_map` (colours without
-tree-sitter), `_set_document` (no wrapping tables), `edit` / `_undo_batch` / `_redo_batch` (marks move with the text),
-`render_line` (gutter marks), `_refresh_size` (the width is not measured anew at each key).
+tree-sitter), `_set_document` (no wrapping tables), `edit` / `_undo_batch` / `_redo_batch` (marks move with
+the text), `render_line` (gutter marks), `_refresh_size` (the width is not measured anew at each key).
 """
 
 from __future__ import annotations

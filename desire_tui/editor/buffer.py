@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import count
-from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 _numbers = count(1)
 
 SIZE_MAX = 64 << 20
-"""Files larger than this (bytes) are not opened: nobody edits them, and a wrong file must not fill the memory."""
+"""Files larger than this (bytes) are not opened.
+
+Nobody edits them, and a wrong file must not fill the memory.
+"""
 
 
 class NotText(ValueError):  # noqa: N818 - a statement about a file

@@ -21,7 +21,10 @@ CHECKED_MAX = 2_000_000
 
 
 class Checker:
-    """Checks texts one after the other. `report(tab number, version, problems)` is called in the checking thread."""
+    """Checks texts one after the other.
+
+    `report(tab number, version, problems)` is called in the checking thread.
+    """
 
     def __init__(self, check: Check, report: Report, fault: Callable[[Exception], object]) -> None:
         self._check = check

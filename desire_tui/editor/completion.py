@@ -40,8 +40,8 @@ def offers(
 ) -> list[Offer]:
     """Return completions of `prefix`, the program's own names first.
 
-    `texts` are programs whose names count, `known` are names with a line about each (quantities with their values);
-    with `commands` the command line's words are offered too.
+    `texts` are programs whose names count, `known` are names with a line about each (quantities with their
+    values); with `commands` the command line's words are offered too.
     """
     about = _words(commands=commands)
     own: dict[str, str] = dict(known)
@@ -68,10 +68,13 @@ def _without_comments(text: str) -> str:
 
 @cache
 def _words(*, commands: bool) -> dict[str, str]:
-    """Every word of the language with a line about it; the command line's own words too where they may stand."""
+    """Every word of the language with a line about it.
+
+    The command line's own words too where they may stand.
+    """
     from desire_tui.engine.library import LIBRARY
 
-    table = {name: f"{name}({entry.parameters})  {entry.help}" for name, entry in LIBRARY.items()}
+    table = {name: f"({entry.parameters})  {entry.help}" for name, entry in LIBRARY.items()}
     for page in topics().values():
         if page.kind == "error" or (page.kind == "command" and not commands):
             continue

@@ -1,7 +1,9 @@
 """The editor's colours, line by line, from the engine's own tokens.
 
-TextArea asks `_highlights[row]` for byte ranges of a row it is about to draw. This mapping makes them when asked,
-so an edit costs nothing for the lines nobody sees. Ranges are kept by the line's text: scrolling and undo reuse them.
+TextArea asks `_highlights[row]` for byte ranges of a row it is about to draw. This mapping makes them when
+asked,
+so an edit costs nothing for the lines nobody sees. Ranges are kept by the line's text: scrolling and undo
+reuse them.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Keeps the editors' work safe: checkpoints while the app runs, the session file at the end, recovery at the start."""
+"""Keeps the editors' work safe.
+
+Checkpoints while the app runs, the session file at the end, recovery at the start.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +40,8 @@ class Keeper:
         buffer = area.buffer
         row, column = area.cursor_location
         return SavedTab(
-            str(buffer.path) if buffer.path else None, buffer.label or buffer.name, area.text if text else None,
+            str(buffer.path) if buffer.path else None, buffer.label or buffer.name,
+            area.text if text else None,
             row, column, area is self._editor.front,
         )  # fmt: skip
 

@@ -33,7 +33,8 @@ class EditorPane(Vertical):
     EditorPane #areas { height: 1fr; }
     EditorPane #areas.-split CodeArea { border-right: solid $panel; }
     EditorPane #under { height: 1; background: $panel; }
-    EditorPane #problem { width: 1fr; height: 1; color: $text-muted; text-overflow: ellipsis; text-wrap: nowrap; }
+    EditorPane #problem { width: 1fr; height: 1; color: $text-muted; text-overflow: ellipsis;
+            text-wrap: nowrap; }
     EditorPane #problem.-error { color: $text-error; }
     EditorPane #place { width: auto; padding: 0 1; color: $text-muted; }
     EditorPane #ok { width: auto; background: $primary; color: $background; text-style: bold; }
@@ -154,6 +155,11 @@ class EditorPane(Vertical):
     def find(self, number: int) -> CodeArea | None:
         """Return the tab with that buffer number."""
         return next((area for area in self.areas if area.buffer.number == number), None)
+
+    def follow_theme(self) -> None:
+        """Take over the colours of the app's current theme."""
+        for area in self.areas:
+            area.follow_theme()
 
     def refresh_tabs(self) -> None:
         """Draw names and marks again."""

@@ -23,11 +23,13 @@ class CompletionPopup(OptionList):
     """Words to choose from; keys come from the widget that has the focus, which keeps it."""
 
     DEFAULT_CSS = """
-    CompletionPopup { layer: popup; position: absolute; display: none; height: auto; max-height: 8; padding: 0;
+    CompletionPopup { layer: popup; position: absolute; display: none; height: auto; max-height: 8;
+            padding: 0;
                       border: none; background: $panel; color: $foreground; scrollbar-size-vertical: 1;
                       text-wrap: nowrap; text-overflow: ellipsis; }
     CompletionPopup > .option-list--option { padding: 0 1; }
-    CompletionPopup > .option-list--option-highlighted { background: $primary; color: $background; text-style: bold; }
+    CompletionPopup > .option-list--option-highlighted { background: $primary; color: $background;
+            text-style: bold; }
     """
     can_focus = False
 

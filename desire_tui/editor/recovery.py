@@ -1,6 +1,9 @@
-"""Nothing typed is lost: unsaved work goes to a recovery file every half minute and when the window loses the focus.
+"""Nothing typed is lost.
 
-`recovery-<pid>.json` is written to a temporary file and renamed. A file whose process is gone was left by a crash, a
+Unsaved work goes to a recovery file every half minute and when the window loses the focus.
+
+`recovery-<pid>.json` is written to a temporary file and renamed. A file whose process is gone was left by
+a crash, a
 lost connection or a kill: its tabs are offered at the next start. A normal exit removes it and writes
 `session.json`, from which the next start opens the same tabs.
 """
@@ -62,7 +65,10 @@ def store(path: Path, tabs: list[SavedTab]) -> bool:
 
 
 def read(path: Path) -> tuple[SavedTab, ...]:
-    """Read tabs. Raises ValueError for a file that is damaged or of another version, OSError if unreadable."""
+    """Read tabs.
+
+    Raises ValueError for a file that is damaged or of another version, OSError if unreadable.
+    """
     stored: Any = json.loads(path.read_text(encoding="utf-8"))
     if not isinstance(stored, dict) or stored.get("version") != VERSION:
         raise ValueError("another version")

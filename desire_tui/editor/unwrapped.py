@@ -1,7 +1,7 @@
 """Line n stands in row n: TextArea's wrapping tables without the tables.
 
-The editor never wraps. Textual's `WrappedDocument` still builds four lists over all lines at every load, resize and
-change of the gutter's width: half a minute for a program of 20 MB.
+The editor never wraps. Textual's `WrappedDocument` still builds four lists over all lines at every load,
+resize and change of the gutter's width: half a minute for a program of 20 MB.
 """
 
 from __future__ import annotations

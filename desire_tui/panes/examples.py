@@ -39,7 +39,8 @@ class ExamplesScreen(ModalScreen[Path | None]):
                                 border-title-color: $accent; }
     ExamplesScreen Input { height: 1; border: none; padding: 0 1; background: $panel; }
     ExamplesScreen Input:focus { border: none; }
-    ExamplesScreen OptionList { width: 2fr; border: none; padding: 0; background: $surface; height: 1fr; }
+    ExamplesScreen OptionList { width: 2fr; border: none; padding: 0; background: $surface; height: 1fr;
+                                text-wrap: nowrap; text-overflow: ellipsis; overflow-x: hidden; }
     ExamplesScreen Static { width: 3fr; padding: 0 1; height: 1fr; border-left: solid $panel; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [

@@ -33,6 +33,7 @@ class GraphPane(Container, can_focus=True):
 
     DEFAULT_CSS = """
     GraphPane { layers: frame curves; background: #0b0d11; color: #b8bec9; }
+    GraphPane:light { background: #ffffff; color: #202020; }
     GraphPane:focus { border-left: solid $primary; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -145,8 +146,10 @@ class GraphPane(Container, can_focus=True):
     def _state(self) -> tuple[object, ...]:
         page = self.page
         assert page is not None
-        return (id(page), page.frame, page.caption, page.net, self.is_white, self.window, self.size,
-                tuple(len(g.curves) for g in self._under), len(page.curves) if self._under else 0)  # fmt: skip
+        under = tuple(len(graph.curves) for graph in self._under)
+        curves = len(page.curves) if under else 0
+        look = (page.frame, page.caption, page.net, self.is_white, self.window, self.size)
+        return id(page), look, under, curves
 
     def _begin_page(self, state: tuple[object, ...]) -> None:
         from desire_tui.engine.outputs.canvas import Canvas
@@ -285,7 +288,10 @@ class GraphPane(Container, can_focus=True):
         return True
 
     def overlay(self, number: int | None) -> bool:
-        """Lay page `number` (from 1; default: the one before) under the one shown; again: take overlays away."""
+        """Lay page `number` (from 1.
+
+        Default: the one before) under the one shown; again: take overlays away.
+        """
         if self._under and number is None:
             self._under.clear()
             self.tick()

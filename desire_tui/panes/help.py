@@ -23,8 +23,8 @@ HITS_MAX = 200
 WELCOME = """\
 Type above to search all pages; Enter opens the first.
 
-**F5** runs the program in front, **Ctrl+C** pauses, **F1** on a word explains it, **Ctrl+P** lists every action.
-`help 'dispt'` on the command line opens a page too.
+**F5** runs the program in front, **Ctrl+C** pauses, **F1** on a word explains it, **Ctrl+P** lists every
+action. `help 'dispt'` on the command line opens a page too.
 """
 
 
@@ -38,7 +38,8 @@ class HelpPane(Vertical):
     HelpPane OptionList { display: none; height: 1fr; border: none; padding: 0; background: $surface; }
     HelpPane VerticalScroll { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; }
     HelpPane Markdown { padding: 0; margin: 0; background: $surface; }
-    HelpPane MarkdownH1 { content-align: left middle; margin: 0; padding: 0; text-style: bold; color: $primary; }
+    HelpPane MarkdownH1 { content-align: left middle; margin: 0; padding: 0; text-style: bold;
+            color: $primary; }
     HelpPane MarkdownParagraph { margin: 0 0 1 0; }
     HelpPane MarkdownFence { margin: 0 0 1 0; max-height: 40; }
     """

@@ -26,7 +26,10 @@ class History:
                 self.lines = [line for line in stored if isinstance(line, str)][-KEPT_MAX:]
 
     def add(self, line: str) -> None:
-        """Append a line and save; a repeated line moves to the end. A folder that cannot be written is no error."""
+        """Append a line and save; a repeated line moves to the end.
+
+        A folder that cannot be written is no error.
+        """
         self._at = None
         if not line.strip():
             return

@@ -5,8 +5,8 @@ from __future__ import annotations
 _NAMES = {
     "ctrl": "Ctrl", "alt": "Alt", "shift": "Shift", "pagedown": "PgDn", "pageup": "PgUp", "backslash": "\\",
     "underscore": "_", "at": "@", "equals_sign": "=", "plus": "+", "minus": "-", "left": "←", "right": "→",
-    "up": "↑", "down": "↓", "space": "Space", "escape": "Esc", "enter": "Enter", "tab": "Tab", "delete": "Del",
-    "slash": "/",
+    "up": "↑", "down": "↓", "space": "Space", "escape": "Esc", "enter": "Enter", "tab": "Tab", "delete":
+    "Del", "slash": "/",
 }  # fmt: skip
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Prompt(Input):
-    """History with the arrow keys (only lines that begin as what was typed), Ctrl+R searches, Tab completes."""
+    """Arrow keys walk through the lines that begin as what was typed, Ctrl+R searches, Tab completes."""
 
     DEFAULT_CSS = """
     Prompt { border: none; height: 1; padding: 0; width: 1fr; background: $surface; }
@@ -141,7 +141,10 @@ class Prompt(Input):
         self.post_message(self.Entered([line]))
 
     def _on_paste(self, event: events.Paste) -> None:
-        """Carry out several pasted lines one after the other; a last one without its end stays to be edited."""
+        """Carry out several pasted lines one after the other.
+
+        A last one without its end stays to be edited.
+        """
         event.stop()
         event.prevent_default()
         lines = event.text.replace("\r\n", "\n").replace("\r", "\n").split("\n")

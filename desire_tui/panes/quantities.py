@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 ROWS_MAX = 400
 """More rows are not shown; the filter finds the others."""
 ELEMENTS_SHOWN = 4
+NAME_CELLS_MAX, VALUE_CELLS = 16, 16
 
 
 def shape_text(quantity: Quantity) -> str:
@@ -91,11 +92,7 @@ class QuantitiesPane(Vertical):
     def compose(self) -> ComposeResult:
         """Filter, table, field to edit in, sliders."""
         yield Input(placeholder="filter · Enter edits · l live slider", id="filter")
-        table: DataTable[str] = DataTable(cursor_type="row", show_header=False, cell_padding=1)
-        table.add_column("name", key="name")
-        table.add_column("value", key="value")
-        table.add_column("shape", key="shape")
-        yield table
+        yield DataTable(cursor_type="row", show_header=False, cell_padding=1)
         yield Input(id="edit")
         yield VerticalScroll(id="sliders")
 
@@ -122,13 +119,18 @@ class QuantitiesPane(Vertical):
                 break
         table = self.table
         if list(rows) != list(self._shown):
-            table.clear()
+            row = table.cursor_row
+            table.clear(columns=True)
+            table.add_column("name", key="name", width=min(max(map(len, rows), default=4), NAME_CELLS_MAX))
+            table.add_column("value", key="value", width=VALUE_CELLS)
+            table.add_column("shape", key="shape")
             for name, (value, shape) in rows.items():
                 table.add_row(name, value, shape, key=name)
+            table.move_cursor(row=row)
         else:
             for name, cells in rows.items():
                 if cells[0] != self._shown[name][0]:
-                    table.update_cell(name, "value", cells[0], update_width=True)
+                    table.update_cell(name, "value", cells[0])
         self._shown = rows
 
     @on(Input.Changed, "#filter")

@@ -12,7 +12,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What the cursor reads: its abscissa in parts of the window, a head such as `t = 0.31`, and name, colour, value."""
+    """What the cursor reads.
+
+    Its abscissa in parts of the window, a head such as `t = 0.31`, and name, colour, value.
+    """
 
     x: float
     head: str
@@ -20,7 +23,10 @@ class Reading:
 
 
 def read(graph: Graph, window: Window, part: float) -> Reading | None:
-    """Read the curves at `part` (0 … 1) of the window's width; for curves over x, at that part of their samples."""
+    """Read the curves at `part` (0 … 1) of the window's width.
+
+    For curves over x, at that part of their samples.
+    """
     import numpy as np
 
     if not graph.curves:

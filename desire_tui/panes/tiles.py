@@ -1,6 +1,9 @@
-"""The pieces of the graph on screen: the frame behind, tiles of 8 columns with the curves, the row of colour keys.
+"""The pieces of the graph on screen.
 
-A widget's partial refresh sends a row again from the widget's left edge: tiles keep a frame at a few kilobytes.
+The frame behind, tiles of 8 columns with the curves, the row of colour keys.
+
+A widget's partial refresh sends a row again from the widget's left edge: tiles keep a frame at a few
+kilobytes.
 """
 
 from __future__ import annotations

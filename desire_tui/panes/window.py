@@ -21,7 +21,10 @@ class Window(NamedTuple):
         return self == (0.0, 1.0, 0.0, 1.0)
 
     def zoomed(self, factor: float, x: float = 0.5, y: float = 0.5) -> Window:
-        """Return a window `factor` times as wide and high; the point (x, y), parts of the window, stays in place."""
+        """Return a window `factor` times as wide and high.
+
+        The point (x, y), parts of the window, stays in place.
+        """
         width, height = (self.right - self.left) * factor, (self.top - self.bottom) * factor
         if min(width, height) < SMALLEST or max(width, height) > 1 / SMALLEST:
             return self

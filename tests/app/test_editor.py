@@ -37,7 +37,7 @@ def test_indent_after(line: str, blanks: int):
     assert indent.indent_after(line) == " " * blanks
 
 
-@given(st.lists(st.text(st.characters(blacklist_categories=("Cc", "Cs", "Zl", "Zp")), max_size=20), min_size=1))
+@given(st.lists(st.text("ab=-| 'é\t", max_size=12), min_size=1, max_size=5))
 def test_commenting_twice_gives_the_lines_back(lines: list[str]):
     once = indent.toggle_comment(lines)
     if any(line.strip() for line in lines) and not all(

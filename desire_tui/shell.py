@@ -1,0 +1,187 @@
+"""The desktop without its wiring: panes by name, what is shown, what is told to the user."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from textual.app import App
+
+from desire_tui import places
+from desire_tui.editor.pane import EditorPane
+from desire_tui.engine.session import State
+from desire_tui.panes.command import CommandPane
+from desire_tui.panes.graph import GraphPane
+from desire_tui.panes.help import HelpPane
+from desire_tui.panes.problems import ProblemsPane
+from desire_tui.panes.quantities import QuantitiesPane
+from desire_tui.panes.status import StatusBar
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from textual.widget import Widget
+
+    from desire_tui.desk import Desk, Side
+    from desire_tui.engine.session import Session
+    from desire_tui.engine_thread import EngineThread
+
+
+class Shell(App[None]):
+    """What actions and messages use of the app."""
+
+    desk: Desk
+    engine: EngineThread
+
+    @property
+    def session(self) -> Session:
+        """The engine; waits for it during the first moments."""
+        return self.engine.session
+
+    # ----------------------------------------------------------------------------------------------- panes
+
+    @property
+    def editor(self) -> EditorPane:
+        """The editor pane."""
+        return self.desk.query_one(EditorPane)
+
+    @property
+    def command(self) -> CommandPane:
+        """The command pane."""
+        return self.desk.query_one(CommandPane)
+
+    @property
+    def graph(self) -> GraphPane:
+        """The graph pane."""
+        return self.desk.query_one(GraphPane)
+
+    @property
+    def quantities(self) -> QuantitiesPane:
+        """The quantities pane."""
+        return self.desk.query_one(QuantitiesPane)
+
+    @property
+    def help_pane(self) -> HelpPane:
+        """The help pane."""
+        return self.desk.query_one(HelpPane)
+
+    # ----------------------------------------------------------------------------------------------- layout
+
+    def open_side(self, name: Side, *, toggle: bool = False) -> None:
+        """Show a side pane and move there."""
+        if not self.desk.open_side(name, toggle=toggle):
+            self.bring(self.command.prompt)
+            return
+        if name == "quantities":
+            self.quantities.show(self.session.values)
+            self.quantities.table.focus()
+        elif name == "problems":
+            self.list_problems()
+            self.desk.query_one("#problems").focus()
+
+    def close_side(self) -> None:
+        """Hide the side pane."""
+        if self.desk.close_side():
+            self.command.prompt.focus()
+
+    def side_focus(self) -> Widget | None:
+        """Return what gets the keys in the side pane, None if it is hidden."""
+        match self.desk.side:
+            case "quantities":
+                return self.quantities.table
+            case "problems":
+                return self.desk.query_one("#problems")
+            case "help":
+                return self.help_pane.query_one("#help-search")
+        return None
+
+    def bring(self, widget: Widget) -> bool:
+        """Move the keys to a widget; a pane shown alone gives way to the widget's."""
+        if self.desk.alone is not None:
+            self.desk.show_alone(self.desk.pane_of(widget))
+        widget.focus()
+        return widget.focusable
+
+    def toggle_maximized(self, pane: Widget | None) -> None:
+        """Show a pane (default: the focused one) alone, or all again."""
+        if self.desk.alone is not None:
+            self.desk.show_alone(None)
+            return
+        self.desk.show_alone(pane or self.desk.pane_of(self.focused))
+        if pane is not None:
+            pane.focus()
+
+    # --------------------------------------------------------------------------------------------- refresh
+
+    def show_status(self) -> None:
+        """Bring the status bar up to date."""
+        self.desk.query_one(StatusBar).status = self.session.status
+        self.show_hint()
+
+    def draw_frame(self) -> None:
+        """Draw what is new in the graph, unless the terminal has not yet taken the last frame."""
+        if not self.output_is_backed_up:
+            self.graph.tick()
+
+    @property
+    def output_is_backed_up(self) -> bool:
+        """Whether the terminal is slower than the app."""
+        writer = getattr(self._driver, "_writer_thread", None)
+        return writer is not None and writer._queue.qsize() > 0  # noqa: SLF001 - Textual is pinned; it has no public way
+
+    @property
+    def clipboard_hint(self) -> str:
+        """What stands between OSC 52 and the clipboard."""
+        if os.environ.get("TMUX"):
+            return "In tmux this needs: set -g set-clipboard on"
+        return ""
+
+    # ------------------------------------------------------------------------------------------------ telling
+
+    def complain(self, sentence: str, *, code: int | None) -> None:
+        """Tell the user that something of his cannot be done."""
+        text = f"error {code}: {sentence}" if code else sentence
+        self.command.console.add(text, "error" if code else "warning")
+        self.notify(text, severity="error" if code else "warning", markup=False, timeout=6)
+
+    def list_problems(self) -> None:
+        """Bring the problems pane up to date."""
+        self.desk.query_one(ProblemsPane).show(self.editor.areas)
+
+    def snapshot_written(self, path: Path) -> None:
+        """Tell where the picture is."""
+        self.command.console.add(f"{path}", "notice")
+        self.notify(f"Saved {path}", markup=False, timeout=3)
+
+    def samples(self, separator: str) -> str:
+        """Return the last run's samples as a table: t, then every column."""
+        record = self.session.runs[-1]
+        head = separator.join(("t", *(column.name for column in record.columns)))
+        rows = record.rows[: record.count].tolist()
+        return "\n".join((head, *(separator.join(f"{value:.17g}" for value in row) for row in rows))) + "\n"
+
+    def write_up(self, summary: str, details: str) -> None:
+        """Keep a fault of ours in a file and say so; the session goes on."""
+        path = places.state_folder() / "faults.log"
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("a", encoding="utf-8") as file:
+                file.write(details + "\n")
+            where = f"; details in {path}"
+        except OSError:
+            where = ""
+        self.complain(f"a fault of this program, not of yours: {summary}{where}", code=None)
+
+    def show_hint(self) -> None:
+        """Say in the status row what a paused or waiting program expects."""
+        hints = {
+            State.PAUSED: "Paused · Enter goes on · Space Enter ends",
+            State.ASKING: "The program waits for input · Ctrl+C breaks off",
+            State.STOPPED: "Stopped · F10 or go continues",
+        }
+        self.desk.query_one(StatusBar).hint = hints.get(self.session.status.state, "")
+
+    def send_breakpoints(self) -> None:
+        """Tell the engine the breakpoints of the active program."""
+        area = self.editor.active or self.editor.front
+        self.session.set_breakpoints({row + 1 for row in area.marks.breakpoints})
