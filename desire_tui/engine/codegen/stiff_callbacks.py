@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from llvmlite import ir
 
 from desire_tui.engine.codegen.stiff_builder import INT, INT32, POINTER, REAL, VOID, Function
-from desire_tui.engine.integration.problem import Matrix
+from desire_tui.engine.integration.problem import FLOOR, Matrix
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
@@ -106,18 +106,23 @@ def _add_weights(module: Any) -> None:
     f = Function(module, "desire_weights", INT32, [POINTER, POINTER, POINTER])
     y, w, problem = _numbers(f, f.arguments[0]), _numbers(f, f.arguments[1]), f.arguments[2]
     largest, tolerance = f.get(problem, "largest"), f.get(problem, "tolerance")
-    with f.loop(INT(0), f.get(problem, "n")) as i:
-        scale = _scale(f, largest, y, i, keep=True)
-        f.store(w, i, f.build.fdiv(REAL(1.0), f.build.fmul(tolerance, scale)))
+    n, most = f.get(problem, "n"), f.build.alloca(REAL)
+    f.build.store(REAL(0.0), most)
+    with f.loop(INT(0), n) as i:
+        size = f.intrinsic("llvm.maxnum", f.intrinsic("llvm.fabs", f.load(y, i)), f.load(largest, i))
+        f.store(largest, i, size)
+        f.build.store(f.intrinsic("llvm.maxnum", size, f.build.load(most, typ=REAL)), most)
+    f.put(problem, "floor", f.build.fmul(f.build.load(most, typ=REAL), REAL(FLOOR)))
+    with f.loop(INT(0), n) as i:
+        f.store(w, i, f.build.fdiv(REAL(1.0), f.build.fmul(tolerance, _scale(f, problem, i))))
     f.build.ret(INT32(0))
 
 
-def _scale(f: Function, largest: Any, y: Any, i: Any, *, keep: bool) -> Any:
+def _scale(f: Function, problem: Any, i: Any) -> Any:
     """Return the largest magnitude of state i so far, 1 for 0."""
-    size = f.intrinsic("llvm.maxnum", f.intrinsic("llvm.fabs", f.load(y, i)), f.load(largest, i))
-    if keep:
-        f.store(largest, i, size)
-    return f.build.select(f.build.fcmp_ordered("==", size, REAL(0.0)), REAL(1.0), size)
+    size = f.load(f.get(problem, "largest"), i)
+    not_less = f.intrinsic("llvm.maxnum", size, f.get(problem, "floor"))
+    return f.build.select(f.build.fcmp_ordered("==", size, REAL(0.0)), REAL(1.0), not_less)
 
 
 def _add_jacobian(module: Any) -> None:
@@ -178,12 +183,12 @@ def _fill_by_differences(
     (y, fy), (column, moved) = base, spare
     seeds, columns = f.get(problem, "seeds"), f.get(problem, "columns")
     rows, places = f.get(problem, "rows"), f.get(problem, "places")
-    largest, change = f.get(problem, "largest"), f.get(problem, "spare")
+    change = f.get(problem, "spare")
     f.copy(moved, y, f.build.mul(f.get(problem, "n"), INT(8)))
     with f.loop(INT(0), f.get(problem, "colours")) as colour:
         with _slice(f, problem, "seed_starts", colour) as i:
             state = f.load(seeds, i, INT32)
-            least = f.build.fmul(_scale(f, largest, y, state, keep=False), REAL(_LEAST))
+            least = f.build.fmul(_scale(f, problem, state), REAL(_LEAST))
             size = f.intrinsic("llvm.maxnum", f.intrinsic("llvm.fabs", f.load(y, state)), least)
             to = f.build.fadd(f.load(y, state), f.build.fmul(size, REAL(_DIFFERENCE)))
             f.store(change, state, f.build.fsub(to, f.load(y, state)))

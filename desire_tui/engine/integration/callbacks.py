@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from desire_tui.engine.integration.problem import Matrix
+from desire_tui.engine.integration.problem import FLOOR, Matrix
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import JacobianFunction, RhsFunction, WeightFunction
 from desire_tui.engine.integration.system import Natives
@@ -80,9 +80,10 @@ class PythonCallbacks:
 
     def _weights(self, y: int, weights: int, _user: int) -> int:
         assert self.system is not None
-        largest = self.system.largest
-        np.maximum(largest, np.abs(numbers(y)), out=largest)
-        numbers(weights)[:] = 1.0 / (self.system.problem.tolerance * np.where(largest == 0.0, 1.0, largest))
+        system = self.system
+        np.maximum(system.largest, np.abs(numbers(y)), out=system.largest)
+        system.problem.floor = FLOOR * float(system.largest.max(initial=0.0))
+        numbers(weights)[:] = 1.0 / (system.problem.tolerance * _scale(system))
         return 0
 
     def _jacobian(self, t: float, y: int, fy: int, matrix: int, _user: int, *_spare: int) -> int:
@@ -123,8 +124,7 @@ class PythonCallbacks:
         assert system is not None
         tables = system.plan.tables
         assert tables is not None
-        scale = np.maximum(np.abs(y), system.largest)
-        size = np.maximum(np.abs(y), LEAST * np.where(scale == 0.0, 1.0, scale))
+        size = np.maximum(np.abs(y), LEAST * _scale(system))
         change = (y + DIFFERENCE * size) - y
         column = np.zeros(system.n)
         for colour in range(len(tables.seed_starts) - 1):
@@ -159,6 +159,12 @@ def numbers(vector: int) -> Array:
     content = ctypes.c_uint64.from_address(vector).value
     length = ctypes.c_int32.from_address(content).value
     return _view(ctypes.c_uint64.from_address(content + 8).value, length)
+
+
+def _scale(system: StiffSystem) -> Array:
+    """Return each state's largest magnitude so far, 1 for 0."""
+    largest = system.largest
+    return np.where(largest == 0.0, 1.0, np.maximum(largest, system.problem.floor))
 
 
 def _view(address: int, count: int) -> Array:

@@ -18,6 +18,11 @@ STUCK_FLAG, STUCK_AT_EDGE_FLAG = -1, -10
 """What is then reported, as CVODE's flags: too much work; derivatives that were not finite."""
 
 
+FLOOR = 1e-20
+"""A wave that runs into states at rest moves distant ones by 1e-200 at once; to follow those to ERMAX of themselves
+would take the smallest of steps, and 1/1e-320 is no number at all."""
+
+
 class Matrix(IntEnum):
     """How the Jacobian's entries are found."""
 
@@ -57,6 +62,7 @@ class Problem(ctypes.Structure):
         ("states", _ADDRESS),  # CVODE's y
         ("last", _ADDRESS),  # y as CVODE left it: another one now means that the program changed a state
         ("largest", _ADDRESS),  # max |y| so far
+        ("floor", _REAL),  # no state's largest value counts as less: FLOOR times that of all states
         ("tolerance", _REAL),  # ERMAX
         ("method", _INT),  # a Matrix
         ("colours", _INT),

@@ -115,7 +115,7 @@ class StiffSystem:
         problem.started = problem.failed = problem.restarts = problem.stuck = 0
         problem.jacobian_calls = problem.derivative_calls = 0
         problem.suspect = -1
-        self.largest[:] = 0.0
+        self.largest[:] = problem.floor = 0.0
         self.solver.limit(memory.dt_max)
 
     def report(self, memory: Memory) -> None:
