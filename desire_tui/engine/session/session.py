@@ -110,7 +110,7 @@ class Session:
     def status(self) -> Status:
         """What is going on now."""
         world, cells = self._world, self.values.cells
-        record = world.runs[-1] if world.runs else None
+        record = next(reversed(world.runs), None)  # the list may be emptied meanwhile
         memory = world.simulator.memory
         state = world.state
         if self._control.paused and state in (State.RUNNING, State.SCRIPT):
