@@ -1,4 +1,4 @@
-"""The script interpreter beside plain Python doing the same. `python -m benchmarks.script_speed`
+"""The script interpreter beside plain Python doing the same. `python -m benchmarks.bench_script_speed`
 
 Columns: what is repeated, time for each pass of the loop, time without the empty loop, expression
 nodes a second, and the time the same statement takes in a Python function with local variables.
