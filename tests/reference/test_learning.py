@@ -1,0 +1,72 @@
+"""CLEARN, PLEARN and INTP do what docs/neural.md says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.reference.runs import array, run
+
+BACKENDS = ("reference", "native")
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_templates_move_to_the_centres_of_clusters(backend):
+    session = run(
+        "NN = 3000 | SEED 3 | ARRAY W[3,2], v[3], x[2], C[3,2]\n"
+        "data 0,0; 4,0; 0,4\nread C\ndata 1,1; 3,1; 1,3\nread W\niRow = 1\ndrun\nDYNAMIC\n"
+        "iRow = t\nVector x = C# + 0.1*gauss(0)\nCLEARN v = W(x) 0.02, 0",
+        backend=backend,
+    )
+    assert array(session, "W") == pytest.approx(np.array([[0, 0], [4, 0], [0, 4]], dtype=float), abs=0.06)
+    assert sorted(array(session, "v")) == [0, 0, 1]
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_conscience_wakes_idle_templates(backend):
+    """Two templates far off never win without it."""
+    script = (
+        "NN = 2000 | SEED 3 | ARRAY W[3,1], v[3], x[1]\ndata 0; 4; 5\nread W\ndrun\nDYNAMIC\n"
+        "Vector x = ran()\nCLEARN v = W(x) 0.05, 0"
+    )
+    plain = array(run(script, backend=backend), "W").ravel()
+    assert list(plain[1:]) == [4, 5]
+    fair = array(run(script + "#", backend=backend), "W").ravel()
+    assert np.abs(fair).max() < 1
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_vigilance_takes_free_templates_until_none_is_left(backend):
+    session = run(
+        "NN = 4 | ARRAY W[2,2], v[2], x[2], P[4,2]\ndata 1,0; 1.1,0; 0,1; 5,5\nread P\niRow = 1\ndrun\nDYNAMIC\n"
+        "iRow = t\nVector x = P#\nCLEARN v = W(x) 0.5, 0.3\ntype v[1], v[2]",
+        backend=backend,
+    )
+    record = session.runs[0]
+    shown = np.array([record.values("v[1]"), record.values("v[2]")]).T
+    assert shown.tolist() == [[1, 0], [1, 0], [0, 1], [0, 0]]
+    assert array(session, "W") == pytest.approx(np.array([[1.05, 0], [0, 1]]))
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_sangers_rule_finds_principal_components(backend):
+    session = run(
+        "NN = 20000 | SEED 11 | ARRAY W[2,3], v[2], x[3]\ndata 0.3,0.1,-0.2; 0.1,0.2,0.3\nread W\ndrun\nDYNAMIC\n"
+        "a = 3*gauss(0) | b = gauss(0)\nx[1] = a + 0.1*gauss(0) | x[2] = a + b | x[3] = b - a\nPLEARN v = W*x; 0.0007",
+        backend=backend,
+    )
+    covariance = 9 * np.outer([1, 1, -1], [1, 1, -1]) + np.outer([0, 1, 1], [0, 1, 1])
+    vectors = np.linalg.eigh(covariance + np.diag([0.01, 0, 0]))[1][:, ::-1].T
+    for found, exact in zip(array(session, "W"), vectors[:2], strict=True):
+        assert abs(found @ exact) == pytest.approx(1, abs=0.03)
+        assert np.linalg.norm(found) == pytest.approx(1, abs=0.05)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_template_test(backend):
+    session = run(
+        "NN = 2 | ARRAY W[3,2], v[3], x[2]\ndata 1,0; 0,1; 1,1\nread W\nx[1] = 0.4 | x[2] = 0.7\ndrun\nDYNAMIC\n"
+        "INTP v = W*x; 0.7",
+        backend=backend,
+    )
+    assert list(array(session, "v")) == [0, 0, 1]
