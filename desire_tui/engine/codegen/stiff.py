@@ -14,7 +14,7 @@ from desire_tui.engine.analysis.slices import acts_at_steps, is_pure, jacobian_p
 from desire_tui.engine.codegen.context import PASSES, Context
 from desire_tui.engine.codegen.model import passes_of
 from desire_tui.engine.codegen.natives import PassFunctions
-from desire_tui.engine.codegen.stiff_library import stiff_functions
+from desire_tui.engine.codegen.stiff_library import LARGE, stiff_functions
 from desire_tui.engine.codegen.stiff_loop import stiff_loop
 from desire_tui.engine.codegen.tables import Tables
 from desire_tui.engine.integration.advice import Probe, advice
@@ -47,7 +47,7 @@ class StiffModel:
         self._advised = False
         extra, directions, array = _jacobian_passes(segment, rule, values)
         self._array = array
-        natives = stiff_functions()
+        natives = stiff_functions(large=segment.order > LARGE)
         inner = {"derivative": passes["derivative"]} | extra
         if acts_at_steps(segment):
             inner["step"] = passes["step"]

@@ -29,9 +29,13 @@ class StiffFunctions(NamedTuple):
     keep: Any
 
 
+LARGE = 200
+"""More states than this are worth 0.1 s of optimisation; fewer get quick code after 0.02 s."""
+
+
 @cache
-def stiff_functions() -> StiffFunctions:
-    """Compile callbacks and interval loop (about 0.1 s). DesireError 460, 461: no SUNDIALS."""
+def stiff_functions(*, large: bool) -> StiffFunctions:
+    """Compile callbacks and interval loop. DesireError 460, 461: no SUNDIALS."""
     cvode = libraries().cvode
     llvm = machine().llvm
     for name in _CALLED:
@@ -39,8 +43,7 @@ def stiff_functions() -> StiffFunctions:
     module = ir.Module("stiff")
     add_callbacks(module)
     add_interval(module)
-    # level 2 and vectorised loops take three times as long to make and gain nothing here
-    code = compile_text(str(module), level=1)
+    code = compile_text(str(module), level=1 if large else 0)  # level 2 gains nothing here
     rhs, weights, jacobian, interval = (
         code.address(f"desire_{name}") for name in ("rhs", "weights", "jacobian", "interval")
     )
