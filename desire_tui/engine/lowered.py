@@ -1,23 +1,34 @@
-"""A DYNAMIC segment ready for any back end: names are slots, submodels and FUNCTIONs are expanded, shapes are checked.
+"""A DYNAMIC segment ready for any back end: names are slots, everything is expanded, shapes are checked.
 
-Made by `analysis`, run by `codegen` (native) and `reference` (NumPy). Two back ends that follow the words below give
-the same numbers.
+Made by `analysis`, run by `codegen` (native) and `reference` (NumPy). Two back ends that follow the words
+below give the same numbers.
 
-**Expressions** are values over one *extent*: a scalar, n elements of a vector, or rows × cols of a matrix (row-major).
-Scalars broadcast. An expression object that occurs twice in a statement (a FUNCTION's argument) is evaluated **once**:
-compare by identity. Operands are evaluated left to right, which fixes the order of random draws; vector and matrix
-elements are assigned from the last index to the first, each drawing as it comes.
+**Expressions** are values over one *extent*: a scalar, n elements of a vector, or rows × cols of a matrix
+(row-major). Scalars broadcast. An expression object that occurs twice in a statement (a FUNCTION's
+argument) is evaluated **once**: compare by identity. Operands are evaluated left to right, which fixes the
+order of random draws; vector and matrix elements are assigned from the last index to the first, each
+drawing as it comes.
 
-**Statements** run in order. `Guard` holds statements that run only at some passes (language.md 9.1).
+**Statements** run in order. `Guard` holds statements that run only at some passes (language.md 9.1); which
+statements a pass with given flags executes is `analysis.slices`. The states' own slots hold the states of
+the present stage; a `Set` of a state moves it from there on. Derivatives always stand outside of guards:
+under a guard analysis computes them into numbers of its own, and the derivative proper reads those at the
+end of the pass, so that a derivative whose guard is shut keeps its last value.
+
+**Loop.** Rule 0 moves t on by COMINT after the last sample too. inf and nan are looked for at communication
+points, states first, then columns; the row is not written. The test difference of rules 4, 7, 8 is relative
+to |x| + 1 at the step's start; a difference that is nan counts as small, and the states' nan ends the run.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from desire_tui.engine.nodes import node
-from desire_tui.engine.source import Source, Span
+
+if TYPE_CHECKING:
+    from desire_tui.engine.source import Source, Span
 
 # --------------------------------------------------------------------------------------------- expressions
 
@@ -40,10 +51,11 @@ class Load:
 class Op:
     """An operation, elementwise over vectors.
 
-    `name`: `add sub mul div neg`, `pow` (general power), `ipow` (second argument a whole `Const`: repeated products,
-    binary powering from the top bit, negative n as 1/x^|n|), or a library function of language.md 4.1:
-    `sin cos tan asin acos atan sinh cosh tanh exp sqrt abs ln log atan2 lim sat SAT deadz deadc swtch sgn comp rect
-    tri sinc sigmoid SIGMOID round trnc recip max min ran gauss` (`ran` and `gauss` have no arguments here).
+    `name`: `add sub mul div neg`, `pow` (general power), `ipow` (second argument a whole `Const`: repeated
+    products, binary powering from the top bit, negative n as 1/x^|n|), or a library function of language.md
+    4.1: `sin cos tan asin acos atan sinh cosh tanh exp sqrt abs ln log atan2 lim sat SAT deadz deadc swtch
+    sgn comp rect tri sinc sigmoid SIGMOID round trnc recip max min ran gauss` (`ran` and `gauss` have no
+    arguments here).
     """
 
     name: str
@@ -52,7 +64,7 @@ class Op:
 
 @node
 class Table1:
-    """`func1`: breakpoints in `slot … slot+count-1`, values in the next `count` slots. `x` may be a vector."""
+    """`func1`: breakpoints in `slot … slot+count-1`, values in the next `count` slots."""
 
     x: Value
     slot: int
@@ -61,7 +73,7 @@ class Table1:
 
 @node
 class Table2:
-    """`func2`: F is rows × cols at `f_slot`, X (rows) at `x_slot`, Y (cols) at `y_slot`; bilinear, constant outside."""
+    """`func2`, bilinear, constant outside: F is rows × cols, X has `rows`, Y `cols` elements."""
 
     x: Value
     y: Value
@@ -134,7 +146,10 @@ class Where(NamedTuple):
 
 @node
 class Set:
-    """Scalar slot ← value. `persistent`: read before it is set in a pass, so every pass it belongs to must run it."""
+    """Scalar slot ← value.
+
+    `persistent`: read before it is set in a pass, so every pass it belongs to must run it.
+    """
 
     slot: int
     value: Value
@@ -161,7 +176,7 @@ class SetVec:
 
 @node
 class SetMat:
-    """Matrix ← value (`set`) or ← itself + value (`add`), then bounded; elements where the mask is 0 are skipped."""
+    """Matrix ← value (`set`) or ← itself + value (`add`), then bounded; where the mask is 0 it stays."""
 
     slot: int
     rows: int
@@ -238,9 +253,11 @@ class Get:
 
 @node
 class DelayLine:
-    """`tdelay` (`per_step`: at steps' starts) or `delay` (at communication points); ring buffer in `buffer_slot …`.
+    """`tdelay` (`per_step`: at steps' starts) or `delay` (at communication points); a ring buffer.
 
-    The output is the value written `lag` records ago. `lag` is found from tau at the start of each run:
+    The output is the value written `lag` records ago: element (k - lag) mod count of the buffer, read before
+    record k is written to element k mod count; for lag 0 the value itself. So the buffer's contents are
+    what was before the first record, from its end backwards. `lag` is found from tau at a run's start:
     floor(tau / DT + 1e-9) or floor(tau / COMINT + 1e-9); larger than `count`: error 105.
     """
 
@@ -292,8 +309,8 @@ class Learn:
 
 @node
 class Guard:
-    """Statements that run only: `step` where STEP, `out` where COMM, `sample` at every m-th communication point
-    (`every` ≥ 1), `if` while `condition` > 0 (else `orelse`).
+    """Statements that run only: `step` where STEP, `out` where COMM, `sample` at every m-th communication
+    point (`every` ≥ 1), `if` while `condition` > 0 (else `orelse`).
     """  # noqa: D205
 
     kind: Literal["step", "out", "sample", "if"]
@@ -305,7 +322,19 @@ class Guard:
 
 
 Action = (
-    Set | SetVec | SetMat | SetDot | Deriv | DerivVec | Store | Get | DelayLine | TrackHold | Terminate | Learn | Guard
+    Set
+    | SetVec
+    | SetMat
+    | SetDot
+    | Deriv
+    | DerivVec
+    | Store
+    | Get
+    | DelayLine
+    | TrackHold
+    | Terminate
+    | Learn
+    | Guard
 )
 
 # --------------------------------------------------------------------------------------------- the segment
@@ -374,7 +403,8 @@ class Jacobian:
 class Segment:
     """Everything a back end needs. `requests` holds at most one display request and one `type`.
 
-    `scalars` lists the slots of scalars that the segment sets; `counters` says how many history positions it has.
+    `scalars` lists the slots of scalars that the segment sets; `counters` says how many history positions
+    it has.
     """
 
     label: str | None
