@@ -275,3 +275,24 @@ dispt a
 """
     expected = [exp(-2), exp(-1), 2 * exp(-1), 3 * exp(-1), 3 * (1 - exp(-1)), (1 - exp(-2)) / 2]
     assert numbers(text, backend) == pytest.approx(expected, rel=2e-5)
+
+
+@pytest.mark.parametrize("rule", [14, 15])
+def test_two_coupled_fields_under_a_sparse_matrix(rule, backend):
+    """u' = c·(u[i+1] − 2u[i] + u[i−1]) + w, w' = −w; from u = 0, w = sin: one mode, solved exactly."""
+    n = 300
+    text = f"""STATE u[{n}], w[{n}]
+for i = 1 to {n} | w[i] = sin(PI*i/{n + 1}) | next
+c = {(n + 1) ** 2} | z = 0 -- z couples the fields both ways, as far as the pattern is concerned
+irule {rule} | ERMAX = 1E-7 | DT = 1E-6 | TMAX = 0.3 | NN = 4
+drun
+write u[1], u[150], w[150]
+DYNAMIC
+Vectr d/dt u = c*(u{{1}} - 2*u + u{{-1}}) + w
+Vectr d/dt w = z*u - w
+dispt u[150]
+"""
+    rate = 4 * (n + 1) ** 2 * sin(np.pi / (2 * (n + 1))) ** 2
+    u = (exp(-0.3) - exp(-rate * 0.3)) / (rate - 1)
+    shape = [sin(np.pi * i / (n + 1)) for i in (1, 150)]
+    assert numbers(text, backend) == pytest.approx([u * shape[0], u * shape[1], exp(-0.3) * shape[1]], rel=2e-5)
