@@ -103,7 +103,11 @@ def actions(body: tuple[Action, ...]) -> Iterator[Action]:
 
 
 def _placed(key: str, facts: dict[str, object], segment: Segment, where: Where | None) -> DesireError:
-    return DesireError(Diagnostic(key, where.span if where else None, facts, segment.source))
+    related: tuple[Diagnostic, ...] = ()
+    if where is not None and where.invoked_at is not None:
+        related = (Diagnostic("expanded-here", where.invoked_at, {}, segment.source),)
+    span = where.span if where is not None else None
+    return DesireError(Diagnostic(key, span, facts, segment.source, related=related))
 
 
 def _what(value: float) -> str:
