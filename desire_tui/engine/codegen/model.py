@@ -32,9 +32,9 @@ SMALL = 200
 class NativeModel:
     """A compiled segment: starts on quick code, goes over to fast code when that is ready.
 
-    Quick code is a table of pieces compiled without optimisation, run by the loop over arrays that all models of a
-    rule share. Fast code is the same well compiled or, for small models, one function that keeps everything in
-    registers. All compute the same bits: none reassociates, contracts or replaces anything.
+    Quick code is a table of pieces compiled without optimisation, run by the loop over arrays that all models
+    of a rule share. Fast code is the same well compiled or, for small models, one function that keeps
+    everything in registers. All compute the same bits: none reassociates, contracts or replaces anything.
     """
 
     def __init__(self, backend: NativeBackend, segment: Segment, rule: int, values: Values) -> None:

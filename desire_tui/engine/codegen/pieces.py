@@ -11,16 +11,18 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.cells import MemoryCells
 from desire_tui.engine.codegen.compiler import machine
+from desire_tui.engine.codegen.rolling import Rolled
 from desire_tui.engine.codegen.text import Text
 from desire_tui.engine.codegen.vectors import Statements
 from desire_tui.engine.lowered import Guard
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from desire_tui.engine.lowered import Action
 
 STATEMENTS_MOST = 64
+_ROLLED_WEIGHT = 8  # a loop and its rest cost about as much to compile
 
 
 class Piece(NamedTuple):
@@ -35,9 +37,9 @@ class Piece(NamedTuple):
     temps: int = 0
 
 
-def cut(actions: Iterable[Action]) -> Iterator[list[Action]]:
+def cut(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]]:
     """Group statements that stand one after the other; an `if` with its body is never cut."""
-    group: list[Action] = []
+    group: list[Action | Rolled] = []
     size = 0
     for action in actions:
         weight = _weight(action)
@@ -50,13 +52,13 @@ def cut(actions: Iterable[Action]) -> Iterator[list[Action]]:
         yield group
 
 
-def _weight(action: Action) -> int:
+def _weight(action: Action | Rolled) -> int:
     if isinstance(action, Guard):
         return 1 + sum(_weight(a) for a in (*action.body, *action.orelse))
-    return 1
+    return _ROLLED_WEIGHT if isinstance(action, Rolled) else 1
 
 
-def write(actions: list[Action]) -> Piece:
+def write(actions: Sequence[Action | Rolled]) -> Piece:
     """Write one piece."""
     text = Text()
     statements = Statements(text, MemoryCells(text), machine().width)

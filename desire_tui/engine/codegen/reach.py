@@ -25,6 +25,7 @@ from desire_tui.engine.values import IROW
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from desire_tui.engine.codegen.rolling import Rolled
     from desire_tui.engine.lowered import Action, Value
 
 Range = tuple[int, int]
@@ -135,9 +136,9 @@ def needs_copy(reach: Reach) -> bool:
     return touches(reach.writes, reach.other) or _crosses(reach.writes, reach.same)
 
 
-def groups(actions: Iterable[Action]) -> Iterator[list[Action]]:
+def groups(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]]:
     """Group neighbouring statements that may share one loop; all others stand alone."""
-    group: list[Action] = []
+    group: list[Action | Rolled] = []
     total = Reach()
     count = 0
     for action in actions:

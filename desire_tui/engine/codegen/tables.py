@@ -5,12 +5,15 @@ from __future__ import annotations
 import ctypes
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.compiler import machine
 from desire_tui.engine.codegen.pieces import cut, write
+from desire_tui.engine.codegen.rolling import roll
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from desire_tui.engine.codegen.pieces import Piece
+    from desire_tui.engine.codegen.rolling import Rolled
     from desire_tui.engine.codegen.store import Store
     from desire_tui.engine.lowered import Action
 
@@ -26,9 +29,13 @@ class Tables:
         self._pieces: dict[str, Piece] = {}
         names: dict[str, list[str]] = {}
         written: dict[tuple[int, ...], Piece] = {}  # passes share most statements
+        rolled: dict[tuple[int, ...], list[list[Action | Rolled]]] = {}
         for kind, actions in passes.items():
             names[kind] = []
-            for group in cut(actions):
+            whole = tuple(map(id, actions))
+            if whole not in rolled:
+                rolled[whole] = list(cut(roll(actions, machine().width)))
+            for group in rolled[whole]:
                 key = tuple(map(id, group))
                 piece = written.get(key)
                 if piece is None:

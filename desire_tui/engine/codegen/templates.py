@@ -14,6 +14,8 @@ from desire_tui.engine.codegen.text import Text, literal
 from desire_tui.engine.lowered import Const, Load, Op
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from desire_tui.engine.codegen.cells import Cells
     from desire_tui.engine.lowered import Value
 
@@ -36,10 +38,10 @@ def shape(node: Value, key: list[object], leaves: list[int | float]) -> None:
     """
     kind = type(node)
     if kind is Load:
-        key.append(1)
+        key.append(None)
         leaves.append(node.slot)  # type: ignore[union-attr]
     elif kind is Const:
-        key.append(1)
+        key.append(None)
         leaves.append(float(node.value))  # type: ignore[union-attr]
     elif kind is Op:
         name, args = node.name, node.args  # type: ignore[union-attr]
@@ -83,23 +85,22 @@ def write(text: Text, cells: Cells, node: Value) -> str | None:
     return result.format(prefix)
 
 
+def write_shape(lanes: Lanes, node: Value, leaves: Iterator[str]) -> str:
+    """Write a plain value over given leaves, in the order of `shape`; return its name."""
+    if not isinstance(node, Op):
+        return next(leaves)
+    if node.name == "ipow":
+        exponent = node.args[1]
+        assert isinstance(exponent, Const)
+        return power(lanes, write_shape(lanes, node.args[0], leaves), int(exponent.value))
+    return apply(lanes, node.name, [write_shape(lanes, a, leaves) for a in node.args])
+
+
 def _learn(key: tuple[object, ...], node: Value) -> tuple[str, frozenset[str], str]:
     text = Text("!")
     lanes = Lanes(text)
-    count = 0
-
-    def walk(n: Value) -> str:
-        nonlocal count
-        if not isinstance(n, Op):
-            count += 1
-            return f"?{count}?"
-        if n.name == "ipow":
-            exponent = n.args[1]
-            assert isinstance(exponent, Const)
-            return power(lanes, walk(n.args[0]), int(exponent.value))
-        return apply(lanes, n.name, [walk(a) for a in n.args])
-
-    result = walk(node)
+    count = key.count(None)
+    result = write_shape(lanes, node, iter([f"?{number}?" for number in range(1, count + 1)]))
     lines = "\n".join(text.lines).replace("{", "{{").replace("}", "}}")
     lines = _places(lines, count)
     if len(_known) > _SHAPES_MOST:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen import products
+from desire_tui.engine.codegen import products, templates
 from desire_tui.engine.codegen.draws import advance
 from desire_tui.engine.codegen.elements import (
     ElementExpressions,
@@ -17,6 +17,7 @@ from desire_tui.engine.codegen.lanes import Lanes
 from desire_tui.engine.codegen.learning import write_learning
 from desire_tui.engine.codegen.loops import loop
 from desire_tui.engine.codegen.reach import Reach, groups, needs_copy, statement_reach, value_reach, walk
+from desire_tui.engine.codegen.rolling import Rolled
 from desire_tui.engine.codegen.statements import ScalarStatements
 from desire_tui.engine.codegen.strips import Strip
 from desire_tui.engine.lowered import (
@@ -52,10 +53,12 @@ class Statements(ScalarStatements):
         self.temps = 0
         self._top = 0
 
-    def write(self, actions: Iterable[Action]) -> None:
+    def write(self, actions: Iterable[Action | Rolled]) -> None:
         """Write statements in order, array statements that allow it in one loop."""
         for group in groups(actions):
-            if isinstance(group[0], SetVec | DerivVec):
+            if isinstance(group[0], Rolled):
+                self._rolled(group[0])
+            elif isinstance(group[0], SetVec | DerivVec):
                 self.scalars.forget()
                 self._fused([a for a in group if isinstance(a, SetVec | DerivVec)])
             else:
@@ -236,6 +239,39 @@ class Statements(ScalarStatements):
         self.text.needs.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
         arguments = f"ptr {target}, ptr {source}, i64 {8 * count}, i1 false"
         self.text.do(f"call void @llvm.memcpy.p0.p0.i64({arguments})")
+
+    # ------------------------------------------------------------------ scalars rolled up
+
+    def _rolled(self, rolled: Rolled) -> None:
+        """Write the loop over statements of one shape."""
+        first = rolled.first
+        places = [self.at(o) if isinstance(o, int) else self._lanes(o) for o in rolled.operands]
+        if isinstance(first, Set):
+            target = self.at(first.slot)
+        else:
+            target = self.text.op(f"getelementptr double, ptr %dx, i64 {first.state}")
+
+        def body(strip: Strip) -> None:
+            leaves = iter(
+                strip.fetch(place) if isinstance(operand, int) else place
+                for place, operand in zip(places, rolled.operands, strict=True)
+            )
+            strip.put(target, templates.write_shape(strip.lanes, first.value, leaves))
+
+        self.sweep(rolled.count, 0, 0, body)
+        if isinstance(first, Set):
+            self.cells.forget(first.slot, rolled.count)
+
+    def _lanes(self, leaves: tuple[int | float, ...]) -> str:
+        """Return operands that come round: one for each lane."""
+        wide = self.wide
+        values = [self.cells.load(x) if isinstance(x, int) else self.lanes.const(x) for x in leaves]
+        if len(set(values)) == 1:
+            return wide.splat(values[0])
+        result = "poison"
+        for lane, value in enumerate(values):
+            result = self.text.op(f"insertelement {wide.kind} {result}, double {value}, i64 {lane}")
+        return result
 
     # ------------------------------------------------------------------ matrices and sums
 
