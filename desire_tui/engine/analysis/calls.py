@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered import Value
     from desire_tui.engine.nodes import Expr
 
+LEVELS_MOST = 200
+"""Levels of an expression with its FUNCTIONs expanded; later stages follow them recursively."""
+
 _DRAWS = frozenset({"ran", "gauss"})
 
 
@@ -66,7 +69,25 @@ def _expanded(context: Context, node: Call, extent: Extent) -> Value:
     context.enter(Frame(function.at, {}, arguments, invoked, called))
     value = expressions.lower(context, function.node.body, extent)
     context.enter(frame)
+    if not frame.calls and _levels(value) > LEVELS_MOST:
+        return context.report("expression-too-deep", node, limit=LEVELS_MOST)
     return value
+
+
+def _levels(value: Value) -> int:
+    """Return how deep an expression is; parts that stand at several places are looked at once."""
+    depth: dict[int, int] = {}
+    rest = [value]
+    while rest:
+        part = rest[-1]
+        args = part.args if isinstance(part, Op) else ()
+        missing = [a for a in args if id(a) not in depth]
+        if missing and id(part) not in depth:
+            rest.extend(missing)
+        else:
+            depth[id(part)] = 1 + max((depth[id(a)] for a in args), default=0)
+            rest.pop()
+    return depth[id(value)]
 
 
 def _array(context: Context, node: Expr) -> Quantity | None:

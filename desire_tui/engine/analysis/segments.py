@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine import nodes
 from desire_tui.engine.analysis import arrays, learning, requests, statements, targets
 from desire_tui.engine.analysis.builder import Builder
+from desire_tui.engine.analysis.calls import LEVELS_MOST
 from desire_tui.engine.analysis.context import Context
 from desire_tui.engine.analysis.expansion import expand
 from desire_tui.engine.analysis.jacobian import lower_jacobian
@@ -88,7 +89,11 @@ def lower_segment(
                 "illegal-in-dynamic", node, word=source.text[slice(*context.span(node))].split(" ")[0]
             )
         else:
-            handler(builder, node)
+            try:
+                handler(builder, node)
+            except RecursionError:
+                context.enter(frame)
+                context.report("expression-too-deep", node, limit=LEVELS_MOST)
     body = builder.finish()
     jacobian = lower_jacobian(builder, jacobian_lines) if jacobian_lines else None
     context.flow.mark_persistent([(r.slot, r.count) for r in builder.states.ranges])
