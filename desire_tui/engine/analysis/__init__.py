@@ -1,7 +1,7 @@
 """Nodes to a lowered program: names, kinds, shapes, order, guards.
 
-`structure` finds a script's blocks, `check` every problem before a run, `lower` makes a segment ready for a back end,
-the slices say which statements a pass executes.
+`structure` finds a script's blocks, `check` every problem before a run, `lower` makes a segment ready for a
+back end, the slices say which statements a pass executes.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ DEPTH_MAX = 60
 """Nested FUNCTION calls and invocations; deeper ones are recursion in all but name."""
 
 EXPANSIONS_MOST = 20_000
-"""FUNCTION calls that one segment may expand: twenty FUNCTIONs that each call the next twice make a million."""
+"""FUNCTION calls that one segment may expand: 20 FUNCTIONs that each call the next twice make a million."""
 
 
 @dataclass
