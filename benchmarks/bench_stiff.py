@@ -86,7 +86,7 @@ CASES = (
 )  # fmt: skip
 
 
-def desire(case: Case, rule: int, repeats: int = 30) -> tuple[float, list[float]]:
+def desire(case: Case, rule: int, repeats: int = 200) -> tuple[float, list[float]]:
     """Best of the runs' own times, and the states at the end of the last."""
     text = case.program.format(rule=rule, ermax=case.ermax, dt=case.dt, t_end=case.t_end, repeats=repeats)
     session = Session(Listener())
@@ -153,7 +153,7 @@ int run(P memory, P vector, double t_end, double dt) {{ double t = 0; int flag;
 """
 
 
-def c_time(case: Case, repeats: int = 30) -> tuple[float, list[float]] | None:
+def c_time(case: Case, repeats: int = 200) -> tuple[float, list[float]] | None:
     """CVODE called from compiled C, with its own differenced Jacobian; None without a C compiler."""
     from desire_tui.engine.integration.sundials.library import libraries
     from desire_tui.engine.integration.sundials.linear import Linear

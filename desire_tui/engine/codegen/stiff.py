@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +15,7 @@ from desire_tui.engine.analysis.slices import acts_at_steps, is_pure, jacobian_p
 from desire_tui.engine.codegen.context import PASSES, Context
 from desire_tui.engine.codegen.model import passes_of
 from desire_tui.engine.codegen.natives import PassFunctions
-from desire_tui.engine.codegen.stiff_library import LARGE, stiff_functions
+from desire_tui.engine.codegen.stiff_library import LARGE, StiffFunctions, stiff_functions
 from desire_tui.engine.codegen.stiff_loop import stiff_loop
 from desire_tui.engine.codegen.tables import Tables
 from desire_tui.engine.integration.advice import Probe, advice
@@ -47,34 +48,40 @@ class StiffModel:
         self._advised = False
         extra, directions, array = _jacobian_passes(segment, rule, values)
         self._array = array
-        natives = stiff_functions(large=segment.order > LARGE)
         inner = {"derivative": passes["derivative"]} | extra
         if acts_at_steps(segment):
             inner["step"] = passes["step"]
         own = frozenset({"step", "jacobian"})
         self._functions = functions = PassFunctions(backend.store, values, segment.order, inner, own)
         addresses = {name: functions.address(name) for name in inner}
-        if "derivative" in addresses:
-            addresses["derivatives"] = addresses.pop("derivative")
-        self.system = StiffSystem(
+        addresses["derivatives"] = addresses.pop("derivative")
+        self._system = partial(
+            StiffSystem,
             rule,
             _plan(segment, rule, extra),
             values.address,
             [(s.slot, s.first, s.count) for s in segment.states],
             Functions(**addresses),
-            Natives(natives.rhs, natives.weights, natives.jacobian),
             directions=directions,
             array=array,
         )
         self._tables = Tables(backend.store, passes)
-        self._fill_context(segment, natives.interval)
+        self._fill_context(segment)
+        self._better: StiffFunctions | None = None
+        self._use(stiff_functions(large=segment.order > LARGE))
         loop = stiff_loop()  # does little between two intervals: quick code is good enough
         self._loop = backend.store.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
         backend.improver.add(self)
         backend.improver.add(functions)
 
-    def _fill_context(self, segment: Segment, interval: int) -> None:
+    def _use(self, natives: StiffFunctions) -> None:
+        """Connect CVODE's callbacks and the interval loop."""
+        self.system = self._system(Natives(natives.rhs, natives.weights, natives.jacobian))
+        self.context.interval = natives.interval
+        self.context.problem = ctypes.addressof(self.system.problem)
+
+    def _fill_context(self, segment: Segment) -> None:
         order = segment.order
         self._slots = np.concatenate([np.arange(s.slot, s.slot + s.count) for s in segment.states]).astype(
             np.int64
@@ -88,12 +95,12 @@ class StiffModel:
         context.x0 = self._k1.ctypes.data  # saved by the loop, never used: k1 is not either
         context.state_slots = self._slots.ctypes.data
         context.columns, context.column_count = self._columns.ctypes.data, self._columns.size
-        context.interval = interval
-        context.problem = ctypes.addressof(self.system.problem)
 
     def improve(self) -> Iterator[None]:
         """Compile fast code (`background.Improvable`)."""
-        return self._tables.improve()
+        yield from self._tables.improve()
+        self._better = stiff_functions(large=True)
+        yield
 
     def advice(self) -> tuple[Diagnostic, ...]:
         """Return warnings about the run that is to start here, once for a model."""
@@ -122,10 +129,13 @@ class StiffModel:
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on (`runtime.memory`)."""
-        system = self.system
         if memory.phase == Phase.AT_POINT and memory.point == 0:
-            system.begin(memory, self._values.cells[DT])
+            better, self._better = self._better, None
+            if better is not None:
+                self._use(better)
+            self.system.begin(memory, self._values.cells[DT])
             self._clear_array()
+        system = self.system
         system.problem.memory = self.context.memory = ctypes.addressof(memory)
         ended = Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
         system.report(memory)

@@ -19,8 +19,8 @@ STUCK_FLAG, STUCK_AT_EDGE_FLAG = -1, -10
 
 
 FLOOR = 1e-20
-"""A wave that runs into states at rest moves distant ones by 1e-200 at once; to follow those to ERMAX of themselves
-would take the smallest of steps, and 1/1e-320 is no number at all."""
+"""A wave that runs into states at rest moves distant ones by 1e-200 at once; to follow those to ERMAX of
+themselves would take the smallest of steps, and 1/1e-320 is no number at all."""
 
 
 class Matrix(IntEnum):
