@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import threading
 from collections import OrderedDict
 from typing import TYPE_CHECKING
@@ -25,6 +26,15 @@ _STORE = Store()
 _IMPROVER = Improver()
 
 
+_ENDING = threading.Event()
+
+
+def _finish(thread: threading.Thread) -> None:
+    """At the program's end: let LLVM finish what it is at, before its memory goes."""
+    _ENDING.set()
+    thread.join(1.0)
+
+
 class NativeBackend:
     """Native code through LLVM, for all rules.
 
@@ -37,12 +47,16 @@ class NativeBackend:
         self.store = _STORE
         self.improver = _IMPROVER
         self._models: OrderedDict[tuple[int, int, int], tuple[Segment, Values, Model]] = OrderedDict()
-        threading.Thread(target=self._warm_up, name="desire starts LLVM", daemon=True).start()
+        warming = threading.Thread(target=self._warm_up, name="desire starts LLVM", daemon=True)
+        warming.start()
+        atexit.register(_finish, warming)
 
     def _warm_up(self) -> None:
         """Load LLVM and compile every rule's loop: the first module costs 20 ms more than any other."""
         machine()
         for rule in _RULES_BY_USE:
+            if _ENDING.is_set():
+                return
             self.store.quick([array_loop(rule, contiguous=True)])
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import threading
 import weakref
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
 
 _BREATH_SECONDS = 0.0005
 """Between two steps: LLVM's lock is not fair, and somebody may wait with quick code."""
+_END_SECONDS = 1.0
 _BEGUN_MOST = 3
 _QUIET_SECONDS = 0.02
 """After somebody waited for quick code, more may follow; then the user comes first."""
@@ -40,6 +42,8 @@ class Improver:
         self._something = threading.Condition()
         self._thread: threading.Thread | None = None
         self._urgent = 0
+        self._over = False
+        atexit.register(self._stop)
 
     def add(self, work: Improvable) -> None:
         """Take up some work."""
@@ -69,11 +73,22 @@ class Improver:
             with self._something:
                 self._urgent -= 1
 
+    def _stop(self) -> None:
+        """At the program's end: let LLVM finish what it is at, before its memory goes."""
+        with self._something:
+            self._over = True
+            thread = self._thread
+            self._something.notify()
+        if thread is not None:
+            thread.join(_END_SECONDS)
+
     def _run(self) -> None:
-        while True:
+        while not self._over:
             with self._something:
-                while not (self._new or self._begun):
+                while not (self._new or self._begun or self._over):
                     self._something.wait()
+                if self._over:
+                    return
                 while self._urgent:
                     self._something.wait(_QUIET_SECONDS)
                 if self._new:

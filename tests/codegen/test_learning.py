@@ -1,0 +1,34 @@
+"""CLEARN, PLEARN and INTP on both back ends, and against what they are for."""
+
+import numpy as np
+import pytest
+
+from tests.codegen.conftest import run
+
+START = (
+    "m = 4 | n = 3 | SEED 2 | ARRAY W[m,n], x[n], v[m], h[m]\n"
+    "for i = 1 to m | for k = 1 to n | W[i,k] = {w} | next | next\n"
+    "NN = 200\ndrun\nDYNAMIC\nVector x = ran()\n"
+)
+
+
+@pytest.mark.parametrize("w", ["0.1*ran()", "0", "0.3*(i - 2)"])
+@pytest.mark.parametrize(
+    "statement", ["CLEARN v = W(x) 0.1, 0", "CLEARN v = W(x) 0.1, 0.6", "PLEARN v = W*x; 0.02", "INTP v = W*x; 0.1"]
+)
+def test_back_ends_agree(statement, w):
+    text = START.format(w=w) + f"{statement}\nDOT s = v*1\ndispt s\n"
+    native, reference = run(text, "native"), run(text, "reference")
+    for name in "WvX"[:2]:
+        np.testing.assert_allclose(native.array(name), reference.array(name), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(native.rows, reference.rows, rtol=1e-9, atol=1e-12)
+
+
+def test_winners_move_to_the_means_of_their_clusters():
+    made = run(
+        "SEED 4 | ARRAY W[2,2], x[2], v[2]\nW[1,1] = 0.5 | W[2,2] = 0.5\nNN = 4000\ndrun\nDYNAMIC\n"
+        "side = swtch(ran())\nx[1] = side + 0.1*ran()\nx[2] = 1 - side + 0.1*ran()\n"
+        "CLEARN v = W(x) 0.02, 0\nDOT s = v*1\ndispt s\n"
+    )
+    np.testing.assert_allclose(made.array("W"), np.eye(2), atol=0.05)
+    assert set(made.rows[:, 1]) == {1.0}
