@@ -295,4 +295,6 @@ dispt u[150]
     rate = 4 * (n + 1) ** 2 * sin(np.pi / (2 * (n + 1))) ** 2
     u = (exp(-0.3) - exp(-rate * 0.3)) / (rate - 1)
     shape = [sin(np.pi * i / (n + 1)) for i in (1, 150)]
-    assert numbers(text, backend) == pytest.approx([u * shape[0], u * shape[1], exp(-0.3) * shape[1]], rel=2e-5)
+    assert numbers(text, backend) == pytest.approx(
+        [u * shape[0], u * shape[1], exp(-0.3) * shape[1]], rel=2e-5
+    )

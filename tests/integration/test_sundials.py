@@ -171,3 +171,13 @@ def test_wide_indices_are_refused(monkeypatch, forget):
     with pytest.raises(DesireError) as caught:
         library.libraries()
     assert caught.value.diagnostics[0].code == 461
+
+
+@pytest.mark.parametrize("kind", ["dense", "band", "sparse", "diagonal", "fixed-point"])
+def test_a_solver_that_was_never_used_can_be_freed(kind):
+    """SuperLU_MT's own clean-up crashes then (SUNDIALS 7.9)."""
+    y = np.ones(300)
+    function = RhsFunction(lambda *_: 0), WeightFunction(lambda *_: 0)
+    linear = Linear(kind, lower=1, upper=1, nonzeros=900)
+    callbacks = Callbacks(address(function[0]), address(function[1]))
+    Solver(14, 300, y.ctypes.data, callbacks, linear).free()

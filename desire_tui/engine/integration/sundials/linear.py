@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -12,8 +13,6 @@ from desire_tui.engine.integration.sundials.library import superlu
 from desire_tui.engine.integration.sundials.signatures import CSC, SUCCESS
 
 if TYPE_CHECKING:
-    import ctypes
-
     from numpy.typing import NDArray
 
     from desire_tui.engine.integration.sundials.library import Libraries
@@ -46,6 +45,7 @@ class Attached:
     ) -> None:
         self._libraries = libraries
         self._iteration = self._matrix = self._solver = 0
+        self._sparse = linear.kind == "sparse"
         library = libraries.cvode
         if linear.kind == "fixed-point":
             self._iteration = _made(library.SUNNonlinSol_FixedPoint(vector, 0, context))
@@ -70,16 +70,26 @@ class Attached:
         if linear.jacobian:
             _check(library.CVodeSetJacFn(memory, linear.jacobian))
 
+    def _may_be_freed(self) -> bool:
+        """Whether freeing the solver is safe: SuperLU_MT's crashes on factors that it never made (SUNDIALS 7.9)."""
+        return not self._sparse or not _first_factorisation_due(self._solver)
+
     def free(self) -> None:
         """Give back solver, matrix and iteration; after CVodeFree."""
         core = self._libraries.core
-        if self._solver:
+        if self._solver and self._may_be_freed():
             core.SUNLinSolFree(self._solver)
         if self._matrix:
             core.SUNMatDestroy(self._matrix)
         if self._iteration:
             core.SUNNonlinSolFree(self._iteration)
         self._solver = self._matrix = self._iteration = 0
+
+
+def _first_factorisation_due(solver: int) -> bool:
+    """Look into SuperLU_MT's content, `{int last_flag; int first_factorize; …}`."""
+    content = ctypes.c_uint64.from_address(solver).value
+    return ctypes.c_int32.from_address(content + 4).value != 0
 
 
 def positions(
