@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class ArrayStorage:
-    """Implements `driver.Storage`. `contiguous`: the states stand side by side in the values."""
+    """Implements `storage.Storage`. `contiguous`: the states stand side by side in the values."""
 
     def __init__(self, text: Text, stages: int, width: int, *, contiguous: bool) -> None:
         self.text = text

@@ -83,7 +83,7 @@ class Improver:
             thread.join(_END_SECONDS)
 
     def _run(self) -> None:
-        while not self._over:
+        while True:
             with self._something:
                 while not (self._new or self._begun or self._over):
                     self._something.wait()

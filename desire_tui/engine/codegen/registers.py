@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class RegisterStorage:
-    """Implements `driver.Storage`; passes are written in line."""
+    """Implements `storage.Storage`; passes are written in line."""
 
     def __init__(
         self,
