@@ -60,10 +60,9 @@ class FileActions(Controller):
             await self.open_path(path)
 
     async def _pick(self) -> Path | None:
-        from textual_fspicker import FileOpen, Filters
+        from textual_fspicker import FileOpen
 
-        filters = Filters(("Programs", lambda p: p.suffix == SUFFIX), ("All files", lambda _: True))
-        return await self.app.push_screen_wait(FileOpen(self._folder(), filters=filters))
+        return await self.app.push_screen_wait(FileOpen(self._folder()))
 
     async def open_path(self, path: Path, *, focus: bool = True) -> CodeArea | None:
         """Open a file in a tab, or show the tab that holds it.

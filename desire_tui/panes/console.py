@@ -44,7 +44,8 @@ class Console(ScrollView):
     """Shows what programs print. Stays at the end unless the user scrolled up."""
 
     DEFAULT_CSS = """
-    Console { height: 1fr; scrollbar-size-vertical: 1; scrollbar-size-horizontal: 0; overflow-x: hidden;
+    Console { height: 1fr; scrollbar-size-vertical: 1; scrollbar-size-horizontal: 0;
+              overflow-x: hidden; overflow-y: scroll;
               padding: 0 1; background: $surface; }
     """
     can_focus = False
@@ -61,7 +62,7 @@ class Console(ScrollView):
         super().__init__(id="console")
         self._lines: list[_Line] = []
         self._open = False
-        self._rows: list[tuple[int, int]] = []  # row on screen → line, first character
+        self._rows: list[tuple[int, int, int]] = []  # row on screen → line, first character, last + 1
         self._width = 0
         self.found: tuple[str, int] | None = None
         """Text searched, line it was found in."""
@@ -122,8 +123,12 @@ class Console(ScrollView):
             self._rows.clear()
         width = max(self._width, 10)
         for number, line in enumerate(islice(self._lines, first, None), first):
-            for start in range(0, max(len(line.text), 1), width):
-                self._rows.append((number, start))
+            start, end = 0, len(line.text)
+            while end - start > width:
+                cut = line.text.rfind(" ", start + width // 2, start + width + 1) + 1 or start + width
+                self._rows.append((number, start, cut))
+                start = cut
+            self._rows.append((number, start, end))
 
     def _settle(self, at_end: bool) -> None:
         self.virtual_size = Size(self._width, len(self._rows))
@@ -148,9 +153,9 @@ class Console(ScrollView):
         row = y + self.scroll_offset.y
         if row >= len(self._rows):
             return Strip.blank(self.size.width, base)
-        number, start = self._rows[row]
+        number, start, end = self._rows[row]
         line = self._lines[number]
-        text = line.text[start : start + max(self._width, 10)]
+        text = line.text[start:end]
         style = base + self._style(line)
         segments = [Segment(text, style)]
         if self.found and self.found[0] and self.found[0].casefold() in text.casefold():
@@ -213,7 +218,7 @@ class Console(ScrollView):
             at = number % count if count else 0
             if count and wanted.casefold() in self._lines[at].text.casefold():
                 self.found = (wanted, at)
-                row = next(r for r, (line, _) in enumerate(self._rows) if line == at)
+                row = next(r for r, (line, *_) in enumerate(self._rows) if line == at)
                 self.scroll_to(y=max(0, row - self.size.height // 2), animate=False, immediate=True)
                 self.refresh()
                 return True

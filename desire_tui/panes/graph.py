@@ -12,10 +12,11 @@ from textual.geometry import Region
 from textual.message import Message
 
 from desire_tui.panes import readout
-from desire_tui.panes.tiles import TILE_COLUMNS, CanvasTile, FrameLayer, KeyRow
+from desire_tui.panes.tiles import TILE_COLUMNS, WHITE_STYLE, CanvasTile, FrameLayer, KeyRow
 from desire_tui.panes.window import Window
 
 if TYPE_CHECKING:
+    from rich.style import Style
     from textual import events
     from textual.app import ComposeResult
 
@@ -73,7 +74,8 @@ class GraphPane(Container, can_focus=True):
         self._drawn: tuple[object, ...] = ()
         self._drag: tuple[int, int] | None = None
         self._under: list[Graph] = []
-        self._paper: tuple[object, ...] = ()
+        self._sheet: tuple[object, ...] = ()
+        self._ground: tuple[tuple[str, bool], tuple[Style, bool]] | None = None
 
     def compose(self) -> ComposeResult:
         """Frame behind; tiles come with the size."""
@@ -86,6 +88,15 @@ class GraphPane(Container, can_focus=True):
     def is_white(self) -> bool:
         """Whether the paper is white: the program asks for it, or the theme is light."""
         return (self.page is not None and self.page.white) or not self.app.current_theme.dark
+
+    @property
+    def paper(self) -> tuple[Style, bool]:
+        """Colours of paper and ink, and whether the paper is white; kept while page and theme stay."""
+        key = (self.app.theme, self.page is not None and self.page.white)
+        if self._ground is None or self._ground[0] != key:
+            white = self.is_white
+            self._ground = (key, (WHITE_STYLE if white else self.rich_style, white))
+        return self._ground[1]
 
     @property
     def page_mark(self) -> str:
@@ -172,9 +183,9 @@ class GraphPane(Container, can_focus=True):
         if self._under:
             page = replace(page, curves=[curve for graph in (*self._under, page) for curve in graph.curves])
         self._painter = Painter(self.canvas, page, self.window)
-        paper = (frame.lines, self.is_white, page.net, page.keys, self.page_mark)
-        if paper != self._paper:
-            self._paper = paper
+        sheet = (frame.lines, self.is_white, page.net, page.keys, self.page_mark)
+        if sheet != self._sheet:
+            self._sheet = sheet
             self.query_one(FrameLayer).refresh()
             self.query_one(KeyRow).refresh()
 

@@ -38,19 +38,23 @@ class GraphPiece(Widget):
 
     can_focus = False
 
+    _pane: GraphPane | None = None
+
     @property
     def pane(self) -> GraphPane:
         """The graph pane."""
+        return self._pane or self._find_pane()
+
+    def _find_pane(self) -> GraphPane:
         from desire_tui.panes.graph import GraphPane
 
         pane = next(ancestor for ancestor in self.ancestors if isinstance(ancestor, GraphPane))
         assert isinstance(pane, GraphPane)
         return pane
 
-    @property
-    def ground(self) -> Style:
-        """Paper: white where the program or the theme asks for it."""
-        return WHITE_STYLE if self.pane.is_white else self.rich_style
+    def on_mount(self) -> None:
+        """Look the pane up once: rows are drawn hundreds of times a second."""
+        self._pane = self._find_pane()
 
 
 class FrameLayer(GraphPiece):
@@ -60,14 +64,15 @@ class FrameLayer(GraphPiece):
 
     def render_line(self, y: int) -> Strip:
         """Draw a row."""
-        pane, ground = self.pane, self.ground
+        pane = self.pane
+        ground, white = pane.paper
         frame, page = pane.frame, pane.page
         width = self.size.width
         if frame is None or page is None:
             text = "No graph yet · F5 runs the program" if y == self.size.height // 2 and width > 30 else ""
             return Strip([Segment(text.center(width), ground + Style(dim=True))], width)
         line = frame.lines[y] if y < len(frame.lines) else ""
-        net = ground if page.net is None else ground + curve_style(page.net, white=pane.is_white)
+        net = ground if page.net is None else ground + curve_style(page.net, white=white)
         style = net if frame.top - 1 <= y <= frame.top + frame.rows else ground
         head = ""
         if y == 0:
@@ -87,13 +92,13 @@ class CanvasTile(GraphPiece):
 
     def render_line(self, y: int) -> Strip:
         """Draw a row of cells."""
-        pane, ground = self.pane, self.ground
+        pane = self.pane
+        ground, white = pane.paper
         canvas = pane.canvas
         start = self.number * TILE_COLUMNS
         stop = start + self.size.width
         if canvas is None or y >= canvas.rows or stop > canvas.columns:
             return Strip.blank(self.size.width, ground)
-        white = pane.is_white
         segments = [
             Segment(text, ground if color == NO_COLOR else ground + curve_style(color, white=white))
             for text, color in canvas.runs(y, start, stop)
@@ -121,7 +126,8 @@ class KeyRow(GraphPiece):
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
         del y
-        pane, ground = self.pane, self.ground
+        pane = self.pane
+        ground, white = pane.paper
         width = self.size.width
         reading = pane.reading
         segments: list[Segment] = []
@@ -129,11 +135,11 @@ class KeyRow(GraphPiece):
             segments.append(Segment(f" {reading.head} ", ground + Style(bold=True)))
             for name, color, value in reading.values:
                 segments.append(
-                    Segment(f" {name} = {value}", ground + curve_style(color, white=pane.is_white))
+                    Segment(f" {name} = {value}", ground + curve_style(color, white=white))
                 )
         elif pane.page is not None and pane.keys_shown:
             for name, color in pane.page.keys:
-                segments.append(Segment(" ■ ", ground + curve_style(color, white=pane.is_white)))
+                segments.append(Segment(" ■ ", ground + curve_style(color, white=white)))
                 segments.append(Segment(name, ground))
         used = sum(segment.cell_length for segment in segments)
         pad = max((width - used) // 2, 0) if reading is None else 0

@@ -76,3 +76,18 @@ async def test_a_slider_for_something_without_a_value_is_refused(program):
         await desk.line("live nothing")
         await desk.pilot.pause()
         assert not desk.app.quantities.query(Slider)
+
+
+async def test_live_mode_only_keeps_the_newest_value(program):
+    """However fast the slider moves, the last value is the one that was run last."""
+    async with desktop(program(PARAMETER), size=(120, 40)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        for step in range(1, 21):
+            desk.app.live.ask({"w": 1 + step / 100}, overlay=False)
+        await desk.until(lambda: desk.app.live.runs_made and not desk.app.engine.is_busy)
+        await desk.pilot.pause()
+        await desk.idle()
+        assert desk.app.live.runs_made < 20
+        cells, find = desk.app.session.values.cells, desk.app.session.values.find
+        assert cells[find("w").slot] == pytest.approx(1.2)

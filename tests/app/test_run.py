@@ -208,3 +208,48 @@ async def test_control_characters_do_not_reach_the_terminal(program):
         await desk.press("f5")
         await desk.idle()
         assert "a\ufffd[2Jb\ufffd[bold]c" in desk.output
+
+
+async def test_a_click_on_an_error_goes_to_its_place(program):
+    async with desktop(program(OSCILLATOR.replace("-x", "-xx"))) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        area, console = desk.app.editor.front, desk.app.command.console
+        area.go_to(0)
+        row = next(n for n, (number, *_) in enumerate(console._rows) if "osc.src:" in console._lines[number].text)
+        await desk.pilot.click("#console", offset=(3, row - int(console.scroll_offset.y)))
+        assert area.cursor_location[0] == 8
+        assert desk.app.focused is area
+
+
+async def test_output_can_be_searched_and_copied(program, monkeypatch):
+    text = "for i = 1 to 200 | write 'line ', i | next\n"
+    async with desktop(program(text)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        console = desk.app.command.console
+        assert desk.output.splitlines()[-1] == "line \t200".expandtabs(8)
+        await desk.press("alt+f")
+        field = desk.app.command.query_one("#output-search")
+        field.value = "17 "
+        assert not console.search("no such text")
+        field.value = "17"
+        await desk.press("enter")
+        assert console.found[1] < 200
+        assert "17" in console._lines[console.found[1]].text
+        first = console.found[1]
+        await desk.press("enter")
+        assert console.found[1] < first
+        await desk.press("escape")
+        assert desk.app.focused is desk.app.command.prompt
+        monkeypatch.setenv("TMUX", "x")
+        await desk.do("view.copy_output")
+        assert desk.app.clipboard == console.text
+        notices = [note.message for note in desk.app._notifications]
+        assert any("set-clipboard" in message for message in notices)
+
+
+async def test_no_color_means_no_color(program, monkeypatch):
+    monkeypatch.setenv("NO_COLOR", "1")
+    async with desktop(program(OSCILLATOR)) as desk:
+        assert desk.app.no_color
