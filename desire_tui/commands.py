@@ -64,7 +64,7 @@ COMMANDS = (
     Command("file.external", "External editor", "Edit the front tab in $EDITOR", words=("external",)),
     Command("file.examples", "Examples", "Browse the example programs", "f11", ("examples",)),
     Command("file.quit", "Quit", "Leave Desire; asks where unsaved work would go", "ctrl+q", ("quit",
-            "bye", "exit")),
+            "bye")),
     # ------------------------------------------------------------------------------------------------ editing
     Command("edit.find", "Find", "Find text in the front tab", "ctrl+f", ("find",), "text"),
     Command("edit.replace", "Replace", "Find and replace in the front tab", "ctrl+r"),
@@ -122,6 +122,30 @@ COMMANDS = (
     Command("help.config", "Configuration", "Open the configuration file in a tab", words=("config",)),
 )  # fmt: skip
 
+REFERENCE_WORDS = frozenset(
+    [
+        "erun",
+        "zz",
+        "run",
+        "go",
+        "ed",
+        "edit",
+        "keep",
+        "keep+",
+        "reload",
+        "rld",
+        "load",
+        "old",
+        "new",
+        "NEW",
+        "snapshot",
+        "help",
+        "trace",
+        "bye",
+        "quit",
+    ]
+)
+"""Words of the language reference; the others give way to a quantity of their name."""
 BY_ID = {command.id: command for command in COMMANDS}
 BY_WORD = {word: command for command in COMMANDS for word in command.words}
 
@@ -170,3 +194,15 @@ def parse_line(line: str) -> tuple[Command, str] | None:
     if len(rest) >= 2 and rest[0] in "'\"" and rest[-1] == rest[0]:
         rest = rest[1:-1]
     return command, rest
+
+
+def keys_table() -> str:
+    """Return all actions with their keys and words as a Markdown table."""
+    from desire_tui.panes.keynames import key_names
+
+    rows = ["| key | action | | command |", "| --- | --- | --- | --- |"]
+    for command in COMMANDS:
+        argument = f" {command.argument}" if command.argument else ""
+        words = ", ".join(f"`{word}{argument}`" for word in command.words).replace("|", "\\|")
+        rows.append(f"| {key_names(command.keys)} | {command.title} | {command.help} | {words} |")
+    return "\n".join(rows) + "\n"

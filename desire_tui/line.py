@@ -7,7 +7,7 @@ from collections import deque
 from functools import partial
 
 from desire_tui.actions import Controller
-from desire_tui.commands import parse_line
+from desire_tui.commands import REFERENCE_WORDS, Command, parse_line
 from desire_tui.engine.session import State
 from desire_tui.panes.quantities import value_text
 
@@ -45,7 +45,7 @@ class CommandLine(Controller):
     def next(self) -> None:
         """Carry out lines that wait, as far as the engine is free for them."""
         while self._queue:
-            own = parse_line(self._queue[0])
+            own = self._own(self._queue[0])
             if own is None and self.app.engine.is_busy:
                 return
             line = self._queue.popleft()
@@ -55,6 +55,15 @@ class CommandLine(Controller):
                 self.app.do(command.id, argument)
             else:
                 self.app.engine.submit(partial(self.app.session.execute, line))
+
+    def _own(self, line: str) -> tuple[Command, str] | None:
+        """Return the desktop's action a line means; a quantity of that name is shown instead."""
+        word = line.strip()
+        if word not in REFERENCE_WORDS and self.app.engine.is_up:
+            quantity = self.app.session.values.find(word)
+            if quantity is not None and self.app.session.values.is_defined(quantity):
+                return None
+        return parse_line(line)
 
     def forget(self) -> None:
         """Drop the lines that wait."""

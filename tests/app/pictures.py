@@ -1,4 +1,4 @@
-"""Make the screenshots in docs/pictures. `make pictures`"""
+"""Make what docs takes from the desktop: screenshots, the table of keys. `make pictures`"""
 
 from __future__ import annotations
 
@@ -7,7 +7,20 @@ import os
 import tempfile
 from pathlib import Path
 
+KEYS = Path(__file__).parents[2] / "docs" / "keys.md"
 FOLDER = Path(__file__).parents[2] / "docs" / "pictures"
+
+
+def keys_page() -> str:
+    """Return docs/keys.md."""
+    from desire_tui.commands import keys_table
+
+    return f"""# Keys and commands of the desktop
+
+Made by `make pictures` from the table in `desire_tui/commands.py`. Keys can be changed in the configuration file
+(`desire config` prints where it is): `[keys]`, then a line such as `"run.start" = "f5"`.
+
+{keys_table()}"""
 
 
 async def main() -> None:
@@ -15,6 +28,7 @@ async def main() -> None:
     from .scenes import SCENES, app_for, play
 
     FOLDER.mkdir(parents=True, exist_ok=True)
+    KEYS.write_text(keys_page())
     for scene in SCENES:
         with tempfile.TemporaryDirectory() as name:
             app = app_for(scene, Path(name))

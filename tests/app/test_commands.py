@@ -105,3 +105,19 @@ def test_bindings_have_priority_and_ids():
     for binding in commands.bindings():
         assert binding.priority
         assert binding.id
+
+
+def test_the_page_of_keys_is_up_to_date():
+    from .pictures import KEYS, keys_page
+
+    assert KEYS.read_text() == keys_page()
+
+
+async def test_a_quantity_wins_over_a_word_of_the_desktop(program):
+    async with desktop(program("theme = 7 | zz = 5\n")) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        await desk.line("theme")
+        await desk.idle()
+        assert desk.output.rstrip().endswith("7")
+        assert desk.app.theme == "dark"
