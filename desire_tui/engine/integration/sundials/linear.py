@@ -10,12 +10,15 @@ import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.sundials.library import superlu
-from desire_tui.engine.integration.sundials.signatures import CSC, SUCCESS
+from desire_tui.engine.integration.sundials.signatures import CSC, SUCCESS, address
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.integration.sundials.library import Libraries
+
+_OPERATIONS = 14
+"""Pointers in SUNDIALS 7's table of a linear solver's operations, at least."""
 
 Kind = Literal["fixed-point", "dense", "band", "sparse", "diagonal"]
 
@@ -66,12 +69,14 @@ class Attached:
                 raise DesireError(Diagnostic("solver-missing", facts={"reason": "it has no sparse solver"}))
             self._matrix = _made(library.SUNSparseMatrix(n, n, linear.nonzeros, CSC, context))
             self._solver = _made(sparse.SUNLinSol_SuperLUMT(vector, self._matrix, 1, context))
+            _check(sparse.SUNLinSolInitialize_SuperLUMT(self._solver))
+            _keep_factors(self._solver, address(sparse, "SUNLinSolInitialize_SuperLUMT"))
         _check(library.CVodeSetLinearSolver(memory, self._solver, self._matrix))
         if linear.jacobian:
             _check(library.CVodeSetJacFn(memory, linear.jacobian))
 
     def _may_be_freed(self) -> bool:
-        """Whether freeing the solver is safe: SuperLU_MT's crashes on factors that it never made (SUNDIALS 7.9)."""
+        """Whether freeing the solver is safe: SuperLU_MT crashes without its factors (SUNDIALS 7.9)."""
         return not self._sparse or not _first_factorisation_due(self._solver)
 
     def free(self) -> None:
@@ -84,6 +89,19 @@ class Attached:
         if self._iteration:
             core.SUNNonlinSolFree(self._iteration)
         self._solver = self._matrix = self._iteration = 0
+
+
+def _keep_factors(solver: int, initialize: int) -> None:
+    """Take the solver's `initialize`, done once, out of its table of operations, which may lack it.
+
+    CVODE calls it at each restart; SuperLU_MT's then forgets, and never frees, the factors it has.
+    """
+    operations = ctypes.c_uint64.from_address(solver + 16).value  # {content, python, operations, context}
+    table = (ctypes.c_uint64 * _OPERATIONS).from_address(operations)
+    for place in range(_OPERATIONS):
+        if table[place] == initialize:
+            table[place] = 0
+            return
 
 
 def _first_factorisation_due(solver: int) -> bool:

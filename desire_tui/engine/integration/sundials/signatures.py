@@ -74,7 +74,7 @@ CVODE: Signatures = {
 
 SUPERLU: Signatures = {
     "SUNLinSol_SuperLUMT": (_P, (_P, _P, _I, _P)),
-    "SUNLinSol_SuperLUMTSetOrdering": (_I, (_P, _I)),
+    "SUNLinSolInitialize_SuperLUMT": (_I, (_P,)),
 }
 
 RhsFunction = ctypes.CFUNCTYPE(_I, _D, _P, _P, _P)
