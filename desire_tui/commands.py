@@ -123,28 +123,11 @@ COMMANDS = (
 )  # fmt: skip
 
 REFERENCE_WORDS = frozenset(
-    [
-        "erun",
-        "zz",
-        "run",
-        "go",
-        "ed",
-        "edit",
-        "keep",
-        "keep+",
-        "reload",
-        "rld",
-        "load",
-        "old",
-        "new",
-        "NEW",
-        "snapshot",
-        "help",
-        "trace",
-        "bye",
-        "quit",
-    ]
-)
+    {
+        "erun", "zz", "run", "go", "ed", "edit", "keep", "keep+", "reload", "rld", "load", "old", "new", "NEW",
+        "snapshot", "help", "trace", "bye", "quit",
+    }
+)  # fmt: skip
 """Words of the language reference; the others give way to a quantity of their name."""
 BY_ID = {command.id: command for command in COMMANDS}
 BY_WORD = {word: command for command in COMMANDS for word in command.words}
