@@ -107,7 +107,7 @@ def run(file: str, **options: Any) -> None:
 @main.command()
 @click.argument("files", nargs=-1, required=True)
 def check(files: tuple[str, ...]) -> None:
-    """Report the problems of programs without running them. Exit status: 0 none, 1 errors, 2 unreadable."""
+    """Report the problems of programs without running them. Exit status: 0 none, 1 errors."""
     from desire_tui.batch.run import check_files
 
     sys.exit(_guarded(lambda: check_files(files)))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from desire_tui.batch.outputs import Wanted
     from desire_tui.engine.diagnostics import Diagnostic
 
-DONE, FAILED, USAGE, LIMIT = range(4)
+DONE, FAILED, LIMIT = 0, 1, 3  # 2 is wrong usage, which click tells
 _EXIT = {"done": DONE, "stopped": DONE, "failed": FAILED, "limit": LIMIT}
 _STANDARD_INPUT = "-"
 
@@ -32,7 +32,7 @@ def source_named(name: str) -> Source:
 
 
 def check_files(names: Sequence[str]) -> int:
-    """Report the problems of programs on standard error; 1 if any of them is an error."""
+    """Report the problems of programs on standard error; 1 if any is an error or cannot be read."""
     from desire_tui.engine.session import Session
 
     session, status = Session(), DONE
@@ -41,11 +41,11 @@ def check_files(names: Sequence[str]) -> int:
             problems = session.check(source_named(name))
         except DesireError as error:
             complain(error.diagnostics)
-            status = USAGE
+            status = FAILED
             continue
         complain(problems)
         if any(p.severity == "error" for p in problems):
-            status = max(status, FAILED)
+            status = FAILED
     return status
 
 
@@ -56,7 +56,7 @@ def run_file(name: str, orders: Orders, wanted: Wanted, answers: str | None, *, 
         lines = _answers(answers)
     except DesireError as error:
         complain(error.diagnostics)
-        return USAGE
+        return FAILED
     console = _Console(sys.stderr if wanted.takes_stdout else sys.stdout, quiet=quiet)
 
     def show_problems(problems: Sequence[Diagnostic]) -> None:

@@ -25,7 +25,7 @@ _BLOCK_WORDS = frozenset(
 def structure(program: n.Program) -> Structure:
     """Find the structure of a program. Never raises: the problems are in the result."""
     # Where an opener or closer could not be parsed, its partner is not the user's second mistake.
-    broken = any(p.facts.get("word") in _BLOCK_WORDS for p in program.problems)
+    broken = any(p.facts.get(fact) in _BLOCK_WORDS for p in program.problems for fact in ("word", "close"))
     survey = Survey(program.script, program.source, broken)
     survey.script()
     known = {segment.label for segment in program.segments}

@@ -66,11 +66,27 @@ class DesireError(Exception):
 
 
 def closest(name: str, known: Iterable[str]) -> str | None:
-    """Return the known name that `name` was probably meant to be, or None."""
+    """Return the known name that `name` was probably meant to be, or None.
+
+    Short words count as close after one slip of the fingers, which is too much for a ratio of equal letters.
+    """
     from difflib import get_close_matches  # 3 ms at every start, for the sake of mistakes
 
-    found = get_close_matches(name, list(known), n=1, cutoff=0.7)
-    return found[0] if found else None
+    candidates = list(known)
+    swapped = {name[:i] + name[i + 1] + name[i] + name[i + 2 :] for i in range(len(name) - 1)}
+    swapped.discard(name)
+    slips = [word for word in candidates if word in swapped]
+    slips = slips or get_close_matches(name, candidates, n=1, cutoff=0.7)
+    slips = slips or [word for word in candidates if len(name) > 2 and _one_letter_off(name, word)]
+    return slips[0] if slips else None
+
+
+def _one_letter_off(name: str, word: str) -> bool:
+    """Whether two words of one length differ in one letter (another digit, `x1` for `x2`, is no slip)."""
+    if len(name) != len(word):
+        return False
+    different = [pair for pair in zip(name, word, strict=True) if pair[0] != pair[1]]
+    return len(different) == 1 and "".join(different[0]).isalpha()
 
 
 class _Facts(dict[str, object]):

@@ -58,12 +58,15 @@ class Desk:
         return self.folder / f"{path.stem if path is not None else 'untitled'}.stash.npy"
 
     def runnable(self) -> tuple[Program, Structure]:
-        """Return the program and its structure. DesireError 215: there is none; or its syntax problems."""
+        """Return the program and its structure. DesireError 215: there is none; or all its problems."""
         if self.program is None or self.structure is None:
             raise DesireError(Diagnostic("no-program"))
-        stopping = [p for p in (*self.program.problems, *self.structure.problems) if p.severity == "error"]
-        if stopping:
-            raise DesireError(*(p.within(self.program.source) for p in stopping))
+        if any(p.severity == "error" for p in (*self.program.problems, *self.structure.problems)):
+            from desire_tui.engine.analysis import check
+
+            # the whole text's problems at once, not only those that keep it from starting
+            every = (p.within(self.program.source) for p in check(self.program))
+            raise DesireError(*(p for p in every if p.severity == "error"))
         return self.program, self.structure
 
     def source_of(self, placed: Placed) -> Source:
