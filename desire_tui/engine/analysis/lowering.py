@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.allocation import undisturbed_allocation
 from desire_tui.engine.analysis.context import FunctionText
 from desire_tui.engine.analysis.declared import Survey
 from desire_tui.engine.analysis.scope import LiveScope
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 _WORD = re.compile(r"[A-Za-z][\w$]*")
 
 
+@undisturbed_allocation
 def lower(
     program: Program,
     label: str | None,
@@ -49,6 +51,7 @@ def lower(
     return segment
 
 
+@undisturbed_allocation
 def check(program: Program) -> tuple[Diagnostic, ...]:
     """Return all problems that can be told before a run, in the order of the text.
 
@@ -80,6 +83,7 @@ def _names_in_broken_lines(program: Program) -> set[str]:
     return names
 
 
+@undisturbed_allocation
 def state_order(program: Program) -> tuple[str, ...]:
     """Return the names of the scalar states of all segments in the order of their `d/dt` lines.
 

@@ -7,6 +7,7 @@ import threading
 from collections import OrderedDict
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.allocation import undisturbed_allocation
 from desire_tui.engine.codegen.background import Improver
 from desire_tui.engine.codegen.compiler import machine
 from desire_tui.engine.codegen.loopcode import array_loop
@@ -68,7 +69,7 @@ class NativeBackend:
             if isinstance(known[2], NativeModel):
                 self.improver.again(known[2])
             return known[2]
-        with self.improver.held():
+        with self.improver.held(), undisturbed_allocation:
             made = self._make(segment, rule, values)
         self._models[key] = (segment, values, made)  # the key's ids stay taken as long as these live
         while len(self._models) > _MODELS_MOST:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.allocation import undisturbed_allocation
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.nodes import Bare, Call, Label, Name, Placed, Program, SegmentText, Simple
 from desire_tui.engine.source import Source, Span
@@ -39,6 +40,7 @@ _HEADER = re.compile(r"[ \t]*(?:/[ \t]*(?:NEW)?[ \t\r]*\Z|PIC[ \t]*['\"‘’“
 _STARTS_ODD = frozenset("0123456789/P \t")
 
 
+@undisturbed_allocation
 def parse(source: Source) -> Program:
     """Parse a whole program. Never raises: problems are in the result."""
     script: list[Placed] = []
