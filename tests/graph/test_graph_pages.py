@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from graphing import PLACE, displayed, page_of, record_of
 
 from desire_tui.engine.graph import BLACK, WHITE, DisplaySettings, GraphBook, rgb
 from desire_tui.engine.lowered import Column, Request
+from tests.graph.graphing import PLACE, displayed, page_of, record_of
 
 T = np.linspace(2.0, 5.0, 4)
 FIVE = {name: np.zeros(4) for name in "abcde"}

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from graphing import displayed, page_of, record_of
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.graph import GraphBook, rgb
 from desire_tui.engine.outputs.picture import write_picture
+from tests.graph.graphing import displayed, page_of, record_of
 
 T = np.linspace(0, 1, 200)
 

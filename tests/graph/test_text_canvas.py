@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from graphing import displayed, page_of, record_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +12,7 @@ from desire_tui.engine.outputs.canvas import NO_COLOR, TILE_COLUMNS, Canvas
 from desire_tui.engine.outputs.frame import text_frame, tick_label
 from desire_tui.engine.outputs.painter import Painter
 from desire_tui.engine.outputs.plot import text_plot
+from tests.graph.graphing import displayed, page_of, record_of
 
 
 def lit(canvas):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from eight_problems import ERMAX, EXPLICIT, LIMITS, RULES, Outcome, limit, problems, solve
+from tests.integration.eight_problems import ERMAX, EXPLICIT, LIMITS, RULES, Outcome, limit, problems, solve
 
 PAGE = Path(__file__).parents[2] / "docs" / "rules.md"
 BEGIN, END = "<!-- table: written by tests/integration/rules_table.py -->", "<!-- end of table -->"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from stiff_programs import run
 
 from desire_tui.engine.analysis.dependence import dependence
 from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
@@ -12,6 +11,7 @@ from desire_tui.engine.analysis.slices import derivative_slice
 from desire_tui.engine.reference.backend import ReferenceBackend
 from desire_tui.engine.reference.statements import Statements
 from desire_tui.engine.values import T
+from tests.integration.stiff_programs import run
 
 
 def lowered(text):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from eight_problems import ERMAX, LOOSE, RULES, kepler, limit, problems, solve
 
 from desire_tui.engine.integration import TABLEAUS
+from tests.integration.eight_problems import ERMAX, LOOSE, RULES, kepler, limit, problems, solve
 
 PROBLEMS = problems()
 

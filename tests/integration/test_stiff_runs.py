@@ -6,10 +6,10 @@ from math import cos, exp, sin, sqrt
 
 import numpy as np
 import pytest
-from stiff_programs import RULES, failure, numbers, run
 
 from desire_tui.engine.session import Listener, Session
 from desire_tui.engine.source import Source
+from tests.integration.stiff_programs import RULES, failure, numbers, run
 
 BACKENDS = ("native", "reference")
 pytestmark = pytest.mark.parametrize("backend", BACKENDS)

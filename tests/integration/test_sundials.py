@@ -8,7 +8,6 @@ from math import cos, exp
 
 import numpy as np
 import pytest
-from stiff_programs import numbers as written
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.integration.callbacks import numbers
@@ -21,6 +20,7 @@ from desire_tui.engine.integration.sundials.signatures import (
     WeightFunction,
 )
 from desire_tui.engine.integration.sundials.solver import Callbacks, Solver
+from tests.integration.stiff_programs import numbers as written
 
 LINEARS = ("fixed-point", "dense", "dense", "diagonal")
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 
 import pytest
-from stand_in import Interrupted, World, run
 
 from desire_tui.engine.diagnostics import DesireError
+from tests.interpreter.stand_in import Interrupted, World, run
 
 
 def code_of(action) -> int:

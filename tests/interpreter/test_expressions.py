@@ -7,10 +7,10 @@ import math
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from stand_in import World
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.library import LIBRARY, integer_power, power
+from tests.interpreter.stand_in import World
 
 NAMES = {"x": 0.75, "y": -2.5, "z": 3.0, "big": 1e150}
 FUNCTIONS = ["sin", "cos", "sat", "lim", "deadz", "swtch", "sgn", "abs", "tanh", "sqrt", "ln", "exp", "tri", "round"]

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from stand_in import World, run
 
 from desire_tui.engine.library import LIBRARY, func1, func2, integer_power, rounded
+from tests.interpreter.stand_in import World, run
 
 REALS = st.floats(-1e6, 1e6)
 V = {name: entry.value for name, entry in LIBRARY.items()}

@@ -5,10 +5,10 @@ from __future__ import annotations
 import time
 
 import pytest
-from stand_in import World, error_of, run
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.diagnostics.wording.script import MESSAGES
+from tests.interpreter.stand_in import World, error_of, run
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,8 @@ from math import gcd, pi
 
 import numpy as np
 import pytest
-from stand_in import run
+
+from tests.interpreter.stand_in import run
 
 
 def test_label_and_go_to_sum_to_55():

@@ -6,10 +6,10 @@ import resource
 import sys
 
 import numpy as np
-from stand_in import World
 
 from desire_tui.engine.interpreter import names
 from desire_tui.engine.values import SCALAR_SLOTS, Kind, Values
+from tests.interpreter.stand_in import World
 
 
 def test_addresses_never_change():

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from stand_in import World, error_of, run
+
+from tests.interpreter.stand_in import World, error_of, run
 
 
 @pytest.mark.parametrize(

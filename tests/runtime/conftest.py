@@ -1,7 +1,8 @@
 """Both back ends for every test of this folder: they must give the same."""
 
 import pytest
-import running
+
+from tests.runtime import running
 
 
 @pytest.fixture(params=["reference", "native"], autouse=True)

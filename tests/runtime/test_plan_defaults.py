@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from running import failure, ran, session_for, value
+
+from tests.runtime.running import failure, ran, session_for, value
 
 MODEL = "DYNAMIC\nd/dt x = 1\ndispt x\n"
 MAP = "DYNAMIC\nx = x + 1\ndispt x\n"

@@ -6,12 +6,12 @@ import threading
 from time import monotonic, sleep
 
 import pytest
-import running
-from running import Kept
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session import Session, State
 from desire_tui.engine.source import Source
+from tests.runtime import running
+from tests.runtime.running import Kept
 
 LONG = "TMAX = 1.0E+06 | DT = 0.001 | NN = {nn}\ndrun\nn = 1\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n"
 PATIENCE = 20.0

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import pytest
-import running
-from running import Kept, failure, session_for
 
 from desire_tui.engine.diagnostics import DesireError, render
 from desire_tui.engine.session import Session
 from desire_tui.engine.source import Source
+from tests.runtime import running
+from tests.runtime.running import Kept, failure, session_for
 
 
 def failed(text):

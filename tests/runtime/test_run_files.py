@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import running
-from running import Kept
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session import Permissions, Session
 from desire_tui.engine.source import Source
+from tests.runtime import running
+from tests.runtime.running import Kept
 
 STASH = "TMAX = 2 | NN = 5 | DT = 0.25\n{drun}\nDYNAMIC\nd/dt x = 1\ny = 2*x\nstash x, y\ndispt x\n"
 RECOVER = "NN = 5\ndrun\nDYNAMIC\nrecover p, q\nz = p + q\ndispt z\n"

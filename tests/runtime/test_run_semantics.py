@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from running import ran, session_for, value
+
+from tests.runtime.running import ran, session_for, value
 
 
 def test_fixed_steps_postpone_samples():
@@ -160,7 +161,7 @@ def test_two_segments_share_time_and_values():
 
 
 def test_no_such_segment_is_error_215():
-    from running import failure
+    from tests.runtime.running import failure
 
     (problem,) = failure("TMAX = 1 | drun nowhere\nDYNAMIC\nd/dt x = 1\n")
     assert problem.code in (68, 215)
@@ -177,7 +178,7 @@ def test_show_keeps_a_picture_of_each_sample():
 
 
 def test_a_program_without_a_segment_cannot_run_one():
-    from running import failure
+    from tests.runtime.running import failure
 
     (problem,) = failure("TMAX = 1\ndrun\n")
     assert problem.code == 215
