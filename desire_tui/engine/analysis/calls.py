@@ -50,6 +50,7 @@ def call(context: Context, node: Call, extent: Extent) -> Value:
 
 
 def _expanded(context: Context, node: Call, extent: Extent) -> Value:
+    context.reads.append("")
     function = context.functions[node.name]
     dummies = function.node.dummies
     frame = context.frame
@@ -92,6 +93,7 @@ def _levels(value: Value) -> int:
 
 def _array(context: Context, node: Expr) -> Quantity | None:
     """Return the array a table function's argument names. Errors 36, 19."""
+    context.reads.append("")
     if not isinstance(node, Name):
         context.report("table-not-a-name", node)
         return None

@@ -85,6 +85,9 @@ class Context:
         self.target: tuple[int, int] | None = None
         """Slots of the array that the present statement assigns; None where it may be read freely."""
         self.complained: set[str] = set()
+        self.reads: list[str] = []
+        """Names that the expression being lowered has read; "" for what is more than reading a name."""
+        self.redefines_library = not functions.keys().isdisjoint(LIBRARY)
 
     def enter(self, frame: Frame) -> None:
         """Go on in another text."""

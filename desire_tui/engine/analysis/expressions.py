@@ -44,6 +44,7 @@ def lower(context: Context, node: Expr, extent: Extent = SCALAR) -> Value:
     kind = node.__class__
     if kind is Name:
         if context.plain:
+            context.reads.append(node.name)  # type: ignore[union-attr]
             load = context.flow.ready.get(node.name)  # type: ignore[union-attr]
             if load is not None:
                 return load
@@ -90,6 +91,7 @@ def name(context: Context, node: Name, extent: Extent) -> Value:
 
 def subscripted(context: Context, node: Element) -> Value:
     """Lower `A[i, k]`."""
+    context.reads.append("")
     slot, _ = element(context, node)
     if slot is None:
         return BAD

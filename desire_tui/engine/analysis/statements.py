@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.analysis.context import BAD
 from desire_tui.engine.analysis.expressions import lower
+from desire_tui.engine.analysis.keeping import lower_kept
 from desire_tui.engine.analysis.products import array
 from desire_tui.engine.analysis.scope import UNKNOWN, size_of
 from desire_tui.engine.analysis.subscripts import constant
@@ -25,7 +26,7 @@ def assign(builder: Builder, node: nodes.Assign) -> None:
     target = node.target
     context.own = context.actual(target.name) if isinstance(target, Name) else None
     slot = scalar_slot(context, target)
-    value = lower(context, node.value)
+    value = lower_kept(context, node.value)
     context.own = None
     if slot is not None:
         made = Set(slot, value, context.where(node))
@@ -38,7 +39,7 @@ def derivative(builder: Builder, node: nodes.Derivative) -> None:
     """`d/dt x = e`, `d/dt x[i] = e`. Error 101 for a second one."""
     context = builder.context
     slot = scalar_slot(context, node.target)
-    value = lower(context, node.value)
+    value = lower_kept(context, node.value)
     if slot is None:
         return
     if builder.is_second(slot, 1):
@@ -60,7 +61,7 @@ def condition(builder: Builder, node: nodes.If) -> None:
     if node.value is None:
         context.report("then-in-segment", node)
         return
-    value = lower(context, node.value)
+    value = lower_kept(context, node.value)
     builder.open("if", context.where(node), value)
 
 
