@@ -22,6 +22,7 @@ import pyte
 ROOT = Path(__file__).parents[1]
 COLUMNS, ROWS = 120, 40
 RUN_SECONDS = 6.0
+ENOUGH_SECONDS = 60.0
 SETTLE_SECONDS = 2.0
 """Between the first picture and `zz`: nobody types faster, and the engine is imported meanwhile."""
 KEYS = 40
@@ -31,15 +32,28 @@ DOT = re.compile(rb"\xe2[\xa0-\xa3][\x80-\xbf]")
 FRAME = b"\x1b[?2026h"
 
 
-def program(curves: int) -> str:
-    """Return sine waves whose run goes on for minutes."""
-    lines = ["TMAX = 2E5 | DT = 0.0001 | NN = 200001", "irule 3 | scale = 1"]
-    lines += [f"a{n} = 0.9 - 0.07*{n} | x{n} = a{n}" for n in range(curves)]
+def program(curves: int, t_max: float) -> str:
+    """Return sine waves of different heights, about six periods in all."""
+    lines = [f"TMAX = {t_max:g} | DT = 0.0001 | NN = 20001", "irule 3 | scale = 1"]
+    lines += [
+        f"a{n} = 0.9 - 0.07*{n} | x{n} = a{n} | w{n} = {40 / t_max:g}*(1 + 0.02*{n})" for n in range(curves)
+    ]
     lines += ["drun", "DYNAMIC"]
     for n in range(curves):
-        lines += [f"d/dt x{n} = v{n}", f"d/dt v{n} = -0.0000{n + 1}*x{n}"]
+        lines += [f"d/dt x{n} = v{n}", f"d/dt v{n} = -w{n}*w{n}*x{n}"]
     lines.append("dispt " + ", ".join(f"x{n}" for n in range(curves)))
     return "\n".join(lines) + "\n"
+
+
+def lasting(curves: int, seconds: float) -> str:
+    """Return the program so long that its run takes about so many seconds here: curves grow all the time."""
+    from desire_tui.engine.session import Session
+    from desire_tui.engine.source import Source
+
+    session = Session()
+    for t_max in (10.0, 100.0):  # the first run also compiles
+        session.erun(Source(program(curves, t_max)))
+    return program(curves, float(f"{seconds * 100.0 / session.runs[-1].seconds:.3g}"))
 
 
 class Reader:
@@ -59,7 +73,6 @@ class Reader:
         self.screen = pyte.Screen(COLUMNS, ROWS)
         self.stream = pyte.ByteStream(self.screen)
         self.bytes = 0
-        self.frames = 0
         self.rate = bytes_per_second
         self._due = time.perf_counter()
         self._answered = False
@@ -85,7 +98,6 @@ class Reader:
             self._answered = True
             self.child.send("\x1b[?2026;2$y")
         self.bytes += len(data)
-        self.frames += sum(bool(DOT.search(part)) for part in data.split(FRAME)[1:])
         if draw:
             self.stream.feed(data)
         return data
@@ -127,7 +139,7 @@ def measure(curves: int, bytes_per_second: float | None = None) -> dict[str, flo
     """Run one desktop through its paces."""
     with tempfile.TemporaryDirectory(prefix="desire-bench-") as name:
         folder = Path(name)
-        (folder / "waves.src").write_text(program(curves))
+        (folder / "waves.src").write_text(lasting(curves, ENOUGH_SECONDS))
         (folder / "config" / "desire-tui").mkdir(parents=True)
         (folder / "config" / "desire-tui" / "config.toml").write_text("completion_after = 0\n")
         reader = Reader(folder, "waves.src", bytes_per_second)
@@ -137,19 +149,19 @@ def measure(curves: int, bytes_per_second: float | None = None) -> dict[str, flo
             reader.read(0.1)
         reader.child.send("zz")
         reader.until("> zz")
-        before, sent = reader.frames, time.perf_counter()
+        sent = time.perf_counter()
         reader.child.send("\r")
         seen = b""
         while not DOT.search(seen):
             seen = (seen + reader.read(0.5))[-1 << 16 :]
         first = time.perf_counter() - sent
         reader.until("running")
-        reader.bytes, before, began = 0, reader.frames, time.perf_counter()
+        reader.bytes, began = 0, time.perf_counter()
         unseen = []  # pyte is slower than a terminal: it looks at the frames afterwards
         while time.perf_counter() - began < RUN_SECONDS:
             unseen.append(reader.read(0.1, draw=False))
         elapsed = time.perf_counter() - began
-        frames = reader.frames - before
+        frames = sum(bool(DOT.search(part)) for part in b"".join(unseen).split(FRAME))
         kilobytes = reader.bytes / max(frames, 1) / 1000
         reader.stream.feed(b"".join(unseen))
         echo = echo_times(reader)
