@@ -1,8 +1,8 @@
 """From a program's text to the first pass of its segment: what a user waits for behind `zz`.
 
-Goals (performance.md): up to 30 lines 10 ms; 1401 scalar equations 100 ms cold, 30 ms after a one-line edit. LLVM is
-loaded before (the app does that while the user types). Every cold figure is of a text never seen before. `cpu` is the
-thread's processor time, which other work on the machine does not stretch.
+Goals (performance.md): up to 30 lines 10 ms; 1401 scalar equations 100 ms cold, 30 ms after a one-line edit. LLVM
+is loaded before (the app does that while the user types). Every cold figure is of a text never seen before. `cpu`
+is the thread's processor time, which other work on the machine does not stretch.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def edited_ladder(number: int) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
 def measure(
     backend: NativeBackend, make: Callable[[int], tuple[str, tuple[str, ...], tuple[str, ...]]], number: int
 ) -> list[float]:
-    """Return milliseconds of parse, analysis, compiling, all to the end of the first pass; and all in CPU time."""
+    """Return milliseconds of parse, analysis, compiling, all up to the first pass; and all in CPU time."""
     text, parameters, states = make(number)
     values = Values()
     for name in (*states, *parameters):  # the session lays states out in the order of their d/dt lines
@@ -83,8 +83,9 @@ def measure(
     marks.append(time.perf_counter())
     rows = np.zeros((4, 1 + len(segment.columns)))
     memory = RunMemory(
-        values=values.address, rows=rows.ctypes.data, t_max=1.0, comint=0.01, dt_base=0.01, nn=101, every=1, row_limit=1
-    )
+        values=values.address, rows=rows.ctypes.data, t_max=1.0, comint=0.01, dt_base=0.01, nn=101, every=1,
+        row_limit=1,
+    )  # fmt: skip
     model.advance(memory)
     marks.append(time.perf_counter())
     assert memory.row == 1
