@@ -1,8 +1,9 @@
 """From a program's text to the first pass of its segment: what a user waits for behind `zz`.
 
-Goals (performance.md): up to 30 lines 10 ms; 1401 scalar equations 100 ms cold, 30 ms after a one-line edit. LLVM
-is loaded before (the app does that while the user types). Every cold figure is of a text never seen before. `cpu`
-is the thread's processor time, which other work on the machine does not stretch.
+Goals (performance.md): up to 30 lines 10 ms; 1401 scalar equations 100 ms cold, 30 ms after a one-line edit.
+LLVM is loaded before (the app does that while the user types). Every cold figure is of a text never seen
+before.
+`cpu` is the thread's processor time, which other work on the machine does not stretch.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from desire_tui.engine.codegen import NativeBackend
 from desire_tui.engine.runtime.memory import RunMemory
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse
-from desire_tui.engine.values import DT, Values, T
+from desire_tui.engine.values import DT, T, Values
 
 if TYPE_CHECKING:
     from collections.abc import Callable
