@@ -340,7 +340,7 @@ Action = (
 # --------------------------------------------------------------------------------------------- the segment
 
 
-@dataclass(frozen=True, slots=True)
+@node
 class StateRange:
     """Consecutive states: `count` states from number `first` on live in `slot … slot+count-1`."""
 

@@ -149,6 +149,8 @@ def _holds_term(actions: Iterable[Action]) -> bool:
 
 
 def _state_slots(segment: Segment) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    if all(piece.count == 1 for piece in segment.states):
+        return np.array([piece.slot for piece in segment.states], dtype=np.int64)
     slots = np.zeros(segment.order, dtype=np.int64)
     for piece in segment.states:
         slots[piece.first : piece.first + piece.count] = np.arange(piece.slot, piece.slot + piece.count)

@@ -18,11 +18,16 @@ from desire_tui.engine.lowered import Deriv, Set
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered import Action, Value
 
 _FEWEST = 16
 """Shorter runs are not worth a loop."""
 _INEXACT = frozenset((*OUTSIDE, "sinc", "sigmoid"))
+
+_Shape = tuple[tuple[object, ...], list[int | float]]
+_shapes: dict[int, tuple[Value, _Shape | None]] = {}
+"""By the value's id, which stays taken: analysis gives the same value for the same text again."""
+_SHAPES_MOST = 20_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,10 +46,11 @@ class Rolled:
 class _Run:
     """A run as it grows."""
 
-    __slots__ = ("actions", "key", "leaves", "round_again", "side_by_side", "target")
+    __slots__ = ("actions", "key", "kind", "leaves", "round_again", "side_by_side", "target")
 
     def __init__(self, action: Set | Deriv, key: tuple[object, ...], leaves: list[int | float]) -> None:
         self.actions = [action]
+        self.kind = type(action)
         self.key = key
         self.leaves = [leaves]
         self.target = _target(action)
@@ -58,15 +64,17 @@ class _Run:
             return False
         first = self.leaves[0]
         earlier = self.leaves[count - width] if count >= width else None
-        side, again = [], []
+        sides, agains = self.side_by_side, self.round_again
+        changed = []
         for q, leaf in enumerate(leaves):
-            s = self.side_by_side[q] and leaf == first[q] + count and type(leaf) is int
-            a = self.round_again[q] and (earlier is None or _same(leaf, earlier[q]))
-            if not (s or a):
+            side = sides[q] and leaf == first[q] + count and type(leaf) is int
+            again = agains[q] and (earlier is None or leaf is earlier[q] or _same(leaf, earlier[q]))
+            if not (side or again):
                 return False
-            side.append(s)
-            again.append(a)
-        self.side_by_side, self.round_again = side, again
+            if side is not sides[q] or again is not agains[q]:
+                changed.append((q, side, again))
+        for q, side, again in changed:
+            sides[q], agains[q] = side, again
         self.actions.append(action)
         self.leaves.append(leaves)
         return True
@@ -120,9 +128,9 @@ def roll(actions: Iterable[Action], width: int) -> list[Action | Rolled]:
             done.append(action)
             continue
         key, leaves = found
-        assert isinstance(action, Set | Deriv)
+        assert type(action) is Set or type(action) is Deriv
         if run is not None:
-            if run.key == key and run.takes(action, leaves, width):
+            if run.kind is type(action) and run.key == key and run.takes(action, leaves, width):
                 continue
             done += run.result(width)
         run = _Run(action, key, leaves)
@@ -131,14 +139,24 @@ def roll(actions: Iterable[Action], width: int) -> list[Action | Rolled]:
     return done
 
 
-def _plain(action: Action) -> tuple[tuple[object, ...], list[int | float]] | None:
-    """Return shape and leaves of a statement that may be rolled up."""
+def _plain(action: Action) -> _Shape | None:
+    """Return shape and leaves of the value of a statement that may be rolled up."""
     if type(action) is not Deriv and type(action) is not Set:
         return None
-    key: list[object] = [type(action)]
+    value = action.value
+    known = _shapes.get(id(value))
+    if known is None:
+        if len(_shapes) >= _SHAPES_MOST:
+            _shapes.clear()
+        known = _shapes[id(value)] = value, _shape(value)
+    return known[1]
+
+
+def _shape(value: Value) -> _Shape | None:
+    key: list[object] = []
     leaves: list[int | float] = []
     try:
-        shape(action.value, key, leaves)
+        shape(value, key, leaves)
     except NotPlainError:
         return None
     if not _INEXACT.isdisjoint(key):
