@@ -38,4 +38,5 @@ clean:  ## remove the environment and caches
 $(STAMP): pyproject.toml
 	test -d $(VENV) || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]'
+	$(BIN)/python -m compileall -q desire_tui  # an editable install leaves that out: 0.3 s at the first start
 	touch $(STAMP)

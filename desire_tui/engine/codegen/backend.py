@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _MODELS_MOST = 32
 _RULES_BY_USE = (1, 3, 0, 2, 4, 5, 7, 8)
+_SETTLED_SECONDS = 0.4
+"""A process that lives longer than this may run more programs: a headless run is over by then."""
 STIFF_RULES = range(9, 17)
 _STORE = Store()
 """One for all back ends of a process: code depends on nothing but its text."""
@@ -53,8 +55,10 @@ class NativeBackend:
         atexit.register(_finish, warming)
 
     def _warm_up(self) -> None:
-        """Load LLVM and compile every rule's loop: the first module costs 20 ms more than any other."""
+        """Load LLVM; later compile every rule's loop, so that the next program need not."""
         machine()
+        if _ENDING.wait(_SETTLED_SECONDS):
+            return
         for rule in _RULES_BY_USE:
             if _ENDING.is_set():
                 return

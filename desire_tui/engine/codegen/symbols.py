@@ -7,7 +7,6 @@ else the scalar function lane by lane; quick and fast code call the same ones.
 from __future__ import annotations
 
 import ctypes
-import ctypes.util
 import functools
 
 from desire_tui.engine.codegen.functions import OUTSIDE
@@ -19,8 +18,17 @@ TWO_ARGUMENTS = frozenset(("pow", "atan2"))
 @functools.cache
 def scalar_addresses() -> dict[str, int]:
     """Return the address of every library function, by its C name."""
-    library = ctypes.CDLL(ctypes.util.find_library("m") or None)
+    library = _mathematical_library()
     return {name: _address(library, name) for name in OUTSIDE.values()}
+
+
+def _mathematical_library() -> ctypes.CDLL:
+    try:
+        return ctypes.CDLL("libm.so.6")
+    except OSError:  # not glibc: `find_library` asks outside programs, which takes 15 ms
+        from ctypes.util import find_library
+
+        return ctypes.CDLL(find_library("m"))
 
 
 @functools.cache
