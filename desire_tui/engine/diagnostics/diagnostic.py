@@ -73,19 +73,27 @@ def closest(name: str, known: Iterable[str]) -> str | None:
     from difflib import get_close_matches  # 3 ms at every start, for the sake of mistakes
 
     candidates = list(known)
-    swapped = {name[:i] + name[i + 1] + name[i] + name[i + 2 :] for i in range(len(name) - 1)}
-    swapped.discard(name)
-    slips = [word for word in candidates if word in swapped]
-    slips = slips or get_close_matches(name, candidates, n=1, cutoff=0.7)
-    slips = slips or [word for word in candidates if len(name) > 2 and _one_letter_off(name, word)]
-    return slips[0] if slips else None
+    swapped = [word for word in candidates if _letters_swapped(name, word)]
+    found = swapped or get_close_matches(name, candidates, n=1, cutoff=0.7)
+    found = found or [word for word in candidates if len(name) > 2 and _one_letter_off(name, word)]
+    return found[0] if found else None
+
+
+def _differences(name: str, word: str) -> list[tuple[str, str]]:
+    """Return the letters in which two words of one length differ; nothing for different lengths."""
+    same_length = len(name) == len(word)
+    return [pair for pair in zip(name, word, strict=True) if pair[0] != pair[1]] if same_length else []
+
+
+def _letters_swapped(name: str, word: str) -> bool:
+    """Whether two letters changed places, `fro` for `for`."""
+    different = _differences(name, word)
+    return len(different) == 2 and different[0] == different[1][::-1]
 
 
 def _one_letter_off(name: str, word: str) -> bool:
-    """Whether two words of one length differ in one letter (another digit, `x1` for `x2`, is no slip)."""
-    if len(name) != len(word):
-        return False
-    different = [pair for pair in zip(name, word, strict=True) if pair[0] != pair[1]]
+    """Whether one letter is another (another digit, `x1` for `x2`, is no slip)."""
+    different = _differences(name, word)
     return len(different) == 1 and "".join(different[0]).isalpha()
 
 

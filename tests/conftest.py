@@ -1,0 +1,14 @@
+"""What all tests share: hypothesis without deadlines, and without chance where a failure must be repeatable.
+
+`HYPOTHESIS_PROFILE=search pytest …` looks for new examples, and more of them where a test names no number.
+"""
+
+from __future__ import annotations
+
+import os
+
+from hypothesis import settings
+
+settings.register_profile("repeatable", deadline=None, derandomize=True, database=None)
+settings.register_profile("search", deadline=None, max_examples=1000)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
