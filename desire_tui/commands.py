@@ -124,8 +124,8 @@ COMMANDS = (
 
 REFERENCE_WORDS = frozenset(
     {
-        "erun", "zz", "run", "go", "ed", "edit", "keep", "keep+", "reload", "rld", "load", "old", "new", "NEW",
-        "snapshot", "help", "trace", "bye", "quit",
+        "erun", "zz", "run", "go", "ed", "edit", "keep", "keep+", "reload", "rld", "load", "old", "new",
+        "NEW", "snapshot", "help", "trace", "bye", "quit",
     }
 )  # fmt: skip
 """Words of the language reference; the others give way to a quantity of their name."""

@@ -232,7 +232,9 @@ def warm_up() -> None:
 
     What this imports, the first `zz` need not.
     """
+    from desire_tui.engine.outputs.canvas import Canvas
     from desire_tui.engine.outputs.frame import text_frame
+    from desire_tui.engine.outputs.painter import Painter
     from desire_tui.engine.session import Session
     from desire_tui.engine.source import Source
 
@@ -240,3 +242,4 @@ def warm_up() -> None:
     session.erun(Source(WARM_UP, "<warm-up>"))
     if session.graph is not None:
         text_frame(session.graph, 40, 12)
+        Painter(Canvas(40, 12), session.graph).update()

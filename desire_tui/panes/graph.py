@@ -189,17 +189,26 @@ class GraphPane(Container, can_focus=True):
             self.query_one(FrameLayer).refresh()
             self.query_one(KeyRow).refresh()
 
-    def _place_tiles(self) -> None:
-        assert self.frame is not None
-        assert self.canvas is not None
+    def on_resize(self) -> None:
+        """Have tiles at hand before the first graph: making them takes longer than drawing it."""
+        if self.canvas is None:
+            self._have_tiles(self.size.width // TILE_COLUMNS)
+
+    def _have_tiles(self, wanted: int) -> list[CanvasTile]:
         tiles = list(self.query(CanvasTile))
-        wanted = self.canvas.tiles
         for tile in tiles[wanted:]:
             tile.remove()
         if wanted > len(tiles):
             new = [CanvasTile(number) for number in range(len(tiles), wanted)]
             self.mount(*new)
             tiles += new
+        return tiles
+
+    def _place_tiles(self) -> None:
+        assert self.frame is not None
+        assert self.canvas is not None
+        wanted = self.canvas.tiles
+        tiles = self._have_tiles(wanted)
         for number, tile in enumerate(tiles[:wanted]):
             tile.styles.offset = (self.frame.left + number * TILE_COLUMNS, self.frame.top)
             tile.styles.width = min(TILE_COLUMNS, self.canvas.columns - number * TILE_COLUMNS)

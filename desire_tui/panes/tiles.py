@@ -84,7 +84,7 @@ class FrameLayer(GraphPiece):
 class CanvasTile(GraphPiece):
     """Columns `number * 8 …` of the canvas."""
 
-    DEFAULT_CSS = "CanvasTile { layer: curves; position: absolute; }"
+    DEFAULT_CSS = "CanvasTile { layer: curves; position: absolute; width: 0; height: 0; }"
 
     def __init__(self, number: int) -> None:
         super().__init__()

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 BLOCK_SECONDS = 0.02
 """How long a block of samples should take: short enough to look alive, long enough to cost nothing."""
 BLOCK_FIRST = 1
-"""Samples of the first block: a curve is seen at once however slow its steps. A block may be 8 times the last."""
+"""Samples of the first block: a curve is seen at once, however slow. The next may be 8 times as long."""
 ROWS_BYTES_MAX = 1 << 30
 """Samples one run may keep: 10 million of 12 variables."""
 PICTURES_BYTES_MAX = 1 << 28
