@@ -16,8 +16,8 @@ from desire_tui.engine.analysis.context import Context
 from desire_tui.engine.analysis.expansion import expand
 from desire_tui.engine.analysis.jacobian import lower_jacobian
 from desire_tui.engine.analysis.scope import UNKNOWN
-from desire_tui.engine.analysis.states import StateLine, StateTable
-from desire_tui.engine.lowered import Load, Segment
+from desire_tui.engine.analysis.states import StateTable
+from desire_tui.engine.lowered import Load, Segment, StateRange
 from desire_tui.engine.nodes import Derivative, Element, Name, VectorDerivative
 from desire_tui.engine.values import T
 
@@ -125,7 +125,7 @@ def _collect_targets(context: Context, lines: Sequence[Line]) -> None:
 
 
 def _states(context: Context, lines: Sequence[Line]) -> StateTable:
-    found: list[StateLine] = []
+    found: list[StateRange] = []
     for node, frame in lines:
         if isinstance(node, Derivative):
             context.enter(frame)
@@ -136,19 +136,20 @@ def _states(context: Context, lines: Sequence[Line]) -> StateTable:
                 if known is None or not known.shape:
                     slot = context.scope.scalar(name, is_state=True).slot
                     where = context.derivative_places[id(node)] = context.where(node)
-                    found.append(StateLine(name, slot, 1, where))
+                    found.append(StateRange(name, slot, len(found), 1, where))
             else:
-                found.extend(_element_state(context, node, target))
+                found.extend(_element_state(context, node, target, len(found)))
         elif isinstance(node, VectorDerivative):
             context.enter(frame)
             quantity = context.quantity(node.name)
             if quantity is not None and len(quantity.shape) == 1 and quantity.shape[0] != UNKNOWN:
                 quantity.is_state = True
-                found.append(StateLine(quantity.name, quantity.slot, quantity.shape[0], context.where(node)))
+                count, where = quantity.shape[0], context.where(node)
+                found.append(StateRange(quantity.name, quantity.slot, len(found), count, where))
     return StateTable(found)
 
 
-def _element_state(context: Context, node: Derivative, target: Element) -> list[StateLine]:
+def _element_state(context: Context, node: Derivative, target: Element, number: int) -> list[StateRange]:
     # problems of the subscripts are reported when the statement itself is lowered
     known, complained = len(context.problems), set(context.complained)
     slot = targets.scalar_slot(context, target)
@@ -164,7 +165,7 @@ def _element_state(context: Context, node: Derivative, target: Element) -> list[
         subscripts.append(first % size + 1)
         first //= size
     name = f"{quantity.name}[{','.join(str(s) for s in reversed(subscripts))}]"
-    return [StateLine(name, slot, 1, context.where(node))]
+    return [StateRange(name, slot, number, 1, context.where(node))]
 
 
 def _ready_from_start(builder: Builder, lines: Sequence[Line]) -> None:

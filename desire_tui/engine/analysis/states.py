@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered import StateRange
@@ -11,25 +10,16 @@ from desire_tui.engine.lowered import StateRange
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.lowered import Where
-
-
-@dataclass(slots=True)
-class StateLine:
-    """A `d/dt` line's target: `count` numbers from `slot` on."""
-
-    name: str
-    slot: int
-    count: int
-    where: Where
-
 
 class StateTable:
-    """Ranges of states. Targets that overlap (a vector and one of its elements, two views) are one range."""
+    """Ranges of states. Targets that overlap (a vector and one of its elements, two views) are one range.
 
-    def __init__(self, lines: Sequence[StateLine]) -> None:
+    `lines`: the target of each `d/dt` line, numbered as if there were scalars only.
+    """
+
+    def __init__(self, lines: Sequence[StateRange]) -> None:
         if all(line.count == 1 for line in lines) and len({line.slot for line in lines}) == len(lines):
-            self.ranges = [StateRange(s.name, s.slot, i, 1, s.where) for i, s in enumerate(lines)]
+            self.ranges = list(lines)
         else:
             self.ranges = _merged(lines)
         self.order = sum([r.count for r in self.ranges])
@@ -49,7 +39,7 @@ class StateTable:
         return found.first + slot - found.slot if slot < found.slot + found.count else None
 
 
-def _merged(lines: Sequence[StateLine]) -> list[StateRange]:
+def _merged(lines: Sequence[StateRange]) -> list[StateRange]:
     order = sorted(range(len(lines)), key=lambda i: (lines[i].slot, -lines[i].count))
     merged: list[list[int]] = []  # first line, slot, end, line that gives the name
     for i in order:
