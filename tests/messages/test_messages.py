@@ -19,8 +19,9 @@ A file:
     hint: add )
 
 Optional sections between program and messages: `===== input` (lines that answer the script's `input`),
-`===== go` (empty: a STOP is answered with go; n lines: n times), `===== command` (a command line that runs after
-the program: its messages are shown under the name `<command>`).
+`===== go` (empty: a STOP is answered with go; n lines: n times), `===== command` (command lines that run after
+the program, each whatever became of those before: their messages are shown under the name `<command>`).
+Files are read and written in a folder of the test's own, shown as `<folder>`.
 A program that must show nothing has an empty last section. Write the expected text yourself and look at the
 difference; `UPDATE_MESSAGES=1 pytest tests/messages` writes the present output into all files: review it with
 `git diff` before you commit.
@@ -29,12 +30,18 @@ difference; `UPDATE_MESSAGES=1 pytest tests/messages` writes the present output 
 from __future__ import annotations
 
 import os
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, render_all
 from desire_tui.engine.source import Source
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 HERE = Path(__file__).parent
 STAGES = ("parse", "check", "run")
@@ -58,23 +65,23 @@ def by_place(problems: list[Diagnostic]) -> list[Diagnostic]:
     return sorted(problems, key=lambda problem: problem.span or (0, 0))
 
 
-def messages_of_parse(parts: dict[str, str], source: Source) -> list[Diagnostic]:
+def messages_of_parse(parts: dict[str, str], source: Source, folder: Path) -> list[Diagnostic]:
     from desire_tui.engine.analysis.structure import structure
     from desire_tui.engine.syntax import parse
 
-    del parts
+    del parts, folder
     program = parse(source)
     return by_place([*program.problems, *structure(program).problems])
 
 
-def messages_of_check(parts: dict[str, str], source: Source) -> list[Diagnostic]:
+def messages_of_check(parts: dict[str, str], source: Source, folder: Path) -> list[Diagnostic]:
     from desire_tui.engine.session import Session
 
     del parts
-    return by_place(list(Session().check(source)))
+    return by_place(list(Session(folder=folder).check(source)))
 
 
-def messages_of_run(parts: dict[str, str], source: Source) -> list[Diagnostic]:
+def messages_of_run(parts: dict[str, str], source: Source, folder: Path) -> list[Diagnostic]:
     from desire_tui.engine.session import Listener, Session
 
     answers = iter(parts.get("input", "").splitlines())
@@ -91,33 +98,55 @@ def messages_of_run(parts: dict[str, str], source: Source) -> list[Diagnostic]:
         def problems(self, diagnostics) -> None:
             shown.extend(diagnostics)
 
-    session = Session(Console(), folder=HERE)
-    try:
+    session = Session(Console(), folder=folder)
+
+    def attempt(work: Callable[[], object]) -> None:
+        try:
+            work()
+        except DesireError as error:
+            shown.extend(problem.within(source) for problem in error.diagnostics)
+
+    def program() -> None:
         session.erun(source)
         for _ in range(max(1, len(parts["go"].splitlines())) if "go" in parts else 0):
             session.go()
-        if "command" in parts:
-            session.execute(parts["command"].rstrip("\n"))
-    except DesireError as error:
-        shown.extend(problem.within(source) for problem in error.diagnostics)
+
+    attempt(program)
+    for line in parts.get("command", "").splitlines():
+        attempt(lambda line=line: session.execute(line))
     return shown
 
 
 SPEAKERS = {"parse": messages_of_parse, "check": messages_of_check, "run": messages_of_run}
 
 
+@cache
+def spoken(path: Path) -> tuple[str, frozenset[str]]:
+    """Return what the user sees for a golden file's program, and the keys of all messages and notes in it."""
+    parts = sections(path.read_text("utf-8"))
+    source = Source(parts["program"].removesuffix("\n"), "program.src")
+    with TemporaryDirectory() as name:
+        folder = Path(name).resolve()
+        problems = SPEAKERS[path.parent.name](parts, source, folder)
+        shown = render_all(problems).replace(str(folder), "<folder>")
+    keys: set[str] = set()
+    rest = list(problems)
+    while rest:
+        problem = rest.pop()
+        keys.add(problem.key)
+        rest.extend(problem.related)
+    return (f"{shown}\n" if shown else ""), frozenset(keys)
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_message(path: Path) -> None:
     text = path.read_text("utf-8")
-    parts = sections(text)
-    source = Source(parts["program"].removesuffix("\n"), "program.src")
-    shown = render_all(SPEAKERS[path.parent.name](parts, source))
-    shown = f"{shown}\n" if shown else ""
+    shown, _ = spoken(path)
     if os.environ.get("UPDATE_MESSAGES"):
         head = text[: text.index("===== messages\n") + len("===== messages\n")]
         path.write_text(head + shown, "utf-8")
         return
-    assert shown == parts["messages"]
+    assert shown == sections(text)["messages"]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.stem}")
