@@ -99,7 +99,7 @@ class Shell(App[None]):
         """Move the keys to a widget; a pane shown alone gives way to the widget's."""
         if self.desk.alone is not None:
             self.desk.show_alone(self.desk.pane_of(widget))
-        widget.focus()
+        self.desk.set_focus(widget)  # at once: widget.focus() waits, and keys typed meanwhile would go astray
         return widget.focusable
 
     def toggle_maximized(self, pane: Widget | None) -> None:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from textual import events
     from textual.document._document import EditResult
     from textual.document._edit import Edit
+    from textual.geometry import Region
 
     from desire_tui.editor.buffer import Buffer
 
@@ -165,6 +166,12 @@ class CodeArea(TextArea):
         width = self._width_most + self.gutter_width + 1
         self.virtual_size = Size(width, self.document.line_count)
         self._refresh_scrollbars()
+
+    def render_lines(self, crop: Region) -> list[Strip]:
+        """Draw rows; blank ones before the style sheet was applied (a tab opened as a dialog closes)."""
+        if not self._component_styles:
+            return [Strip.blank(crop.width)] * crop.height
+        return super().render_lines(crop)
 
     def render_line(self, y: int) -> Strip:
         """Draw a row, with its mark in the gutter."""

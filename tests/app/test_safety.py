@@ -72,7 +72,7 @@ async def test_unsaved_work_of_a_dead_session_is_offered(program):
         await desk.until(lambda: len(desk.app.screen_stack) > 1)
         await desk.press("r")
         await desk.until(lambda: any("lost" in area.text for area in desk.app.editor.areas))
-        assert not file.exists()
+        await desk.until(lambda: not file.exists())
         own = recovery.recovery_file()
         assert "lost = 1" in own.read_text()
         area = next(area for area in desk.app.editor.areas if "lost" in area.text)

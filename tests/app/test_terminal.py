@@ -143,6 +143,7 @@ def test_a_session(terminal: Callable[..., Terminal], tmp_path: Path):
     assert "empty.src" in screen.screen.display[0]
 
     # edit and run again
+    screen.read(0.3)
     screen.send("\x1be")  # Alt+E: the editor
     screen.send("\x1b[1;5H")  # Ctrl+Home does nothing harmful
     screen.send("\x1b[5~\x1b[5~\x1b[H-- edited\r")
