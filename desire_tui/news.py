@@ -181,6 +181,7 @@ class EngineNews(Controller):
             app.editor.active.marks_changed()
         app.show_status()
         app.quantities.show(app.session.values)
+        app.tour.program_ended()
         app.live.engine_idle()
         app.line.next()
 

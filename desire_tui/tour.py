@@ -23,6 +23,7 @@ class Tour:
     def __init__(self, app: DesireApp) -> None:
         self._app = app
         self._next: list[str] = []
+        self._ran = False
 
     def begin(self) -> None:
         """Start the tour."""
@@ -30,10 +31,11 @@ class Tour:
         self._app.command.console.add(WELCOME, "notice")
 
     def run_ended(self) -> None:
-        """Say the next sentence once the runs of the program are over."""
-        if self._next:
-            self._app.set_timer(0.5, self._say)
+        """Remember that there was something to see."""
+        self._ran = True
 
-    def _say(self) -> None:
-        if self._next and not self._app.engine.is_busy:
+    def program_ended(self) -> None:
+        """Say the next sentence after a program that made runs."""
+        if self._ran and self._next:
             self._app.command.console.add(self._next.pop(0), "notice")
+        self._ran = False
