@@ -3,6 +3,12 @@
 Goals (performance.md): at least 20 times faster than each at the same accuracy; within 1.2 times of CVODE
 from C; 5,000 states of a heat equation 50 times faster than with a dense matrix, and linear in n. Run:
 `python -m benchmarks.bench_stiff`.
+
+All report the same 11 equidistant points, all but CVODE's two differenced runs get the exact Jacobian, and
+all get `rtol = tol` with `atol = tol` times the state's largest magnitude: what Desire's weights are once
+that magnitude has been reached, before it (and by rtol·|y| always) laxer for the others. Two comparisons:
+*asked for 1e-6*, tol = 1e-6 for all; *got 1e-6*, each with the largest power of ten that brings all states
+at all points within 1e-6 of their largest magnitudes of a solution by Radau at 1e-12.
 """
 
 from __future__ import annotations
@@ -12,17 +18,26 @@ import shutil
 import subprocess
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
+from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session import Listener, Session
 from desire_tui.engine.source import Source
 
+POINTS = 11
+TOLERANCES = tuple(10.0**-k for k in range(6, 13))
+GOAL = 1e-6
+DENSE_SECONDS = 90.0
+
 ROBERTSON = """
 y1 = 1
-irule {rule} | ERMAX = {ermax} | DT = {dt} | TMAX = {t_end} | NN = 2
+irule {rule} | ERMAX = {ermax} | DT = {dt} | TMAX = {t_end} | NN = 11
 for k = 1 to {repeats} | drunr | next
 DYNAMIC
 p = 1E+04*y2*y3 | q = 3E+07*y2*y2
@@ -33,7 +48,7 @@ dispt y1, y2, y3
 """
 VAN_DER_POL = """
 mu = 1000 | x = 2
-irule {rule} | ERMAX = {ermax} | DT = {dt} | TMAX = {t_end} | NN = 2
+irule {rule} | ERMAX = {ermax} | DT = {dt} | TMAX = {t_end} | NN = 11
 for k = 1 to {repeats} | drunr | next
 DYNAMIC
 d/dt x = v
@@ -63,7 +78,7 @@ def van_der_pol_matrix(_t, y):
 
 @dataclass(frozen=True)
 class Case:
-    """One problem; the others' absolute tolerance for each state is ERMAX times its largest value."""
+    """One problem with the largest magnitudes of its states."""
 
     name: str
     program: str
@@ -71,47 +86,57 @@ class Case:
     matrix: object
     start: list[float]
     t_end: float
-    ermax: float
     dt: float
     largest: list[float]
     c: str
 
 
 CASES = (
-    Case("Robertson to 1e11", ROBERTSON, robertson, robertson_matrix, [1.0, 0.0, 0.0], 1e11, 1e-10, 1e-6,
+    Case("Robertson to 1e11", ROBERTSON, robertson, robertson_matrix, [1.0, 0.0, 0.0], 1e11, 1e-6,
          [1.0, 3.65e-5, 1.0], "k[0]=1e4*y[1]*y[2]-0.04*y[0];k[2]=3e7*y[1]*y[1];k[1]=-k[0]-k[2];"),
     Case("Van der Pol mu = 1000", VAN_DER_POL, van_der_pol, van_der_pol_matrix, [2.0, 0.0], 2000.0, 1e-6,
-         1e-6,
          [2.0, 1333.6], "k[0]=y[1];k[1]=1000*(1-y[0]*y[0])*y[1]-y[0];"),
 )  # fmt: skip
 
 
-def desire(case: Case, rule: int, repeats: int = 200) -> tuple[float, list[float]]:
-    """Best of the runs' own times, and the states at the end of the last."""
-    text = case.program.format(rule=rule, ermax=case.ermax, dt=case.dt, t_end=case.t_end, repeats=repeats)
+Outcome = tuple[float, NDArray[np.float64] | None]
+"""Seconds, best of several, and the states at the points (one row each); None where the solver gave up."""
+
+
+def points(case: Case) -> NDArray[np.float64]:
+    """Times at which all report."""
+    return np.linspace(0.0, case.t_end, POINTS)
+
+
+def desire(case: Case, tol: float, rule: int, repeats: int = 100) -> Outcome:
+    """Best of the runs' own times: all that `drun` does."""
+    text = case.program.format(rule=rule, ermax=tol, dt=case.dt, t_end=case.t_end, repeats=repeats)
     session = Session(Listener())
-    session.erun(Source(text, case.name))
-    last = session.runs[-1]
-    return min(run.seconds for run in session.runs), [float(v) for v in last.rows[last.count - 1, 1:]]
+    try:
+        session.erun(Source(text, case.name))
+    except DesireError:
+        return float("inf"), None
+    return min(run.seconds for run in session.runs), session.runs[-1].rows[:POINTS, 1:]
 
 
-def scipy_time(case: Case, method: str) -> tuple[float, list[float]]:
+def scipy_time(case: Case, tol: float, method: str, repeats: int) -> Outcome:
+    """`solve_ivp`."""
     from scipy.integrate import solve_ivp
 
-    absolute = case.ermax * np.array(case.largest)
     times, found = [], None
-    for _ in range(3):
+    for _ in range(repeats):
         began = time.perf_counter()
         found = solve_ivp(
             case.f, (0, case.t_end), case.start, method=method, jac=case.matrix, first_step=case.dt,
-            rtol=max(case.ermax, 3e-14), atol=absolute,
+            rtol=tol, atol=tol * np.array(case.largest), t_eval=points(case),
         )  # fmt: skip
         times.append(time.perf_counter() - began)
     assert found is not None
-    return min(times), list(found.y[:, -1])
+    return min(times), found.y.T if found.status == 0 else None
 
 
-def sundae_time(case: Case) -> tuple[float, list[float]]:
+def sundae_time(case: Case, tol: float, repeats: int = 20) -> Outcome:
+    """scikit-sundae's CVODE, its right-hand side and Jacobian in Python."""
     from sksundae.cvode import CVODE
 
     def rhs(t, y, yp):
@@ -121,15 +146,14 @@ def sundae_time(case: Case) -> tuple[float, list[float]]:
         out[:, :] = case.matrix(t, y)
 
     times, found = [], None
-    for _ in range(5):
-        absolute = case.ermax * np.array(case.largest)
-        solver = CVODE(rhs, jacfn=jac, rtol=case.ermax, atol=absolute, method="BDF",
+    for _ in range(repeats):
+        solver = CVODE(rhs, jacfn=jac, rtol=tol, atol=tol * np.array(case.largest), method="BDF",
                        first_step=case.dt, max_num_steps=10**6)  # fmt: skip
         began = time.perf_counter()
-        found = solver.solve([0.0, case.t_end], np.array(case.start))
+        found = solver.solve(points(case), np.array(case.start))
         times.append(time.perf_counter() - began)
     assert found is not None
-    return min(times), list(found.y[-1])
+    return min(times), np.asarray(found.y) if len(found.y) == POINTS else None
 
 
 C_TEXT = """
@@ -141,31 +165,35 @@ typedef void *P;
 extern int CVode(P, double, P, double *, int); extern int CVodeReInit(P, double, P);
 extern int CVodeSetInitStep(P, double); extern int CVodeSetStopTime(P, double);
 static double *data(P v) {{ P *vector = v; char *content = vector[0]; return *(double **)(content + 8); }}
-static double largest[{n}], tolerance = {ermax};
+static double largest[{n}], tolerance;
 int rhs(double t, P yv, P kv, P user) {{ double *y = data(yv), *k = data(kv); {c} return 0; }}
 int weights(P yv, P wv, P user) {{ double *y = data(yv), *w = data(wv);
   for (int i = 0; i < {n}; i++) {{ double a = fabs(y[i]); if (a > largest[i]) largest[i] = a;
     w[i] = 1/(tolerance*(largest[i] == 0 ? 1 : largest[i])); }} return 0; }}
-int run(P memory, P vector, double t_end, double dt) {{ double t = 0; int flag;
-  memset(largest, 0, sizeof largest);
-  CVodeReInit(memory, 0, vector); CVodeSetInitStep(memory, dt); CVodeSetStopTime(memory, t_end);
-  do flag = CVode(memory, t_end, vector, &t, 2); while (flag == 0); return flag; }}
+int run(P memory, P vector, double t_end, double dt, double tol, double *rows) {{ double t = 0; int flag = 0;
+  memset(largest, 0, sizeof largest); tolerance = tol; memcpy(rows, data(vector), sizeof largest);
+  CVodeReInit(memory, 0, vector); CVodeSetInitStep(memory, dt);
+  for (int k = 1; k < {points} && flag >= 0; k++) {{ double next = t_end*k/({points} - 1);
+    CVodeSetStopTime(memory, next);
+    do flag = CVode(memory, next, vector, &t, 2); while (flag == 0);
+    memcpy(rows + k*{n}, data(vector), sizeof largest); }}
+  return flag; }}
 """
 
 
-def c_time(case: Case, repeats: int = 200) -> tuple[float, list[float]] | None:
-    """CVODE called from compiled C, with its own differenced Jacobian; None without a C compiler."""
+def c_time(case: Case, tol: float, repeats: int = 200) -> Outcome:
+    """CVODE called from compiled C, with its own differenced Jacobian."""
     from desire_tui.engine.integration.sundials.library import libraries
     from desire_tui.engine.integration.sundials.linear import Linear
     from desire_tui.engine.integration.sundials.solver import Callbacks, Solver
 
     compiler = shutil.which("cc") or shutil.which("gcc")
     if compiler is None:
-        return None
+        return float("inf"), None
     n = len(case.start)
     with tempfile.TemporaryDirectory() as folder:
         source, built = Path(folder, "case.c"), Path(folder, "case.so")
-        source.write_text(C_TEXT.format(n=n, ermax=case.ermax, c=case.c))
+        source.write_text(C_TEXT.format(n=n, points=POINTS, c=case.c))
         cvode = libraries().cvode._name
         subprocess.run([compiler, "-O3", "-march=native", "-shared", "-fPIC", "-o", built, source, cvode,
                         f"-Wl,-rpath,{Path(cvode).parent}"], check=True)  # fmt: skip
@@ -175,14 +203,15 @@ def c_time(case: Case, repeats: int = 200) -> tuple[float, list[float]] | None:
             ctypes.cast(getattr(library, name), ctypes.c_void_p).value for name in ("rhs", "weights")
         ]
         solver = Solver(15, n, y.ctypes.data, Callbacks(*addresses), Linear("dense"))
-        library.run.argtypes = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_double, ctypes.c_double)
-        times = []
+        real, address = ctypes.c_double, ctypes.c_void_p
+        library.run.argtypes = (address, address, real, real, real, address)
+        times, rows, flag = [], np.zeros((POINTS, n)), 0
         for _ in range(repeats):
             y[:] = case.start
             began = time.perf_counter()
-            library.run(solver.memory, solver.vector, case.t_end, case.dt)
+            flag = library.run(solver.memory, solver.vector, case.t_end, case.dt, tol, rows.ctypes.data)
             times.append(time.perf_counter() - began)
-        return min(times), y.tolist()
+        return min(times), rows if flag >= 0 else None
 
 
 HEAT = """
@@ -213,26 +242,69 @@ def heat(n: int, *, dense: bool = False, repeats: int = 15) -> float:
     return min(run.seconds for run in session.runs)
 
 
+SOLVERS: dict[str, Callable[[Case, float], Outcome]] = {
+    "desire, rule 14": partial(desire, rule=14),
+    "desire, rule 15": partial(desire, rule=15),
+    "CVODE called from C": c_time,
+    "scikit-sundae, Python function": sundae_time,
+    "scipy LSODA": partial(scipy_time, method="LSODA", repeats=20),
+    "scipy BDF": partial(scipy_time, method="BDF", repeats=3),
+}
+
+
+def error(case: Case, rows: NDArray[np.float64] | None, reference: NDArray[np.float64]) -> float:
+    """Largest error of all states at all points, relative to the states' largest magnitudes."""
+    if rows is None:
+        return float("inf")
+    return float(np.max(np.abs(rows - reference) / np.array(case.largest)))
+
+
+def compare(case: Case) -> None:
+    """Print both comparisons of a problem."""
+    from scipy.integrate import solve_ivp
+
+    reference = solve_ivp(
+        case.f, (0, case.t_end), case.start, method="Radau", jac=case.matrix, t_eval=points(case),
+        rtol=1e-12, atol=1e-15 * np.array(case.largest),
+    ).y.T  # fmt: skip
+    runs = {name: {} for name in SOLVERS}
+    for tol in TOLERANCES:
+        for name, solver in SOLVERS.items():
+            if tol == TOLERANCES[0] or all(e > GOAL for _, e in runs[name].values()):
+                seconds, rows = solver(case, tol)
+                runs[name][tol] = seconds, error(case, rows, reference)
+    for title, choose in (
+        ("asked for 1e-6", lambda _: TOLERANCES[0]),
+        ("got 1e-6", lambda found: min(found, key=lambda tol: (found[tol][1] > GOAL, -tol))),
+    ):
+        print(f"\n{case.name}, {title}:{'tol':>24s} {'error':>9s} {'ms':>9s}   times rule 14, rule 15")
+        own = [runs[f"desire, rule {rule}"][choose(runs[f"desire, rule {rule}"])] for rule in (14, 15)]
+        for name, found in runs.items():
+            tol = choose(found)
+            seconds, wrong = found[tol]
+            ratios = "".join(f"{seconds / other:10.2f}" for other, _ in own)
+            print(f"  {name:48s} {tol:.0e} {wrong:9.1e} {1e3 * seconds:9.3f} {ratios}")
+
+
+def compare_heat() -> None:
+    """Print the heat equation's times: growing n, and a dense matrix."""
+    print("\nheat equation, rule 14")
+    times = {n: heat(n) for n in (1250, 2500, 5000, 10000)}
+    for n, seconds in times.items():
+        print(f"  n = {n:6d} {1e3 * seconds:12.2f} ms   {1e6 * seconds / n:8.2f} µs a state")
+    for n in (1250, 2500, 5000):
+        seconds = heat(n, dense=True, repeats=1)
+        print(f"  n = {n:6d} {1e3 * seconds:12.2f} ms with a dense matrix: {seconds / times[n]:8.1f} times as long")
+        if 10 * seconds > DENSE_SECONDS:  # twice the states take eight times as long, and more
+            print(f"  (a larger dense one would take over {DENSE_SECONDS:g} s)")
+            break
+
+
 def main() -> None:
     """Measure and print."""
     for case in CASES:
-        print(f"\n{case.name}, ERMAX {case.ermax:g}; milliseconds, and the first state at the end")
-        rows = {f"desire, rule {rule}": desire(case, rule) for rule in (14, 15)}
-        c = c_time(case)
-        if c is not None:
-            rows["CVODE called from C"] = c
-        rows["scikit-sundae, Python function"] = sundae_time(case)
-        for method in ("BDF", "LSODA"):
-            rows[f"scipy {method}"] = scipy_time(case, method)
-        own = rows["desire, rule 14"][0]
-        for name, (seconds, end) in rows.items():
-            print(f"  {name:32s} {1e3 * seconds:10.3f}   {seconds / own:8.2f} ×   {end[0]:.10g}")
-    print("\nheat equation, rule 14; milliseconds")
-    times = {n: heat(n) for n in (1250, 2500, 5000, 10000)}
-    for n, seconds in times.items():
-        print(f"  n = {n:6d} {1e3 * seconds:10.2f}   {1e6 * seconds / n:8.2f} µs a state")
-    few = heat(1250, dense=True, repeats=1)
-    print(f"  n =   1250 with a dense matrix {1e3 * few:10.1f}   {few / times[1250]:8.1f} ×")
+        compare(case)
+    compare_heat()
 
 
 if __name__ == "__main__":
