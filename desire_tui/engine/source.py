@@ -5,6 +5,7 @@ Offsets count characters from the start of the whole text. Rows and columns are 
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -52,6 +53,11 @@ class Source:
         offset = min(max(offset, 0), len(self.text))
         row = bisect_right(self.line_starts, offset) - 1
         return Position(row + 1, offset - self.line_starts[row] + 1)
+
+    def name_within(self, span: Span, name: str) -> Span:
+        """Place of a name's first occurrence inside a statement; the statement's where it is not found."""
+        found = re.compile(rf"(?<![\w$]){re.escape(name)}(?![\w$])").search(self.text, span.start, span.end)
+        return Span(*found.span()) if found else span
 
     def line(self, row: int) -> str:
         """Text of a row (from 1) without its line end; empty for a row that does not exist."""

@@ -29,6 +29,9 @@ DEPTH_MAX = 60
 EXPANSIONS_MOST = 20_000
 """FUNCTION calls that one segment may expand: 20 FUNCTIONs that each call the next twice make a million."""
 
+PLACES_MOST = 4
+"""Places that a message names besides its own: the nearest uses, and the line of the segment."""
+
 
 @dataclass
 class Argument:
@@ -110,7 +113,12 @@ class Context:
     def report(self, key: str, part: Node | Span, **facts: object) -> Const:
         """Note a problem; the result stands for the expression that cannot be lowered."""
         span = part if isinstance(part, Span) else self.span(part)
-        related = tuple(Diagnostic("expanded-here", s, {}, self.source) for s in reversed(self.frame.invoked))
+        if isinstance(part, Name) and span.end - span.start > len(part.name):
+            span = self.source.name_within(span, part.name)  # a statement that keeps the name alone
+        places = self.frame.invoked[::-1]
+        if len(places) > PLACES_MOST:
+            places = (*places[: PLACES_MOST - 1], places[-1])
+        related = tuple(Diagnostic("expanded-here", s, {}, self.source) for s in places)
         self.problems.append(Diagnostic(key, span, facts, self.source, related=related))
         return BAD
 

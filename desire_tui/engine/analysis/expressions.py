@@ -20,7 +20,6 @@ from desire_tui.engine.nodes import (
     Number,
     RowOf,
     Shifted,
-    Text,
     Transposed,
     Unary,
 )
@@ -64,8 +63,6 @@ def lower(context: Context, node: Expr, extent: Extent = SCALAR) -> Value:
         return subscripted(context, node)  # type: ignore[arg-type]
     if isinstance(node, Shifted | RowOf | Transposed):
         return products.operand(context, node, extent)
-    if isinstance(node, Text):
-        return context.report("text-in-dynamic", node)
     return context.report("complex-in-dynamic", node, name="[…]")
 
 

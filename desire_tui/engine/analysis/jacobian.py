@@ -26,18 +26,17 @@ def checked_array(segment: Segment, values: Values) -> int:
     given, order = segment.jacobian, segment.order
     assert given is not None
     for quantity in values:
-        if quantity.slot == given.slot and len(quantity.shape) == 2:
-            if quantity.shape == (order, order):
-                return given.slot
+        if quantity.slot == given.slot and len(quantity.shape) == 2 and quantity.shape != (order, order):
             shape = " by ".join(map(str, quantity.shape))
             facts = {"name": quantity.name, "n": order, "shape": shape}
             raise DesireError(Diagnostic("jacobian-shape", None, facts, segment.source))
-    raise DesireError(Diagnostic("jacobian-missing", None, {"n": order}, segment.source))
+    return given.slot
 
 
 def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
-    """Lower the statements behind JACOBIAN. Errors 219, and 230 for an entry out of range."""
+    """Lower the statements behind JACOBIAN. Errors 219, 229 without any element, 230 for one out of range."""
     context = builder.context
+    known = len(context.problems)
     entries: list[Entry] = []
     matrix: str | None = None
     slot: int | None = None
@@ -70,5 +69,8 @@ def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
             entries.append(Entry(int(row) - 1, int(column) - 1, value, context.where(node)))
     body, builder.body = tuple(builder.body), outer
     if slot is None:
+        if len(context.problems) == known:
+            context.enter(lines[0][1])
+            context.report("jacobian-missing", lines[0][0], n=builder.states.order)
         return None
     return Jacobian(slot, body, tuple(entries))

@@ -51,9 +51,10 @@ def learn(builder: Builder, node: nodes.Learn) -> None:
 
 
 def _ranked(builder: Builder, node: nodes.Learn, name: str, rank: int) -> Quantity | None:
-    quantity = array(builder.context, Name(name, node.start, node.end))
+    place = Name(name, node.start, node.end)
+    quantity = array(builder.context, place)
     if quantity is not None and len(quantity.shape) != rank:
         key = "vector-target" if rank == 1 else "matrix-target"
-        builder.context.report(key, node, name=quantity.name, dimensions=len(quantity.shape))
+        builder.context.report(key, place, name=quantity.name, dimensions=len(quantity.shape))
         return None
     return quantity

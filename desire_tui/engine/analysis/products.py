@@ -98,10 +98,8 @@ def unknown(context: Context, node: Name) -> Value:
 
 def array(context: Context, node: Expr) -> Quantity | None:
     """Return the REAL array that a name, shifted name or row selector stands for. Errors 70, 218, 75."""
-    name = getattr(node, "name", None)
-    if name is None:
-        context.report("vector-name-expected", node)
-        return None
+    assert isinstance(node, Name | ShiftedNode | RowOfNode), "the grammar lets nothing else stand here"
+    name = node.name
     quantity = context.quantity(name)
     actual = context.actual(name)
     if quantity is None or not quantity.shape:

@@ -169,11 +169,12 @@ def table(builder: Builder, node: nodes.FunctionTable) -> None:
 def history(builder: Builder, node: nodes.Node, name: str) -> Quantity | None:
     """Return the one-dimensional array of `store`, `get` or a delay. Errors 19, 75."""
     context = builder.context
-    quantity = array(context, Name(name, node.start, node.end))
+    place = Name(name, node.start, node.end)
+    quantity = array(context, place)
     if quantity is None:
         return None
     if len(quantity.shape) != 1:
-        context.report("history-not-vector", node, name=quantity.name)
+        context.report("history-not-vector", place, name=quantity.name)
         return None
     if quantity.shape[0] != UNKNOWN:
         context.flow.read_range(quantity.slot, quantity.shape[0])

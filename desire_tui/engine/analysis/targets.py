@@ -68,15 +68,16 @@ def matrix(context: Context, node: Node, name: str) -> Quantity | None:
 
 
 def _array(context: Context, node: Node, name: str, rank: int) -> Quantity | None:
-    quantity = array(context, Name(name, node.start, node.end))
+    place = Name(name, node.start, node.end)
+    quantity = array(context, place)
     if quantity is None:
         return None
     if quantity.kind is not Kind.REAL:
-        context.report("not-real-target", node, name=quantity.name)
+        context.report("not-real-target", place, name=quantity.name)
         return None
     if len(quantity.shape) != rank:
         key = "vector-target" if rank == 1 else "matrix-target"
-        context.report(key, node, name=quantity.name, dimensions=len(quantity.shape))
+        context.report(key, place, name=quantity.name, dimensions=len(quantity.shape))
         return None
     return quantity
 

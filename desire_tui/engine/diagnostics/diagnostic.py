@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
@@ -38,7 +39,7 @@ class Diagnostic:
     @property
     def message(self) -> str:
         """What is wrong, in plain words, one sentence without a full stop."""
-        return wording_of(self.key).message.format_map(_Facts(self.facts))
+        return _counted(wording_of(self.key).message.format_map(_Facts(self.facts)))
 
     @property
     def hint(self) -> str | None:
@@ -47,7 +48,7 @@ class Diagnostic:
         if close:
             return f"did you mean '{close}'?"
         text = wording_of(self.key).hint
-        return text.format_map(_Facts(self.facts)) if text else None
+        return _counted(text.format_map(_Facts(self.facts))) if text else None
 
     def within(self, source: Source) -> Diagnostic:
         """Return the same problem, placed in `source` if it has no source yet."""
@@ -95,6 +96,13 @@ def _one_letter_off(name: str, word: str) -> bool:
     """Whether one letter is another (another digit, `x1` for `x2`, is no slip)."""
     different = _differences(name, word)
     return len(different) == 1 and "".join(different[0]).isalpha()
+
+
+def _counted(sentence: str) -> str:
+    """Return the sentence with `1 state(s)` as `1 state`, `2 state(s)` as `2 states`."""
+    if "(s)" not in sentence:
+        return sentence
+    return re.sub(r"\b1 ([a-z ]+)\(s\)", r"1 \1", sentence).replace("(s)", "s")
 
 
 class _Facts(dict[str, object]):

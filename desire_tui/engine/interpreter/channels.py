@@ -40,6 +40,8 @@ class Channels:
         if not name.strip():
             raise _problem("file-name-missing")
         path = Path(name.strip())
+        if not path.name or path.name == ".." or "\0" in name:
+            raise _problem("cannot-connect", file=name.strip(), reason="this is no file's name")
         if not path.suffix:
             path = path.with_name(path.name + _DEFAULT_ENDING)
         path = self._host.permit(path, "read" if mode == "input" else "write")
@@ -101,7 +103,7 @@ class Channels:
         if channel is None:
             raise _problem("channel-not-connected", channel=number)
         if channel.mode != mode:
-            raise _problem("channel-wrong-way", channel=number, mode=channel.mode)
+            raise _problem("channel-wrong-way", channel=number, mode=channel.mode, wanted=mode)
         return channel
 
 

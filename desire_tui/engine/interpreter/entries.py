@@ -10,7 +10,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.faults import Fault, explain
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes import Bare, Placed
-from desire_tui.engine.source import Source
+from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -71,7 +71,7 @@ class Entries:
         if problems:
             raise DesireError(*(problem.within(source) for problem in problems))
         if len(statements) != 1 or not isinstance(statements[0].node, Bare):
-            raise DesireError(Diagnostic("entry-not-a-value", facts={"entry": text}, source=source))
+            raise DesireError(Diagnostic("entry-not-a-value", Span(0, len(text)), {"entry": text}, source))
         placed: Placed = statements[0]
         assert isinstance(placed.node, Bare)
         machine = self._site.machine

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.nodes import Binary, Call, Node
+from desire_tui.engine.nodes import Binary, Call, Name, Node
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -90,6 +90,8 @@ def explain(
     else:
         key, facts = _key_of(error, node)
     span = placed.span(node if node is not None and node.end > node.start else None)
+    if isinstance(node, Name) and source is not None and span.end - span.start > len(node.name):
+        span = source.name_within(span, node.name)  # a statement that keeps the name alone
     ways = [reached, *callers] if reached[0] is not placed else [*callers]
     related = tuple(Diagnostic("reached-from-here", p.span(), {}, s) for p, s in ways)
     return DesireError(Diagnostic(key, span, facts, source, related=related))

@@ -35,11 +35,11 @@ def call(site: Site) -> Operation:
         raise Fault("undefined-procedure", node, name=node.name, close=closest(node.name, procedures))
     wanted = found.node
     for given, needed, where in (
-        (node.values, wanted.values, "before the ;"),
-        (node.references, wanted.references, "behind the ;"),
+        (node.values, wanted.values, " before the ;"),
+        (node.references, wanted.references, " behind the ;"),
     ):
         if len(given) != len(needed):
-            facts = {"given": f"{len(given)} {where}", "needed": len(needed)}
+            facts = {"given": len(given), "needed": len(needed), "where": where}
             raise Fault("arguments-do-not-match", node, name=node.name, **facts)
     values = [site.value(value) for value in node.values]
     references = [_Bound(site, reference) for reference in node.references]

@@ -52,7 +52,7 @@ class _Stuck:
         self.facts: dict[str, object] = {
             "text": shown(self.text), "word": self.word, "first": shown(chunk.texts[0]),
             "closer": {"(": ")", "{": "}"}.get(self.opened, "]"),
-            "before": f" before '{shown(self.text)}'" if self.text else "",
+            "before": f" before {_quoted(shown(self.text))}" if self.text else "",
         }  # fmt: skip
 
     def place(self, first: int, last: int | None = None) -> None:
@@ -187,6 +187,11 @@ def _expressions(s: _Stuck) -> str:
 _RULES: tuple[Callable[[_Stuck], str], ...] = (
     _relation_spelling, _brackets, _own_form, _first_words, _assignments, _expressions,
 )  # fmt: skip
+
+
+def _quoted(text: str) -> str:
+    """Put a token into quotes, unless it has its own."""
+    return text if text[0] in "'\"" else f"'{text}'"
 
 
 def _open_bracket(kinds: list[str]) -> str:

@@ -66,7 +66,6 @@ MESSAGES: dict[str, Wording] = {
     ),
     "constant-target": Wording(73, "'{name}' is a constant", "use another name"),
     "function-as-variable": Wording(73, "'{name}' is a FUNCTION and cannot be assigned", "use another name"),
-    "text-in-dynamic": Wording(219, "a DYNAMIC segment has no use for text", "use numbers"),
     # ------------------------------------------------------------------ functions, submodels
     "expanded-here": Wording(0, "used here", _EXPAND),
     "unknown-function-in-dynamic": Wording(
@@ -82,7 +81,7 @@ MESSAGES: dict[str, Wording] = {
         56, "{name}({parameters}) is called with {given} argument(s)", "write {name}({parameters})"
     ),
     "function-arguments": Wording(
-        56, "FUNCTION '{name}' has {wanted} argument(s), {given} are given", "give each dummy its argument"
+        56, "FUNCTION '{name}' has {wanted} argument(s), not {given}", "give each dummy its argument"
     ),
     "function-recursion": Wording(
         52, "FUNCTION '{name}' would call itself", "use a loop or a difference equation"
@@ -101,7 +100,7 @@ MESSAGES: dict[str, Wording] = {
         201, "there is no submodel '{name}'", "declare it in the script: SUBMODEL {name}(…) … end"
     ),
     "submodel-arguments": Wording(
-        56, "submodel '{name}' has {wanted} argument(s), {given} are given", "give each dummy its argument"
+        56, "submodel '{name}' has {wanted} argument(s), not {given}", "give each dummy its argument"
     ),
     "submodel-recursion": Wording(
         52, "submodel '{name}' would invoke itself", "submodels may nest, not recurse"
@@ -132,20 +131,17 @@ MESSAGES: dict[str, Wording] = {
     "matrix-needs-vector": Wording(
         75,
         "the matrix '{name}' must be followed by * and a vector",
-        "write {name} * x; elementwise: use MATRIX, or a vector view: ARRAY {name}[m,n] = v",
+        "write {name} * x; for all elements use MATRIX, or declare a vector view: ARRAY W[m,n] = v",
     ),
     "vector-in-matrix": Wording(
         75, "the vector '{name}' stands alone in a matrix expression", "vectors come in pairs: u*v or u & v"
-    ),
-    "vector-name-expected": Wording(
-        75, "the name of an array is expected here", "assign the expression first"
     ),
     "vector-target": Wording(
         75, "'{name}' has {dimensions} dimensions, a vector is needed", "use MATRIX, or a view"
     ),
     "matrix-target": Wording(75, "'{name}' has {dimensions} dimension(s), a matrix is needed", "use Vector"),
     "row-of-matrix": Wording(
-        75, "'{name}#' is a row: a matrix is needed, in a vector expression", "declare {name}[m,n]"
+        75, "'{name}#' takes a row: '{name}' must be a matrix, and the statement a Vector one", "declare {name}[m,n]"
     ),
     "shift-in-matrix": Wording(75, "index shifts are for vectors", "use Vector statements"),
     "ampersand-here": Wording(75, "& joins two vectors of a MATRIX expression: u & v", "use * for products"),

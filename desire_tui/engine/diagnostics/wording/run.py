@@ -92,7 +92,7 @@ MESSAGES: dict[str, Wording] = {
     "stash-unreadable": Wording(92, "{path} is no stash file", "a run with a `stash` line writes a new one"),
     "stash-narrow": Wording(
         92,
-        "{path} holds {found} time histories, but {wanted} are to be recovered",
+        "{path} holds {found} variable(s), and {wanted} are to be recovered",
         "the k-th recovered variable takes the k-th stashed one",
     ),
 }

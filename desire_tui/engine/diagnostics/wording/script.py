@@ -34,7 +34,7 @@ MESSAGES: dict[str, Wording] = {
         "it is checked first, then truncated.",
     ),
     "script-subscript-count": Wording(
-        53, "'{name}' has {needed} subscripts, not {given}", "give one for each dimension"
+        53, "'{name}' has {needed} subscript(s), not {given}", "give one for each dimension"
     ),
     "not-an-array": Wording(19, "'{name}' is not an array", "declare it first: ARRAY {name}[n]"),
     "array-without-subscripts": Wording(
@@ -75,10 +75,10 @@ MESSAGES: dict[str, Wording] = {
         "`x^3` and `x^-2` are products and take any x. With an exponent that is a variable or a fraction, "
         "`x^a` is exp(a ln x), and x must be positive.",
     ),
-    "argument-out-of-domain": Wording(44, "{function} has no value there", "check its argument"),
-    "argument-count": Wording(44, "'{name}' cannot take {given} arguments", "write {name}({needed})"),
+    "argument-out-of-domain": Wording(44, "{function} has no value for this argument", "check how large its argument is"),
+    "argument-count": Wording(44, "'{name}' cannot take {given} argument(s)", "write {name}({needed})"),
     "arguments-do-not-match": Wording(
-        56, "'{name}' is called with {given} arguments, but has {needed}", "give one for each dummy argument"
+        56, "'{name}' has {needed} argument(s){where}, not {given}", "give one for each dummy argument"
     ),
     "table-shape": Wording(
         44,
@@ -177,7 +177,7 @@ MESSAGES: dict[str, Wording] = {
         "A channel belongs to a file between `connect` and `disconnect`. Starting a program "
         "closes all channels.",
     ),
-    "channel-wrong-way": Wording(64, "channel {channel} is connected for {mode}", "connect another channel"),
+    "channel-wrong-way": Wording(64, "channel {channel} is connected for {mode}", "connect another one as {wanted}"),
     "cannot-connect": Wording(11, "cannot connect '{file}': {reason}", "check the file's name and folder"),
     "data-file-not-found": Wording(38, "there is no file '{file}'", "names without an ending get .dat"),
     "file-name-missing": Wording(34, "a file name in quotes is needed", "connect 'name' as input 3"),

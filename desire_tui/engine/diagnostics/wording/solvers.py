@@ -70,7 +70,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     "jacobian-shape": Wording(
         230,
-        "'{name}' must be {n} by {n}, as there are {n} states, but it is {shape}",
+        "'{name}' must be {n} by {n} for {n} state(s), but it is {shape}",
         "states count in the order of their d/dt lines, a vector state by its elements",
     ),
     "jacobian-wrong": Wording(

@@ -88,6 +88,7 @@ _SENTENCES: dict[str, Wording] = {
     "label-twice": Wording(79, "the label '{name}' is set twice", "choose another name"),
     "first-label": Wording(79, "the first one is here"),
     "jump-inside": Wording(82, "'go to {name}' would jump into a block", "jump to its beginning instead"),
+    "jump-out": Wording(82, "'go to {name}' would jump out of a PROCEDURE", "exit returns to the call"),
     "block-begins": Wording(82, "the block begins here"),
     "nested-definition": Wording(
         88, "'{name}' is defined inside another block", "move the definition out of it"
@@ -164,9 +165,13 @@ _EXPLANATIONS = {
         Jumps out of blocks, and within one, are fine. A jump into a loop would enter it without its first
         line; jump to a label before the block.
     """,
+    "jump-out": """
+        A PROCEDURE returns to the statement behind its call, by `end` or `exit`. Let it set a variable that
+        the script tests behind the call, and jump from there.
+    """,
     "nested-definition": """
         PROCEDUREs and SUBMODELs are defined side by side, outside of loops and ifs. They may call each
-        other.
+        other. A FUNCTION stands outside of them: it sees the program's names and its own dummies only.
     """,
     "request-expression": """
         `dispt`, `dispxy`, `DISPXY`, `type` and `stash` name variables or single elements. To show an

@@ -28,7 +28,6 @@ MESSAGES: dict[str, Wording] = {
     "command-elsewhere": Wording(
         402, "'{word}' works in the desktop only", "start the desktop with `desire`"
     ),
-    "unknown-command": Wording(402, "there is no command '{word}' here", "`help` lists the commands"),
     "no-help": Wording(403, "there is no help page about '{topic}'", "`help` alone lists the pages"),
     "compare-form": Wording(404, "compare what?", "for instance: compare rule 4"),
     "compare-nothing": Wording(
@@ -43,8 +42,7 @@ MESSAGES: dict[str, Wording] = {
     "file-refused": Wording(
         451,
         "the program wants to {mode} {path}, outside its folder {folder}, which is not allowed",
-        "if you trust it: desire run --allow-write",
+        "if you trust it: desire run --allow-write (for reading, too)",
     ),
-    "setting-form": Wording(480, "--set {text}: cannot be understood", "write --set NAME=VALUE"),
     "time-limit": Wording(490, "stopped after {seconds:g} seconds, the limit given"),
 }
