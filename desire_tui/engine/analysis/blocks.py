@@ -77,6 +77,7 @@ class Survey:
                 case n.Procedure() | n.Submodel():
                     self._definition(place, placed, node.name)
                 case n.Function(name):
+                    self._not_in_definition(placed, name)
                     self._new_name(place, placed, name)
                     found.functions.setdefault(name, placed)
                 case n.Until():
@@ -180,6 +181,12 @@ class Survey:
             )
         self._new_name(place, placed, name)
         self.opens(place, "end")
+
+    def _not_in_definition(self, placed: n.Placed, name: str) -> None:
+        """Report a FUNCTION in a PROCEDURE or SUBMODEL, whose dummies it could not see."""
+        for block in self.open:
+            if isinstance(self.statements[block.place].node, n.Procedure | n.Submodel):
+                self.report("nested-definition", placed, self.also("block-begins", block.place), name=name)
 
     def _new_name(self, place: int, placed: n.Placed, name: str) -> None:
         node = placed.node

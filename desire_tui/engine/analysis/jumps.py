@@ -46,6 +46,10 @@ def _jump(survey: Survey, place: int, placed: n.Placed, target: str, segments: s
     block = survey.found.inside[to]
     if block >= 0 and block not in _around(survey, place):
         survey.report("jump-inside", placed, survey.also("block-begins", block), name=target)
+        return
+    for definition in _around(survey, place) - _around(survey, to):
+        if isinstance(survey.statements[definition].node, n.Procedure):
+            survey.report("jump-out", placed, survey.also("block-begins", definition), name=target)
 
 
 def _around(survey: Survey, place: int) -> set[int]:

@@ -37,7 +37,7 @@ def matrix(site: Site) -> Operation:
     assert isinstance(node, MatrixAssign)
     target = site.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 2:
-        raise Fault("not-a-matrix", node, name=node.name)
+        raise Fault("not-a-matrix", Name(node.name, node.start, node.end), name=node.name)
     rows, columns = target.shape
     expressions = ArrayExpressions(site, true_products=True)
     value = expressions.evaluator(node.value)
@@ -46,6 +46,7 @@ def matrix(site: Site) -> Operation:
     view = site.numbers(target)
     identity = isinstance(node.value, Number) and node.value.value == 1.0 and not node.delta
 
+    @np.errstate(all="ignore")  # the result is looked at
     def action() -> None:
         result = value()
         if identity:
@@ -71,11 +72,12 @@ def vector(site: Site) -> Operation:
     assert isinstance(node, VectorAssign)
     target = site.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 1:
-        raise Fault("not-a-vector", node, name=node.name)
+        raise Fault("not-a-vector", Name(node.name, node.start, node.end), name=node.name)
     value = ArrayExpressions(site, true_products=False).evaluator(node.value)
     mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
     view = site.numbers(target)
 
+    @np.errstate(all="ignore")  # the result is looked at
     def action() -> None:
         result = conform(value(), target.shape, node, node.name)
         if node.delta:
@@ -104,6 +106,7 @@ def dot(site: Site) -> Operation:
     terms = [_DotTerm(site, sign, term) for sign, term in _terms(node.value, 1.0)]
     store = storer(site, node.target)
 
+    @np.errstate(all="ignore")  # the result is looked at
     def action() -> None:
         total = sum(term.value() for term in terms)
         store(float(total / terms[0].length if node.average else total))
@@ -143,7 +146,8 @@ class _DotTerm:
         shape = self._matrix.shape if self._matrix is not None else (self.length, self.length)
         right = self.length if self._right is None else len(self._right)
         if shape != (self.length, right):
-            raise Fault("nonconformable", node, have=f"{shape[0]}×{shape[1]}", want=f"{self.length}×{right}")
+            have = str(self.length) if self._matrix is None else f"{self.length}, {shape[0]}×{shape[1]}"
+            raise Fault("nonconformable", node, have=have, want=right)
 
     def _vector(self, site: Site, node: Expr) -> Quantity:
         quantity = site.array(node)

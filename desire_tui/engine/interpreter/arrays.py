@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.library import LIBRARY, integer_power, power
-from desire_tui.engine.nodes import Binary, Call, Name, Shifted, Transposed, Unary
+from desire_tui.engine.nodes import Binary, Call, Name, RowOf, Shifted, Transposed, Unary
 from desire_tui.engine.values import Quantity
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ class ArrayExpressions:
             case Name():
                 meaning = self._site.scope.find(node.name)
                 return isinstance(meaning, Quantity) and bool(meaning.shape)
-            case Transposed() | Shifted():
+            case Transposed() | Shifted() | RowOf():
                 return True
             case Unary(_, operand):
                 return self._has_array(operand)
@@ -105,7 +106,7 @@ class ArrayExpressions:
             case "*":
                 return lambda: self._product(a(), b(), node)
             case "/":
-                return lambda: _quotient(*self._same(a(), b(), node))
+                return lambda: _quotient(*self._same(a(), _finite(b(), node.right), node))
             case "&":
                 return lambda: np.minimum.outer(a(), b())
         return lambda: _elementwise(_power, *self._same(a(), b(), node))
@@ -131,7 +132,12 @@ class ArrayExpressions:
             return lambda: _inverse(args[0](), node)
         if node.name == "$Tr" and len(args) == 1:
             return lambda: np.transpose(args[0]())
-        entry = LIBRARY.get(node.name)
+        if node.name in self._site.machine.functions.definitions:
+            return self._own_function(node, args)
+        entry, own = LIBRARY.get(node.name), self._site.scope.functions
+        if entry is None and node.name not in own:
+            close = closest(node.name, [*LIBRARY, *own])
+            raise Fault("undefined-function", node, name=node.name, close=close)
         if entry is None or entry.value is None or entry.kind == "table":
             raise Fault("not-in-array-expression", node)
         if not entry.fewest <= len(args) <= entry.most:
@@ -140,9 +146,27 @@ class ArrayExpressions:
 
         def evaluate() -> Any:
             try:
-                return _elementwise(function, *(arg() for arg in args))
+                return _elementwise(function, *(_finite(arg(), node) for arg in args))
             except ValueError:
                 raise Fault(entry.domain_error, node, function=node.name) from None
+
+        return evaluate
+
+
+    def _own_function(self, node: Call, args: list[Evaluator]) -> Evaluator:
+        """Apply the program's FUNCTION to each element, from the last to the first as random draws go."""
+        function, wanted = self._site.machine.functions.of_elements(node, self._site.scope)
+        used = [arg for arg, is_wanted in zip(args, wanted, strict=True) if is_wanted]
+
+        def evaluate() -> Any:
+            values = [_finite(arg(), node) for arg in used]
+            arrays = [value for value in values if np.ndim(value)]
+            for other in arrays[1:]:
+                self._same(arrays[0], other, node)
+            shape = np.shape(arrays[0]) if arrays else ()
+            columns = [np.broadcast_to(value, shape).ravel().tolist()[::-1] for value in values]
+            backwards = [function(*row) for row in zip(*columns, strict=True)] if columns else [function()]
+            return np.array(backwards[::-1], dtype=np.float64).reshape(shape)[()]
 
         return evaluate
 
@@ -181,9 +205,14 @@ def conform(value: Any, shape: tuple[int, ...], node: Node, name: str) -> NDArra
     if np.ndim(value) and np.shape(value) != shape:
         have = _size(value)
         raise Fault("nonconformable", node, have=have, want=f"{name}[{','.join(map(str, shape))}]")
+    return np.array(np.broadcast_to(_finite(value, node), shape), dtype=np.float64)
+
+
+def _finite(value: Any, node: Node) -> Any:
+    """Return the value; error 3 for an infinite one."""
     if not np.all(np.isfinite(value)):
         raise Fault("overflow", node)
-    return np.array(np.broadcast_to(value, shape), dtype=np.float64)
+    return value
 
 
 def _size(value: Any) -> str:

@@ -118,6 +118,8 @@ def storer(site: Site, target: Target) -> Callable[[complex], None]:
         if value.imag != 0.0:
             raise Fault("complex-to-real", target, name=target.name)
         number = value.real
+        if number - number != 0.0:
+            raise Fault("overflow", target)
         cells[slot_of()] = helpers["to_integer"](number) if kind is Kind.INTEGER else number
 
     return store

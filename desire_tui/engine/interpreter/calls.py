@@ -62,7 +62,7 @@ class CallTranslator:
         return name
 
     def _complex(self, node: Call, entry: LibraryFunction) -> Typed:
-        argument, kind = self.translator.expression(node.args[0])
+        argument, kind = self.translator.finite(node.args[0])
         result = Kind.COMPLEX if entry.gives_complex else Kind.REAL
         if node.name == "exp" and kind is not Kind.COMPLEX:
             self.build.names.setdefault("real_exp", math.exp)

@@ -12,17 +12,17 @@ from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.scope import Local, Meaning, Scope
 from desire_tui.engine.interpreter.tree import Typed, at
-from desire_tui.engine.nodes import Function, Name
-from desire_tui.engine.values import Quantity
+from desire_tui.engine.nodes import Binary, Call, Element, Function, Name, Pair, Unary
+from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
     import ast
+    from collections.abc import Callable
 
     from desire_tui.engine.interpreter.builder import Builder
     from desire_tui.engine.interpreter.translate import Translator
-    from desire_tui.engine.nodes import Call, Expr, Placed
+    from desire_tui.engine.nodes import Expr, Placed
     from desire_tui.engine.source import Source
-    from desire_tui.engine.values import Kind
 
 
 class Functions:
@@ -50,14 +50,7 @@ class Functions:
 
     def call(self, node: Call, translator: Translator) -> Typed:
         """Translate a call; error 56 for a wrong number of arguments, 52 for recursion."""
-        placed = self.definitions[node.name]
-        definition = placed.node
-        assert isinstance(definition, Function)
-        if len(node.args) != len(definition.dummies):
-            facts = {"given": len(node.args), "needed": len(definition.dummies)}
-            raise Fault("arguments-do-not-match", node, name=node.name, **facts)
-        if node.name in self._open:
-            raise Fault("script-function-recursion", node, name=node.name)
+        definition, placed = self._definition(node)
         args: list[ast.expr] = []
         meanings: list[Meaning] = []
         for number, argument in enumerate(node.args):
@@ -65,11 +58,39 @@ class Functions:
             if whole is not None:
                 meanings.append(whole)
                 continue
-            code, kind = translator.expression(argument)
+            code, kind = translator.finite(argument)
             args.append(code)
             meanings.append(Local(f"p{number}", kind))
         name, kind = self._function(definition, placed, meanings)
         return Typed(at(py.call(name, *args), node), kind)
+
+    def of_elements(self, node: Call, scope: Scope) -> tuple[Callable[..., float], list[bool]]:
+        """Return a FUNCTION of real numbers, for calls element by element, and which arguments it wants.
+
+        Where its body uses a dummy as an array, that array belongs to the function and is no argument.
+        Errors 56, 52, and 84 for a COMPLEX result.
+        """
+        definition, placed = self._definition(node)
+        meanings: list[Meaning] = []
+        for number, (argument, dummy) in enumerate(zip(node.args, definition.dummies, strict=True)):
+            whole = _whole_array(argument, scope) if _is_used_as_array(dummy, definition.body) else None
+            meanings.append(whole if whole is not None else Local(f"p{number}", Kind.REAL))
+        name, kind = self._function(definition, placed, meanings)
+        if kind is Kind.COMPLEX:
+            raise Fault("complex-not-possible", node)
+        made: Callable[..., float] = self._build.names[name]
+        return made, [isinstance(meaning, Local) for meaning in meanings]
+
+    def _definition(self, node: Call) -> tuple[Function, Placed]:
+        placed = self.definitions[node.name]
+        definition = placed.node
+        assert isinstance(definition, Function)
+        if len(node.args) != len(definition.dummies):
+            facts = {"given": len(node.args), "needed": len(definition.dummies), "where": ""}
+            raise Fault("arguments-do-not-match", node, name=node.name, **facts)
+        if node.name in self._open:
+            raise Fault("script-function-recursion", node, name=node.name)
+        return definition, placed
 
     def _function(self, definition: Function, placed: Placed, meanings: list[Meaning]) -> tuple[str, Kind]:
         from desire_tui.engine.interpreter.translate import Translator
@@ -94,6 +115,21 @@ class Functions:
         name = self._build.share("u", made)
         self._compiled[key] = name, kind
         return name, kind
+
+
+def _is_used_as_array(dummy: str, body: Expr) -> bool:
+    """Whether an expression subscripts a name or passes it to a table function."""
+    match body:
+        case Element(name, subscripts):
+            return name == dummy or any(_is_used_as_array(dummy, part) for part in subscripts)
+        case Call(name, args):
+            tables = args[{"func1": 1, "func2": 2}.get(name, len(args)) :]
+            return Name(dummy) in tables or any(_is_used_as_array(dummy, part) for part in args)
+        case Binary(_, left, right) | Pair(left, right):
+            return _is_used_as_array(dummy, left) or _is_used_as_array(dummy, right)
+        case Unary(_, operand):
+            return _is_used_as_array(dummy, operand)
+    return False
 
 
 def _whole_array(node: Expr, scope: Scope) -> Quantity | None:

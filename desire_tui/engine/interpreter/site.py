@@ -81,7 +81,7 @@ class Site:
         """Return a function that evaluates any scalar expression, and the kind of its value."""
         if literal(node) is not None:
             return self.real(node), Kind.REAL
-        code, kind = self.translator.expression(node)
+        code, kind = self.translator.finite(node)
         return self.function([py.give(code)]), kind
 
     def whole(self, node: Expr) -> Callable[[], int]:

@@ -51,10 +51,31 @@ class Translator:
 
     def real(self, node: Expr) -> ast.expr:
         """Translate an expression that must be real; error 84 for a COMPLEX one."""
-        code, kind = self.expression(node)
+        code, kind = self.finite(node)
         if kind is Kind.COMPLEX:
             raise Fault("complex-not-possible", node)
         return code
+
+    def finite(self, node: Expr) -> Typed:
+        """Translate an expression whose value goes where an infinite one would vanish; error 3 then.
+
+        Divisors, arguments and relations are such places: `1/(x*y)` must not be 0 because x*y is too large.
+        """
+        code, kind = self.expression(node)
+        if not self._may_overflow(node):
+            return Typed(code, kind)
+        value = self.build.fresh("v")
+        difference = py.binary(py.named(value, code), py.SUBTRACT, py.load(value))  # 0 but for inf and nan
+        fits = py.compare(difference, [_RELATIONS["="]], [py.number(0.0)])
+        return Typed(py.choice(fits, py.load(value), at(py.call("overflow"), node)), kind)
+
+    def _may_overflow(self, node: Expr) -> bool:
+        match node:
+            case Unary(_, operand):
+                return self._may_overflow(operand)
+            case Call(name):
+                return name in self.calls.functions.definitions
+        return isinstance(node, Binary)
 
     def expression(self, node: Expr) -> Typed:
         """Translate an expression."""
@@ -69,6 +90,8 @@ class Translator:
                 return self._power(node)
             case Binary(op="&"):
                 raise Fault("matrix-operator", node, operator="&")
+            case Binary(op="/", left=left, right=right):
+                return self._arithmetic(node, "/", self.expression(left), self.finite(right))
             case Binary(op, left, right):
                 return self._arithmetic(node, op, self.expression(left), self.expression(right))
             case Unary(op, operand):
@@ -84,7 +107,7 @@ class Translator:
         """Translate a condition; `and` and `or` stop as soon as the answer is known."""
         match node:
             case Relation(op, left, right):
-                (a, kind_a), (b, kind_b) = self.expression(left), self.expression(right)
+                (a, kind_a), (b, kind_b) = self.finite(left), self.finite(right)
                 if Kind.COMPLEX in {kind_a, kind_b} and op not in {"=", "<>"}:
                     raise Fault("complex-not-ordered", node, operator=op)
                 return at(py.compare(a, [_RELATIONS[op]], [b]), node)
@@ -131,7 +154,7 @@ class Translator:
         return Typed(at(py.binary(left.code, _ARITHMETIC[op], right.code), node), kind)
 
     def _power(self, node: Binary) -> Typed:
-        base, kind = self.expression(node.left)
+        base, kind = self.finite(node.left)
         exponent = whole_constant(node.right)
         if exponent is not None and abs(exponent) < _WHOLE_POWER_LIMIT:
             if exponent == 1:
