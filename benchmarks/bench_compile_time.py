@@ -73,7 +73,8 @@ def forget_everything() -> None:
     """Empty the stores that later programs profit from."""
     forget_lines()
     shapes.forget()
-    for store in (keeping._live, rolling._shapes, templates._known):  # nobody else wants them empty
+    keeping.forget()
+    for store in (rolling._shapes, templates._known):  # nobody else wants them empty
         store.clear()
 
 

@@ -5,9 +5,9 @@ below give the same numbers.
 
 **Expressions** are values over one *extent*: a scalar, n elements of a vector, or rows × cols of a matrix
 (row-major). Scalars broadcast. An expression object that occurs twice in a statement (a FUNCTION's
-argument) is evaluated **once**: compare by identity. Operands are evaluated left to right, which fixes the
-order of random draws; vector and matrix elements are assigned from the last index to the first, each
-drawing as it comes.
+argument) is evaluated **once**: compare by identity; met again in another statement, it is evaluated there
+anew. Operands are evaluated left to right, which fixes the order of random draws; vector and matrix elements
+are assigned from the last index to the first, each drawing as it comes.
 
 **Statements** run in order. `Guard` holds statements that run only at some passes (language.md 9.1); which
 statements a pass with given flags executes is `analysis.slices`. The states' own slots hold the states of

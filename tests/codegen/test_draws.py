@@ -66,3 +66,10 @@ def test_gauss_takes_two_numbers_first_the_radius():
 def test_a_shared_argument_is_drawn_once():
     made = run("FUNCTION twice(a$) = a$ - a$\nSEED 1\nNN = 20\ndrun\nDYNAMIC\nz = twice(ran())\ndispt z\n")
     assert not made.rows[:, 1].any()
+
+
+@pytest.mark.parametrize("backend", ["native", "reference"])
+def test_the_same_line_twice_draws_twice(backend):
+    made = run("SEED 3\nNN = 2\ndrun\nDYNAMIC\nu = ran()\nv = u\nu = ran()\nz = u - v\ndispt z\n", backend)
+    u = [2 * v - 1 for v in sequence(3, 4)]
+    assert made.rows[:, 1].tolist() == [u[1] - u[0], u[3] - u[2]]

@@ -59,3 +59,9 @@ def lower_kept(context: Context, node: Expr) -> Value:
                 store.clear()
             store[id(node)] = _Kept(node, reads, value)
     return value
+
+
+def forget() -> None:
+    """Empty the stores."""
+    _live.clear()
+    _looking.clear()
