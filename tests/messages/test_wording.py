@@ -1,21 +1,44 @@
-"""All messages together: numbers, hints, tone, and that every message of the syntax stage is shown by a file."""
+"""All messages together: numbers, tone, and that a test produces every one of them."""
 
 from __future__ import annotations
 
+import ast
 import re
 from pathlib import Path
 
 import pytest
 
 from desire_tui.engine.diagnostics.wording import all_wordings
-from desire_tui.engine.diagnostics.wording.syntax import MESSAGES
+from tests.messages.test_messages import FILES, spoken
 
-HERE = Path(__file__).parent
-TOO_BIG = {"line-too-long"}
-"""Needs a megabyte of text: tests/syntax/test_limits.py shows it."""
-
-SECOND_PLACES = {key for key in MESSAGES if key.startswith(("first-", "block-begins"))}
-"""Sentences for notes under another message."""
+ROOT = Path(__file__).parents[2]
+ELSEWHERE = {
+    "line-too-long": "tests/syntax/test_limits.py::test_hostile_text_gets_a_message_at_once",
+    "too-many-lines": "tests/messages/test_machine_messages.py::test_submodels_that_become_too_many_lines",
+    "no-program": "tests/messages/test_machine_messages.py::test_no_program",
+    "out-of-memory": "tests/messages/test_machine_messages.py::test_no_room_for_an_array",
+    "memory-exhausted": "tests/messages/test_machine_messages.py::test_memory_that_ends_in_the_middle",
+    "cannot-read": "tests/messages/test_machine_messages.py::test_a_channel_that_cannot_be_read",
+    "cannot-write": "tests/messages/test_machine_messages.py::test_a_channel_whose_disk_is_full",
+    "shell-failed": "tests/messages/test_machine_messages.py::test_a_shell_command_that_fails",
+    "solver-error-test": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
+    "solver-corrector": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
+    "solver-singular": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
+    "solver-linear": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
+    "solver-too-close": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
+    "solver-broken": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
+    "solver-missing": (
+        "tests/integration/test_sundials.py::test_without_the_library_a_plain_message_and_the_other_rules_work"
+    ),
+    "solver-version": "tests/integration/test_sundials.py::test_another_version_is_refused",
+    "stopped-by-user": "tests/runtime/test_run_control.py::test_pause_resume_and_end",
+    "go-after-edit": "tests/runtime/test_run_control.py::test_go_after_an_edit_is_refused",
+    "time-limit": "tests/batch/test_headless.py::test_timeout_is_status_3",
+    "program-missing": "tests/batch/test_headless.py::test_files_that_are_no_programs",
+    "file-unreadable": "tests/batch/test_headless.py::test_files_that_are_no_programs",
+    "file-binary": "tests/batch/test_headless.py::test_files_that_are_no_programs",
+}
+"""Messages that no program text alone produces, and the tests that do."""
 
 
 @pytest.mark.parametrize("key", sorted(all_wordings()))
@@ -27,17 +50,16 @@ def test_sentence(key: str) -> None:
     assert not re.search(r"\b(illegal|invalid)\b", wording.message), "say what is wrong, not that it is"
 
 
-def test_every_syntax_message_is_shown() -> None:
-    shown = "\n".join(path.read_text("utf-8") for path in (HERE / "parse").glob("*.txt"))
-    missing = []
-    for key, wording in MESSAGES.items():
-        if key in TOO_BIG:
-            continue
-        pattern = "".join(
-            ".*" if part.startswith("{") else re.escape(part)
-            for part in re.split(r"(\{\w+\})", wording.message)
-        )
-        kind = "note" if key in SECOND_PLACES else f"error {wording.code}"
-        if not re.search(f"{kind}: {pattern}$", shown, re.MULTILINE):
-            missing.append(key)
-    assert not missing
+def test_every_message_is_produced_by_a_golden_file() -> None:
+    produced = frozenset[str]().union(*(spoken(path)[1] for path in FILES))
+    known = all_wordings().keys()
+    assert not sorted(known - produced - ELSEWHERE.keys()), "worded, but no file shows it"
+    assert not sorted(ELSEWHERE.keys() & produced), "a file shows it: no need for another test"
+    assert ELSEWHERE.keys() <= known
+
+
+@pytest.mark.parametrize("key", sorted(ELSEWHERE))
+def test_the_other_tests_are_there(key: str) -> None:
+    path, _, name = ELSEWHERE[key].partition("::")
+    tree = ast.parse((ROOT / path).read_text("utf-8"))
+    assert name in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}

@@ -57,17 +57,26 @@ class Channels:
         self._open[number] = Channel(path, mode, file)
 
     def disconnect(self, number: int) -> None:
-        """Close a channel's file; error 63 if there is none."""
+        """Close a channel's file; error 63 if there is none, 106 if its last text could not be written."""
         _check_number(number)
         channel = self._open.pop(number, None)
         if channel is None:
             raise _problem("channel-not-connected", channel=number)
-        channel.file.close()
+        try:
+            channel.file.close()
+        except OSError as error:
+            raise _problem("cannot-write", file=channel.path, reason=error.strerror) from None
 
     def close(self) -> None:
-        """Close everything."""
+        """Close everything; error 106 for files whose last text could not be written."""
+        problems: list[Diagnostic] = []
         for number in list(self._open):
-            self.disconnect(number)
+            try:
+                self.disconnect(number)
+            except DesireError as error:
+                problems.extend(error.diagnostics)
+        if problems:
+            raise DesireError(*problems)
 
     def flush(self) -> None:
         """Let other programs see what was written so far."""

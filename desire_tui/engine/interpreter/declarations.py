@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import DeclaredGroup, Node
 
-_MOST_DIMENSIONS = 10
 _KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
 
 
@@ -37,8 +36,6 @@ def declare(site: Site) -> Operation:
 
 
 def _shape(part: Declared, dimensions: list[Callable[[], float]]) -> tuple[int, ...]:
-    if len(dimensions) > _MOST_DIMENSIONS:
-        raise Fault("too-many-dimensions", part, name=part.name, given=len(dimensions))
     shape = []
     for node, evaluate in zip(part.dimensions, dimensions, strict=True):
         size = evaluate()

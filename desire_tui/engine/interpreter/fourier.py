@@ -17,18 +17,11 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
 
-_ARRAYS = {"F": 2, "I": 2, "R": 4, "C": 2}
-
 
 def fft(site: Site) -> Operation:
     """Make the operation of an FFT statement; errors 61 (not a vector) and 72 (length)."""
     node = site.node
     assert isinstance(node, Fft)
-    wanted = _ARRAYS[node.kind]
-    if len(node.args) != wanted + 1:
-        raise Fault(
-            "fft-arguments", node, kind=node.kind, needed="n and four" if wanted == 4 else "n and two"
-        )
     count = site.whole(node.args[0])
     quantities = [site.array(arg) for arg in node.args[1:]]
     for argument, quantity in zip(node.args[1:], quantities, strict=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.analysis.structure import Structure, script_structure
@@ -99,5 +100,8 @@ class Interpreter:
     def _run(self, address: int) -> None:
         try:
             self._machine.run(address)
-        finally:
-            self.channels.flush()
+        except BaseException:
+            with suppress(DesireError):  # the first problem counts: it has a place
+                self.channels.flush()
+            raise
+        self.channels.flush()

@@ -92,9 +92,9 @@ class Script:
         self._listener.quantities_cleared()
 
     def _drop(self) -> None:
-        if self._interpreter is not None:
-            self._interpreter.channels.close()
-        self._interpreter = None
+        interpreter, self._interpreter = self._interpreter, None
+        if interpreter is not None:
+            interpreter.channels.close()
 
     def _ready(self) -> Interpreter:
         if self._interpreter is None:

@@ -141,7 +141,9 @@ MESSAGES: dict[str, Wording] = {
     ),
     "matrix-target": Wording(75, "'{name}' has {dimensions} dimension(s), a matrix is needed", "use Vector"),
     "row-of-matrix": Wording(
-        75, "'{name}#' takes a row: '{name}' must be a matrix, and the statement a Vector one", "declare {name}[m,n]"
+        75,
+        "'{name}#' takes a row: '{name}' must be a matrix, and the statement a Vector one",
+        "declare {name}[m,n]",
     ),
     "shift-in-matrix": Wording(75, "index shifts are for vectors", "use Vector statements"),
     "ampersand-here": Wording(75, "& joins two vectors of a MATRIX expression: u & v", "use * for products"),

@@ -75,7 +75,9 @@ MESSAGES: dict[str, Wording] = {
         "`x^3` and `x^-2` are products and take any x. With an exponent that is a variable or a fraction, "
         "`x^a` is exp(a ln x), and x must be positive.",
     ),
-    "argument-out-of-domain": Wording(44, "{function} has no value for this argument", "check how large its argument is"),
+    "argument-out-of-domain": Wording(
+        44, "{function} has no value for this argument", "check how large its argument is"
+    ),
     "argument-count": Wording(44, "'{name}' cannot take {given} argument(s)", "write {name}({needed})"),
     "arguments-do-not-match": Wording(
         56, "'{name}' has {needed} argument(s){where}, not {given}", "give one for each dummy argument"
@@ -122,7 +124,6 @@ MESSAGES: dict[str, Wording] = {
     "bad-dimension": Wording(
         32, "'{name}' cannot have {value} elements in a row", "dimensions are 1 or more"
     ),
-    "too-many-dimensions": Wording(32, "'{name}' has {given} dimensions", "10 are possible"),
     "array-too-large": Wording(
         40, "no room for {elements} elements of '{name}'", "this machine has room for about {room}"
     ),
@@ -138,9 +139,6 @@ MESSAGES: dict[str, Wording] = {
         "write a loop instead",
         "The dummy arguments of a PROCEDURE exist once, so it cannot be called again before it has returned.",
     ),
-    "end-without-call": Wording(
-        4, "nothing to return to: no PROCEDURE was called", "remove it, or call the PROCEDURE"
-    ),
     "reference-expected": Wording(
         56, "behind the ; only names and elements can stand", "assign it to a variable first"
     ),
@@ -151,9 +149,6 @@ MESSAGES: dict[str, Wording] = {
     "command-only": Wording(199, "'{word}' is a command, not a statement", "type it at the prompt"),
     "not-in-script": Wording(
         300, "this statement belongs behind DYNAMIC", "scripts end where DYNAMIC stands"
-    ),
-    "bare-expression": Wording(
-        1, "an expression alone does nothing in a program", "write {name} = …, or write …"
     ),
     # ------------------------------------------------------------------------------ data, files, console
     "out-of-data": Wording(
@@ -177,7 +172,9 @@ MESSAGES: dict[str, Wording] = {
         "A channel belongs to a file between `connect` and `disconnect`. Starting a program "
         "closes all channels.",
     ),
-    "channel-wrong-way": Wording(64, "channel {channel} is connected for {mode}", "connect another one as {wanted}"),
+    "channel-wrong-way": Wording(
+        64, "channel {channel} is connected for {mode}", "connect another one as {wanted}"
+    ),
     "cannot-connect": Wording(11, "cannot connect '{file}': {reason}", "check the file's name and folder"),
     "data-file-not-found": Wording(38, "there is no file '{file}'", "names without an ending get .dat"),
     "file-name-missing": Wording(34, "a file name in quotes is needed", "connect 'name' as input 3"),
@@ -208,12 +205,9 @@ MESSAGES: dict[str, Wording] = {
         75, "a matrix cannot be set to this number", "= 0 gives zeroes, = 1 the identity"
     ),
     "not-in-array-expression": Wording(
-        75, "this is not possible in a script's vector or matrix expression", ""
+        75, "rows A# of a matrix can be taken in DYNAMIC segments only", "use elements: A[i,k]"
     ),
     "script-dot-term": Wording(75, "a DOT term is u*v, u*1, u*A*v or u*A%*v", "operands are names"),
-    "fft-arguments": Wording(
-        72, "FFT {kind} needs {needed} arrays", "FFT F, n, x, y or FFT R, n, x, y, u, v"
-    ),
     "fft-array": Wording(61, "'{name}' is not a vector", "FFT works on one-dimensional arrays"),
     "fft-array-short": Wording(
         61, "'{name}' has {size} elements, fewer than {n}", "declare it at least that long"

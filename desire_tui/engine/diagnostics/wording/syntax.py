@@ -104,7 +104,9 @@ _SENTENCES: dict[str, Wording] = {
         219, "in a DYNAMIC segment, if takes a value, no 'then'", "for a > b write: if a - b"
     ),
     "call-missing": Wording(
-        300, "'{name}(…)' is no statement of a script", "call a PROCEDURE: call {name}(…)"
+        300,
+        "'{name}(…)' is no statement of a script",
+        "call a PROCEDURE: call {name}(…); use a function: y = {name}(…)",
     ),
 }
 

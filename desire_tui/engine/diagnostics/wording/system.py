@@ -18,10 +18,12 @@ MESSAGES: dict[str, Wording] = {
     ),
     "go-without-stop": Wording(43, "nothing to continue: the script is not at a STOP", "start it with zz"),
     "go-after-edit": Wording(43, "the program was changed since it stopped", "start it again with zz"),
-    "program-missing": Wording(38, "there is no file {path}"),
+    "program-missing": Wording(38, "there is no file {path}", "check its name and folder"),
     "file-unreadable": Wording(38, "cannot read {path}: {reason}"),
     "file-binary": Wording(38, "{path} is not a text file", "a Desire program is plain text"),
-    "file-unwritable": Wording(106, "cannot write {path}: {reason}"),
+    "file-unwritable": Wording(
+        106, "cannot write {path}: {reason}", "does its folder exist, and is there room?"
+    ),
     "picture-kind": Wording(34, "cannot draw {path}", "end the name with .png, .svg or .pdf"),
     "no-graph": Wording(471, "there is no graph yet", "run a program with dispt, dispxy or DISPXY first"),
     "no-run": Wording(472, "there is no run yet", "start one with zz or drun"),
