@@ -23,7 +23,9 @@ GO_BACK = 1
 
 _LANES = 8
 _DIFFERENCE = 1.4901161193847656e-08  # square root of the machine's epsilon
-_LEAST = 1e-3  # a difference is never made smaller than this part of the largest value so far would give
+_LEAST = 1.0
+"""A difference is never smaller than this part of the largest value so far would give: with smaller ones
+rounding breaks conservation laws, which long steps (Robertson's 1e10) do not forgive."""
 
 
 def add_callbacks(module: Any) -> None:

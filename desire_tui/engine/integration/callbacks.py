@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 DIFFERENCE = 2.0**-26
 """Square root of the machine's epsilon."""
-LEAST = 1e-3
-"""A difference is at least as large as this part of the largest value so far would give."""
+LEAST = 1.0
+"""A difference is at least as large as this part of the largest value so far would give (see `codegen`)."""
 
 _GO_BACK, _GIVE_UP = 1, -1
 
