@@ -63,9 +63,32 @@ def test_an_edit_leaves_the_other_lines_values_alone():
 
 
 def test_a_name_in_another_slot_is_read_there():
-    body = "d/dt x = a*x"
+    body = "d/dt x = a*x\nd/dt y = a*y"
     first, values = segment(body, a=1)
     moved, others = segment(body, q=1, a=1)
     assert values.find("a").slot != others.find("a").slot
-    assert first.body[0].value.args[0].slot == values.find("a").slot
-    assert moved.body[0].value.args[0].slot == others.find("a").slot
+    assert first.body[1].value.args[0].slot == values.find("a").slot
+    assert moved.body[1].value.args[0].slot == others.find("a").slot
+
+
+def test_a_function_with_a_library_functions_name_counts():
+    body = "d/dt x = sin(x)"
+    library, _ = segment(body)
+    own, _ = segment(body, functions="FUNCTION sin(p$) = p$ + p$")
+    again, _ = segment(body)
+    assert [s.body[0].value.name for s in (library, own, again)] == ["sin", "add", "sin"]
+
+
+def test_functions_are_expanded_as_they_are_now():
+    body = "d/dt x = f(x)"
+    sums, _ = segment(body, functions="FUNCTION f(p$) = p$ + p$")
+    products, _ = segment(body, functions="FUNCTION f(p$) = p$*p$")
+    assert [s.body[0].value.name for s in (sums, products)] == ["add", "mul"]
+
+
+def test_an_array_elements_place_is_found_anew():
+    body = "d/dt x = c[k]*x"
+    first, values = segment(body, c=(4,), k=1)
+    second, _ = segment(body, c=(4,), k=3)
+    start = values.find("c").slot
+    assert [s.body[0].value.args[0].slot - start for s in (first, second)] == [0, 2]
