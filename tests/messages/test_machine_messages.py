@@ -33,6 +33,12 @@ def test_no_room_for_an_array() -> None:
     assert render(problem).startswith("program.src:2:1: error 40: no room for ")
 
 
+def test_an_array_beyond_the_machine() -> None:
+    problem = problem_of(Session(Listener()), "x = 1", "ARRAY A[1.0E+15]")
+    assert problem.key == "array-too-large"
+    assert "2:7: error 40: no room for 1000000000000000 elements of 'A'" in render(problem)
+
+
 def test_memory_that_ends_in_the_middle(monkeypatch) -> None:
     def no_memory(_: Interpreter) -> None:
         raise MemoryError

@@ -21,7 +21,7 @@ A file:
 Optional sections between program and messages: `===== input` (lines that answer the script's `input`),
 `===== go` (empty: a STOP is answered with go; n lines: n times), `===== command` (command lines that run after
 the program, each whatever became of those before: their messages are shown under the name `<command>`).
-Files are read and written in a folder of the test's own, shown as `<folder>`.
+Files are read and written in a folder of the test's own, shown as `<folder>`, the one above as `<above>`.
 A program that must show nothing has an empty last section. Write the expected text yourself and look at the
 difference; `UPDATE_MESSAGES=1 pytest tests/messages` writes the present output into all files: review it with
 `git diff` before you commit.
@@ -126,9 +126,10 @@ def spoken(path: Path) -> tuple[str, frozenset[str]]:
     parts = sections(path.read_text("utf-8"))
     source = Source(parts["program"].removesuffix("\n"), "program.src")
     with TemporaryDirectory() as name:
-        folder = Path(name).resolve()
+        folder = Path(name).resolve() / "program"
+        folder.mkdir()
         problems = SPEAKERS[path.parent.name](parts, source, folder)
-        shown = render_all(problems).replace(str(folder), "<folder>")
+        shown = render_all(problems).replace(str(folder), "<folder>").replace(str(folder.parent), "<above>")
     keys: set[str] = set()
     rest = list(problems)
     while rest:

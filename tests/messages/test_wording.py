@@ -17,6 +17,7 @@ ELSEWHERE = {
     "too-many-lines": "tests/messages/test_machine_messages.py::test_submodels_that_become_too_many_lines",
     "no-program": "tests/messages/test_machine_messages.py::test_no_program",
     "out-of-memory": "tests/messages/test_machine_messages.py::test_no_room_for_an_array",
+    "array-too-large": "tests/messages/test_machine_messages.py::test_an_array_beyond_the_machine",
     "memory-exhausted": "tests/messages/test_machine_messages.py::test_memory_that_ends_in_the_middle",
     "cannot-read": "tests/messages/test_machine_messages.py::test_a_channel_that_cannot_be_read",
     "cannot-write": "tests/messages/test_machine_messages.py::test_a_channel_whose_disk_is_full",

@@ -37,7 +37,7 @@ MESSAGES: dict[str, Wording] = {
     "solver-corrector": Wording(
         223,
         f"the corrector of rule {{rule}} did not converge {_AT}",
-        "rules 13 to 15 suit stiff problems; look at the JACOBIAN segment, if there is one, and try a smaller DT",
+        "rules 13 to 15 suit stiff problems; look at the JACOBIAN segment if there is one, try a smaller DT",
     ),
     "solver-singular": Wording(
         224,
