@@ -41,7 +41,8 @@ class Terminal:
             **os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", "XDG_CONFIG_HOME": str(folder / "config"),
             "XDG_STATE_HOME": str(folder / "state"), "PYTHONPATH": str(ROOT),
         }  # fmt: skip
-        env.pop("TMUX", None)
+        for name in ("TMUX", "COLUMNS", "LINES", "NO_COLOR"):  # tests in one process leave some of these behind
+            env.pop(name, None)
         self.screen = pyte.Screen(columns, rows)
         self.stream = pyte.ByteStream(self.screen)
         self.raw = bytearray()
@@ -70,7 +71,7 @@ class Terminal:
     def until(self, condition: Callable[[], object]) -> None:
         end = time.monotonic() + PATIENCE_S
         while not condition():
-            assert time.monotonic() < end, self.text
+            assert time.monotonic() < end, (self.text, bytes(self.raw[-600:]), self.child.isalive())
             self.read()
 
     def send(self, text: str) -> None:
