@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.analysis.expressions import lower
-from desire_tui.engine.analysis.products import array, matrix_vector, nonconformable, note_read
+from desire_tui.engine.analysis.products import array, matrix_vector, nonconformable, note_read, unsigned
 from desire_tui.engine.analysis.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.analysis.targets import mark_array, mark_set, matrix, scalar_slot, vector
 from desire_tui.engine.lowered import DotTerm, SetDot, SetMat, SetVec, Vec
@@ -115,9 +115,10 @@ def _dot_term(builder: Builder, sign: float, node: Expr) -> DotTerm | None:
     while isinstance(rest, Binary) and rest.op == "*":
         factors.append(rest.right)
         rest = rest.left
-    factors.append(rest)
+    leading, first = unsigned(rest)
+    sign *= leading
+    factors.append(first)
     factors.reverse()
-    first = factors[0]
     if len(factors) not in (2, 3) or not isinstance(first, Name):
         context.report("dot-term", node)
         return None

@@ -52,7 +52,7 @@ class Survey:
         )
         if jumps:
             self._before.clear()
-        self._by_segments = _assigned_in_segments(program)
+        self._by_segments = _assigned_in_segments(program, structure)
 
     @property
     def array_names(self) -> frozenset[str]:
@@ -143,22 +143,35 @@ def _assigned_by(node: nodes.Statement) -> tuple[str, ...]:
     return ()
 
 
-def _assigned_in_segments(program: Program) -> dict[str | None, set[str]]:
+def _assigned_in_segments(program: Program, structure: Structure) -> dict[str | None, set[str]]:
+    bodies: set[str] = set()  # of all submodels: which of them a segment reaches is not looked for
+    for submodel in structure.submodels.values():
+        names: set[str] = set()
+        for placed in submodel.body:
+            names.update(_assigned_in_segment(placed.node))
+        bodies |= names.difference(submodel.dummies)
     found: dict[str | None, set[str]] = {}
     for segment in program.segments:
         names = found.setdefault(segment.label, set())
         for placed in segment.body:
-            node = placed.node
-            if isinstance(node, nodes.Assign | nodes.Dot | nodes.Derivative | nodes.FunctionTable):
-                names.add(node.target.name)
-            elif isinstance(node, nodes.Get | nodes.Delay):
-                names.add(node.variable.name)
-            elif isinstance(node, nodes.TrackHold):
-                names.update((node.held.name, node.tracked.name))
-            elif isinstance(node, nodes.Bare | nodes.Invoke):
-                call = node if isinstance(node, nodes.Invoke) else node.value
-                names.update(a.name for a in getattr(call, "args", ()) if isinstance(a, Name))
+            names.update(_assigned_in_segment(placed.node))
+            if isinstance(placed.node, nodes.Bare | nodes.Invoke):
+                names |= bodies
     return found
+
+
+def _assigned_in_segment(node: nodes.Statement) -> Iterable[str]:
+    """Names that a segment's statement could give a value."""
+    if isinstance(node, nodes.Assign | nodes.Dot | nodes.Derivative | nodes.FunctionTable):
+        return (node.target.name,)
+    if isinstance(node, nodes.Get | nodes.Delay):
+        return (node.variable.name,)
+    if isinstance(node, nodes.TrackHold):
+        return (node.held.name, node.tracked.name)
+    if isinstance(node, nodes.Bare | nodes.Invoke):
+        call = node if isinstance(node, nodes.Invoke) else node.value
+        return [a.name for a in getattr(call, "args", ()) if isinstance(a, Name)]
+    return ()
 
 
 def _constants(script: Iterable[Placed]) -> dict[str, float]:

@@ -16,7 +16,7 @@ from desire_tui.engine.analysis.subscripts import constant
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import rounded
 from desire_tui.engine.lowered import MatVec, Op, Outer, RowOf, Shifted, Vec
-from desire_tui.engine.nodes import Binary, Name, Transposed
+from desire_tui.engine.nodes import Binary, Name, Transposed, Unary
 from desire_tui.engine.nodes import RowOf as RowOfNode
 from desire_tui.engine.nodes import Shifted as ShiftedNode
 from desire_tui.engine.values import Kind, Quantity
@@ -44,7 +44,7 @@ def product(context: Context, node: Binary, extent: Extent) -> Value:
     while at < len(factors):
         op, factor = factors[at]
         following = factors[at + 1] if at + 1 < len(factors) else None
-        value = _unit(context, factor, following, extent) if following else None
+        value = _signed_unit(context, factor, following, extent) if following else None
         if value is None:
             if op == "&":
                 context.report("ampersand-here", factor)
@@ -152,6 +152,25 @@ def matrix_vector(
     note_read(context, vector, x.slot, x.shape[0], None)
     note_read(context, matrix, a.slot, size_of(a), None)
     return MatVec(a.slot, a.shape[0], a.shape[1], transposed, x.slot)
+
+
+def _signed_unit(
+    context: Context, factor: Expr, following: tuple[str, Expr], extent: Extent
+) -> Value | None:
+    """Lower a unit whose factors may have signs: `-A*x`, `3*-u*v`."""
+    op, right = following
+    (sign, first), (other, second) = unsigned(factor), unsigned(right)
+    value = _unit(context, first, (op, second), extent)
+    return value if value is None or sign * other > 0 else Op("neg", (value,))
+
+
+def unsigned(node: Expr) -> tuple[float, Expr]:
+    """Return the sign before an operand, and the operand."""
+    sign = 1.0
+    while isinstance(node, Unary):
+        sign = -sign if node.op == "-" else sign
+        node = node.operand
+    return sign, node
 
 
 def _unit(context: Context, factor: Expr, following: tuple[str, Expr], extent: Extent) -> Value | None:

@@ -174,27 +174,41 @@ class ScalarStatements:
 
     def _get(self, action: Get) -> None:
         at, position = self._position(action.counter)
-        done = self._skip_unless(self._inside(position, action.count))
-        value = self.text.op(f"load double, ptr {self._element(action.array_slot, position)}")
+        index = self._present(position)
+        done = self._skip_unless(self.text.op(f"icmp ult i64 {index}, {action.count}"))
+        value = self.text.op(f"load double, ptr {self._element(action.array_slot, index)}")
         self.cells.store(action.slot, value)
-        self.text.do(f"store i64 {self.text.op(f'add i64 {position}, 1')}, ptr {at}")
+        self.text.do(f"store i64 {self.text.op(f'add i64 {index}, 1')}, ptr {at}")
         self._rejoin(done)
 
+    def _present(self, position: str) -> str:
+        """Return the record of this point: a joint's was made in the run before, and is read again.
+
+        After a `reset` the script has gone back: the first interval must not go on with the last value of
+        the run taken back.
+        """
+        back = self.text.op(f"sext i1 {self.text.op(f'xor i1 {self._fresh_point()}, true')} to i64")
+        return self.text.op(f"add i64 {position}, {back}")
+
     def _delay(self, action: DelayLine) -> None:
-        op = self.text.op
+        op, count = self.text.op, action.count
         source = self.scalars.value(action.source)
         at, position = self._position(action.counter)
         lags = self.memory.load("lags")
         lag = op(f"load i64, ptr {op(f'getelementptr i64, ptr {lags}, i64 {action.counter}')}")
-        done = self._skip_unless(self._fresh_point())
-        behind = op(f"add i64 {op(f'sub i64 {position}, {lag}')}, {action.count}")
-        old_place = self._element(action.buffer_slot, op(f"urem i64 {behind}, {action.count}"))
+        fresh, index = self._fresh_point(), self._present(position)
+        # At a joint the buffer holds this point already, in the place of the one `count` records before.
+        known = op(f"and i1 {op(f'icmp sge i64 {index}, 0')}, {op(f'icmp ne i64 {lag}, {count}')}")
+        done = self._skip_unless(op(f"or i1 {fresh}, {known}"))
+        behind = op(f"add i64 {op(f'sub i64 {index}, {lag}')}, {count}")
+        old_place = self._element(action.buffer_slot, op(f"urem i64 {behind}, {count}"))
         old = op(f"load double, ptr {old_place}")
         now = op(f"icmp eq i64 {lag}, 0")
         self.cells.store(action.slot, op(f"select i1 {now}, double {source}, double {old}"))
-        place = self._element(action.buffer_slot, op(f"urem i64 {position}, {action.count}"))
-        self.text.do(f"store double {source}, ptr {place}")
-        self.text.do(f"store i64 {op(f'add i64 {position}, 1')}, ptr {at}")
+        place = self._element(action.buffer_slot, op(f"urem i64 {index}, {count}"))
+        kept = op(f"load double, ptr {place}")
+        self.text.do(f"store double {op(f'select i1 {fresh}, double {source}, double {kept}')}, ptr {place}")
+        self.text.do(f"store i64 {op(f'add i64 {index}, 1')}, ptr {at}")
         self._rejoin(done)
 
     def _track(self, action: TrackHold) -> None:

@@ -211,7 +211,11 @@ class Statements:
 
     @staticmethod
     def _is_fresh(memory: RunMemory) -> bool:
-        """Whether this is not the joint of a continued run, which had its turn in the run before."""
+        """Whether this is not the joint of a continued run, which had its turn in the run before.
+
+        `get` and delays read at a joint what they read there before: after a `reset` the script has gone
+        back, and the first interval must not go on with the last value of the run taken back.
+        """
         return not (memory.joined and memory.point == 0)
 
     def _history(self, action: Store | Get | DelayLine | TrackHold) -> Run:
@@ -237,13 +241,14 @@ class Statements:
             memory = self.memory
             assert memory is not None
             positions = _integers(memory.counters, counter + 1)
-            at = positions[counter]
-            if at >= count or not self._is_fresh(memory):
+            fresh = self._is_fresh(memory)
+            at = positions[counter] - (not fresh)
+            if not 0 <= at < count:
                 return
-            if stores:
-                cells[array + at] = cells[slot]
-            else:
+            if not stores:
                 cells[slot] = cells[array + at]
+            elif fresh:
+                cells[array + at] = cells[slot]
             positions[counter] = at + 1
 
         return move
@@ -257,12 +262,14 @@ class Statements:
             memory = self.memory
             assert memory is not None
             x = source()
-            if not self._is_fresh(memory):
-                return
             positions, lags = _integers(memory.counters, counter + 1), _integers(memory.lags, counter + 1)
-            at, lag = positions[counter], lags[counter]
+            fresh, lag = self._is_fresh(memory), lags[counter]
+            at = positions[counter] - (not fresh)
+            if not fresh and (at < 0 or lag == count):
+                return  # the joint's own record stands where the one looked for was
             cells[slot] = x if lag == 0 else cells[buffer + (at - lag) % count]
-            cells[buffer + at % count] = x
+            if fresh:
+                cells[buffer + at % count] = x
             positions[counter] = at + 1
 
         return delay
