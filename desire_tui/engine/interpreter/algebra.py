@@ -135,6 +135,8 @@ class _DotTerm:
         factors = _factors(node)
         if not 2 <= len(factors) <= 3:
             raise Fault("script-dot-term", node)
+        while isinstance(first := factors[0], Unary):  # `-u*v`
+            sign, factors[0] = sign if first.op == "+" else -sign, first.operand
         self._sign, self._node = sign, node
         left = self._vector(site, factors[0])
         self._left = site.numbers(left)
