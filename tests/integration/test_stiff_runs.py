@@ -298,3 +298,43 @@ dispt u[150]
     assert numbers(text, backend) == pytest.approx(
         [u * shape[0], u * shape[1], exp(-0.3) * shape[1]], rel=2e-5
     )
+
+
+def test_an_infinite_element_of_jacobian_ends_the_run_with_its_place(backend):
+    """-1/swtch(1 - t) is infinite behind t = 1; a correction of 0 would look like convergence."""
+    text = SIMPLE.format(rule=14, ermax="1E-9", x=1, f="-x").replace("irule", "ARRAY J[1,1] | irule")
+    session, problem = failure(text + "JACOBIAN\nJ[1,1] = -1/swtch(1 - t)\n", backend)
+    assert problem.code == 224
+    record = session.runs[-1]
+    assert record.ended == "failed"
+    assert 1.0 < record.end_time < 3.0
+    assert problem.facts["t"] == record.end_time
+    assert "DT" in problem.message
+    assert "'x'" in problem.message
+    assert record.values("x")[:10] == pytest.approx([exp(-0.1 * k) for k in range(10)], rel=1e-4)
+
+
+
+@pytest.mark.parametrize("rule", [14, 15])
+def test_a_relay_that_holds_the_solution_on_its_jump_ends_the_run(rule, backend):
+    """x' = −sgn(x) from 1 is 1 − t; at 0, from t = 1, no step can go on."""
+    if backend == "reference":  # the same rule, but 50,000 steps take long there
+        return
+    session, problem = failure(SIMPLE.format(rule=rule, ermax="1E-6", x=1, f="-sgn(x)"), backend)
+    assert problem.code == 222
+    assert "'x'" in problem.message
+    record = session.runs[-1]
+    assert record.end_time == pytest.approx(1.0, abs=0.01)
+    assert record.values("x")[:10] == pytest.approx([1 - 0.1 * k for k in range(10)], abs=1e-5)
+
+
+@pytest.mark.parametrize(("rule", "ermax"), [(14, 1e-6), (14, 1e-7), (14, 1e-8), (15, 1e-6), (15, 1e-8)])
+def test_robertson_for_very_long_times(rule, ermax, backend):
+    """y1 ≈ 2.08334015E-8 at 1e11, far below ERMAX times its largest value 1, but must never run away."""
+    if backend == "reference":
+        return
+    text = ROBERTSON.format(rule=rule, script="", jacobian="").replace("1E-7", str(ermax))
+    y1, y2, y3 = numbers(text.replace("TMAX = 40", "TMAX = 1E+11"), backend)
+    assert abs(y1 - 2.08334e-8) < 10 * ermax
+    assert abs(y2 - 8.33336e-14) < 10 * ermax * 3.65e-5
+    assert abs(y1 + y2 + y3 - 1) < 10 * ermax

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 GO_BACK = 1
 """A callback's result for: try a smaller step."""
+GIVE_UP = -1
+"""… and for: no step will do."""
 
 _LANES = 8
 _DIFFERENCE = 1.4901161193847656e-08  # square root of the machine's epsilon
@@ -145,7 +147,19 @@ def _add_jacobian(module: Any) -> None:
         _fill_by_differences(f, problem, data, (y, fy), (spare, spare2))
     with f.build.if_then(f.build.icmp_signed("==", method, INT(Matrix.PROGRAM.value))):
         _fill_by_program(f, problem, data)
-    f.build.ret(INT32(0))
+    wild = f.build.not_(_finite_entries(f, problem, data))
+    own = f.build.icmp_signed("==", method, INT(Matrix.PROGRAM.value))
+    f.build.ret(f.build.select(wild, f.build.select(own, INT32(GIVE_UP), INT32(GO_BACK)), INT32(0)))
+
+
+def _finite_entries(f: Function, problem: Any, data: Any) -> Any:
+    """Whether all is finite: an infinite entry makes corrections 0, which would pass for convergence."""
+    total, places = f.build.alloca(REAL), f.get(problem, "places")
+    f.build.store(REAL(0.0), total)
+    with f.loop(INT(0), f.load(f.get(problem, "entry_starts"), f.get(problem, "colours"), INT32)) as i:
+        term = f.build.fmul(f.load(data, f.load(places, i, INT32)), REAL(0.0))
+        f.build.store(f.build.fadd(f.build.load(total, typ=REAL), term), total)
+    return f.build.fcmp_ordered("==", f.build.load(total, typ=REAL), REAL(0.0))
 
 
 def _write_pattern(f: Function, problem: Any, matrix: Any) -> None:

@@ -17,7 +17,14 @@ from typing import Any
 
 from desire_tui.engine.codegen.stiff_builder import INT, INT32, POINTER, REAL, VOID, Function
 from desire_tui.engine.codegen.stiff_callbacks import scatter
-from desire_tui.engine.integration.problem import STUCK_AT_EDGE_FLAG, STUCK_FLAG, STUCK_MOST
+from desire_tui.engine.integration.problem import (
+    CHATTER_FLAG,
+    CHATTER_PART,
+    CHATTER_STEPS,
+    STUCK_AT_EDGE_FLAG,
+    STUCK_FLAG,
+    STUCK_MOST,
+)
 from desire_tui.engine.integration.sundials.signatures import ONE_STEP, TSTOP_RETURN
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 from desire_tui.engine.values import DT, T
@@ -113,7 +120,7 @@ def _add_interval(module: Any) -> None:
     t = build.load(reached, typ=REAL)
     done = build.or_(build.icmp_signed("==", flag, INT32(TSTOP_RETURN)), build.fcmp_ordered(">=", t, t_next))
     t = build.select(done, t_next, t)
-    flag = _watch_progress(f, problem, t, flag)
+    flag = _watch_chatter(f, problem, memory, t, _watch_progress(f, problem, t, flag))
     f.store(values, INT(T), t)
     f.put(problem, "t", t)
     scatter(f, problem, states)
@@ -142,6 +149,31 @@ def _watch_progress(f: Function, problem: Any, t: Any, flag: Any) -> Any:
     edge = f.build.icmp_signed(">=", f.get(problem, "suspect"), INT(0))
     reason = f.build.select(edge, INT32(STUCK_AT_EDGE_FLAG), INT32(STUCK_FLAG))
     return f.build.select(hopeless, reason, flag)
+
+
+def _watch_chatter(f: Function, problem: Any, memory: Any, t: Any, flag: Any) -> Any:
+    """Make a failure of steps that fail about as often as they succeed and get nowhere."""
+    build = f.build
+    with build.goto_entry_block():  # this stands in a loop: an alloca here would eat the stack
+        result, tests, tries = build.alloca(INT32), build.alloca(INT), build.alloca(INT)
+    build.store(flag, result)
+    steps = build.add(f.get(problem, "watch_steps"), INT(1))
+    f.put(problem, "watch_steps", steps)
+    with build.if_then(build.icmp_signed(">=", steps, INT(CHATTER_STEPS)), likely=False):
+        f.outside("CVodeGetNumErrTestFails", INT32, [f.get(problem, "solver"), tests])
+        f.outside("CVodeGetNumNonlinSolvConvFails", INT32, [f.get(problem, "solver"), tries])
+        failed = build.add(build.load(tries, typ=INT), build.load(tests, typ=INT))
+        failed = build.add(failed, f.get(problem, "failed"))
+        often = build.sub(failed, f.get(problem, "watch_failed"))
+        far = build.fmul(f.get(memory, "comint", RunMemory), REAL(CHATTER_PART))
+        near = build.fcmp_ordered("<", build.fsub(t, f.get(problem, "watch_t")), far)
+        chatter = build.and_(near, build.icmp_signed(">=", often, INT(CHATTER_STEPS // 2)))
+        good = build.icmp_signed(">=", flag, INT32(0))
+        build.store(build.select(build.and_(chatter, good), INT32(CHATTER_FLAG), flag), result)
+        f.put(problem, "watch_t", t)
+        f.put(problem, "watch_failed", failed)
+        f.put(problem, "watch_steps", INT(0))
+    return build.load(result, typ=INT32)
 
 
 def _record_step(f: Function, memory: Any, dt: Any) -> None:

@@ -44,8 +44,9 @@ def advice(rule: int, segment: Segment, probe: Probe) -> tuple[Diagnostic, ...]:
         found = differences(probe)
         return _diagonal(rule, segment, found) if np.isfinite(found).all() else ()
     if kind == "jacobian" and probe.jacobian is not None:
-        found = differences(probe)
-        return _compare(segment, probe.jacobian(), found) if np.isfinite(found).all() else ()
+        given, found = probe.jacobian(), differences(probe)
+        finite = np.isfinite(given).all() and np.isfinite(found).all()
+        return _compare(segment, given, found) if finite else ()
     return ()
 
 

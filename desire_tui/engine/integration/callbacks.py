@@ -104,6 +104,9 @@ class PythonCallbacks:
         except BaseException as failure:  # noqa: BLE001 - as above
             self.failure = failure
             return _GIVE_UP
+        assert system.plan.tables is not None
+        if not np.isfinite(data[system.plan.tables.places]).all():  # corrections of 0 are not convergence
+            return _GIVE_UP if method is Matrix.PROGRAM else _GO_BACK
         return 0
 
     def _fill_by_tangent(self, t: float, y: Array, data: Array) -> None:

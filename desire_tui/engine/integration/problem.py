@@ -16,6 +16,9 @@ STUCK_MOST = 100
 """So many steps in a row that leave t as it was end the run: a pole, or a jump that no step gets across."""
 STUCK_FLAG, STUCK_AT_EDGE_FLAG = -1, -10
 """What is then reported, as CVODE's flags: too much work; derivatives that were not finite."""
+CHATTER_STEPS, CHATTER_PART, CHATTER_FLAG = 50_000, 1e-3, -3
+"""A run ends (CVODE's flag: error test failed) if so many steps went through less than this part of COMINT
+and half as many were rejected besides: a relay that holds the solution on its jump would take for ever."""
 
 
 FLOOR = 1e-20
@@ -93,4 +96,7 @@ class Problem(ctypes.Structure):
         ("suspect", _INT),  # state whose derivative was not finite; -1: none
         ("restarts", _INT),
         ("stuck", _INT),  # steps in a row that were too small to change t
+        ("watch_steps", _INT),  # steps since chattering was last looked for, and t and failures then
+        ("watch_t", _REAL),
+        ("watch_failed", _INT),
     )

@@ -113,6 +113,8 @@ class StiffSystem:
         problem.tolerance = memory.error_max
         problem.first_step = first_step
         problem.started = problem.failed = problem.restarts = problem.stuck = 0
+        problem.watch_steps = problem.watch_failed = 0
+        problem.watch_t = float("nan")  # nothing is nearer: the first look only notes where it was
         problem.jacobian_calls = problem.derivative_calls = 0
         problem.suspect = -1
         self.largest[:] = problem.floor = 0.0

@@ -16,7 +16,14 @@ from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.callbacks import PythonCallbacks
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import kind_of, plan
-from desire_tui.engine.integration.problem import STUCK_AT_EDGE_FLAG, STUCK_FLAG, STUCK_MOST
+from desire_tui.engine.integration.problem import (
+    CHATTER_FLAG,
+    CHATTER_PART,
+    CHATTER_STEPS,
+    STUCK_AT_EDGE_FLAG,
+    STUCK_FLAG,
+    STUCK_MOST,
+)
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import Functions, StiffSystem
 from desire_tui.engine.reference.model import ReferenceModel
@@ -139,6 +146,18 @@ class StiffReferenceModel(ReferenceModel):
             memory.suspect = system.suspect()
         return ended
 
+    def _chatters(self, memory: RunMemory, t: float) -> bool:
+        """Whether steps fail about as often as they succeed and get nowhere; looked at now and then."""
+        problem = self.system.problem
+        problem.watch_steps += 1
+        if problem.watch_steps < CHATTER_STEPS:
+            return False
+        failed = problem.failed + self.system.solver.counts().failed
+        near = t - problem.watch_t < CHATTER_PART * memory.comint
+        often = failed - problem.watch_failed >= CHATTER_STEPS // 2
+        problem.watch_steps, problem.watch_t, problem.watch_failed = 0, t, failed
+        return bool(near and often)
+
     def _step(self, memory: RunMemory) -> Ended | None:
         """Go to the next communication point, or one step if there is something to do at steps' starts."""
         memory.phase = Phase.IN_STEP
@@ -157,6 +176,8 @@ class StiffReferenceModel(ReferenceModel):
             problem.stuck = problem.stuck + 1 if t == problem.t else 0
             if problem.stuck > STUCK_MOST:
                 flag = STUCK_AT_EDGE_FLAG if problem.suspect >= 0 else STUCK_FLAG
+            if self._chatters(memory, t) and flag >= 0:
+                flag = CHATTER_FLAG
             y = self._solution()
             self._place(t, y)
             system.last[:] = y
