@@ -80,7 +80,7 @@ class Solver:
         self._set("CVodeSetMaxHnilWarns", -1)
         if linear.kind == "diagonal":
             self._set("CVodeSetNonlinConvCoef", _DIAGONAL_CONVERGENCE)
-        elif linear.kind != "fixed-point":
+        elif linear.kind != "fixed-point" and rule > 12:  # Adams: no gain
             self._set("CVodeSetNonlinConvCoef", _MATRIX_CONVERGENCE)
         parts.attached = Attached(libraries(), context, self.memory, self.vector, n, linear)
         self._reached = ctypes.c_double()
