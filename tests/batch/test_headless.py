@@ -97,10 +97,11 @@ def test_json_layout(decay, tmp_path):
     (run,) = data["runs"]
     assert list(run) == [
         "segment", "line", "request", "overlay", "rule", "scale", "t0", "tmax", "nn", "dt", "t", "curves", "ended",
-        "end_time", "steps", "rejected", "derivative_calls", "seconds",
+        "end_time", "steps", "rejected", "derivative_calls", "jacobian_calls", "dt_least", "dt_most", "order", "seconds",
     ]  # fmt: skip
     assert (run["segment"], run["line"], run["request"], run["overlay"]) == (None, 2, "dispt", False)
     assert (run["rule"], run["nn"], run["dt"], run["ended"], run["steps"]) == (1, 11, 0.1, "tmax", 10)
+    assert (run["jacobian_calls"], run["dt_least"], run["dt_most"], run["order"]) == (0, 0.1, 0.1, 0)
     (curve,) = run["curves"]
     assert (curve["name"], curve["x"], len(curve["values"])) == ("x", None, 11)
     assert data["quantities"]["a"] == 1.0

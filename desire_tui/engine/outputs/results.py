@@ -72,6 +72,12 @@ class RunData:
     steps: int
     rejected: int
     derivative_calls: int
+    jacobian_calls: int
+    dt_least: float
+    """Smallest and largest step taken; 0 where there was none."""
+    dt_most: float
+    order: int
+    """Of the last step under a rule 9 … 16; otherwise 0."""
     seconds: float
 
     def __getitem__(self, name: str) -> Floats:
@@ -140,7 +146,8 @@ def run_data(record: RunRecord) -> RunData:
         overlay=record.overlay, rule=record.rule, scale=record.scale, t0=record.t0, tmax=record.t_max,
         nn=record.nn, dt=record.dt, t=record.t.copy(), curves=tuple(curves.values()), ended=record.ended,
         end_time=record.end_time, steps=record.steps, rejected=record.rejected,
-        derivative_calls=record.derivative_calls, seconds=record.seconds,
+        derivative_calls=record.derivative_calls, jacobian_calls=record.jacobian_calls,
+        dt_least=record.dt_least, dt_most=record.dt_most, order=record.order, seconds=record.seconds,
     )  # fmt: skip
 
 
