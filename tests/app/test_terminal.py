@@ -107,15 +107,18 @@ def children_of(pid: int) -> list[str]:
 
 def test_a_session(terminal: Callable[..., Terminal], tmp_path: Path):
     (tmp_path / "empty.src").write_text("")
+    config = tmp_path / "config" / "desire-tui" / "config.toml"
+    config.parent.mkdir(parents=True)
+    config.write_text("completion_after = 0\n")  # a popup that opens between two keys would take the second
     screen = terminal("empty.src")
     screen.until(lambda: "empty.src" in screen.text and "F5" in screen.text)
     screen.read(0.3)
 
     # type a program; the editor has the keys because the tab is empty
     for line in PROGRAM.splitlines():
-        screen.send(line + "\x1b[D\x1b[C" + "\r")  # left, right: closes completions that opened by themselves
-        screen.read(0.05)
-    screen.until(lambda: "dispt x, v" in screen.text)
+        screen.send(line + "\r")
+        screen.until(lambda line=line: line in screen.text)
+    screen.until(lambda: "8" in screen.text.splitlines()[8][:3])
 
     # run it: the curve grows before the run ends
     screen.send(F5)
