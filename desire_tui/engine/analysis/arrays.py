@@ -47,8 +47,11 @@ def vector_derivative(builder: Builder, node: nodes.VectorDerivative) -> None:
         return
     count = quantity.shape[0]
     value = lower(context, node.value, (count,))
-    if count != UNKNOWN and builder.is_second(quantity.slot, count):
-        context.report("state-twice", node, name=quantity.name)
+    if count != UNKNOWN:
+        if builder.is_second(quantity.slot, count):
+            context.report("state-twice", node, name=quantity.name)
+        elif other := builder.overlaid(quantity.slot, count, quantity):
+            context.report("state-twice-overlaid", node, name=quantity.name, other=other)
     builder.derivative(quantity.slot, count, value, context.where(node), array=True)
 
 

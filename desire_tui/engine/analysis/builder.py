@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import prod
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetVec, Vec
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.analysis.states import StateTable
     from desire_tui.engine.lowered import Action, Column, Picture, Request, Value, Where
     from desire_tui.engine.source import Span
+    from desire_tui.engine.values import Quantity
 
 GuardKind = Literal["step", "out", "sample", "if"]
 Path = tuple[tuple[int, bool], ...]
@@ -53,6 +55,7 @@ class Builder:
     once_only: dict[str, Span] = field(default_factory=dict)
     derivative_paths: dict[tuple[int, int], list[Path]] = field(default_factory=dict)
     names: dict[int, str] = field(default_factory=dict)
+    _derivative_arrays: dict[tuple[int, int], list[tuple[int, int, Path, str]]] = field(default_factory=dict)
     _held: dict[tuple[int, int], tuple[int, Where]] = field(default_factory=dict)
 
     def counter(self) -> int:
@@ -164,13 +167,32 @@ class Builder:
 
     def is_second(self, slot: int, count: int) -> bool:
         """Whether this state already has a `d/dt` that could hold in the same pass (error 101)."""
-        key = slot, count
-        paths = self.derivative_paths.get(key)
-        if paths is None:
-            self.derivative_paths[key] = [self.path if self.guards else ()]
-            return False
-        path = self.path
-        branches = dict(path)
-        second = any(all(branches.get(s, b) == b for s, b in earlier) for earlier in paths)
-        paths.append(path)
+        path = self.path if self.guards else ()
+        earlier = self.derivative_paths.setdefault((slot, count), [])
+        second = any(_same_pass(path, other) for other in earlier)
+        earlier.append(path)
         return second
+
+    def overlaid(self, slot: int, count: int, array: Quantity) -> str | None:
+        """Return the array through which some of these states of `array` have a `d/dt` already (error 101).
+
+        An element may be given a derivative of its own beside its vector's (boundary elements), but not beside
+        that of another array that shares only a part of the storage.
+        """
+        path = self.path if self.guards else ()
+        first, size = array.slot, prod(array.shape)
+        lines = self._derivative_arrays.setdefault((first, size), [])
+        lines.append((slot, count, path, array.name))
+        for other, theirs in self._derivative_arrays.items():
+            if theirs is lines or other[0] >= first + size or first >= sum(other):
+                continue
+            for at, length, earlier, name in theirs:
+                if at < slot + count and slot < at + length and _same_pass(path, earlier):
+                    return name
+        return None
+
+
+def _same_pass(path: Path, earlier: Path) -> bool:
+    """Whether some pass reaches two lines: they stand in no two branches of one `if`."""
+    branches = dict(path)
+    return all(branches.get(serial, branch) == branch for serial, branch in earlier)

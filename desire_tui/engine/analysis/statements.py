@@ -12,7 +12,7 @@ from desire_tui.engine.analysis.scope import UNKNOWN, size_of
 from desire_tui.engine.analysis.subscripts import constant
 from desire_tui.engine.analysis.targets import mark_held, mark_set, scalar_slot
 from desire_tui.engine.lowered import DelayLine, Get, Load, Set, Store, Terminate, TrackHold
-from desire_tui.engine.nodes import Name
+from desire_tui.engine.nodes import Element, Name
 
 if TYPE_CHECKING:
     from desire_tui.engine import nodes
@@ -42,8 +42,13 @@ def derivative(builder: Builder, node: nodes.Derivative) -> None:
     value = lower_kept(context, node.value)
     if slot is None:
         return
+    array_of = context.quantity(node.target.name) if isinstance(node.target, Element) else None
     if builder.is_second(slot, 1):
         context.report("state-twice", node.target, name=context.actual(node.target.name))
+    elif array_of is not None and UNKNOWN not in array_of.shape:
+        other = builder.overlaid(slot, 1, array_of)
+        if other is not None:
+            context.report("state-twice-overlaid", node.target, name=array_of.name, other=other)
     where = context.derivative_places.get(id(node)) if context.plain else None
     builder.derivative(slot, 1, value, where or context.where(node))
 

@@ -157,6 +157,11 @@ MESSAGES: dict[str, Wording] = {
         219, "'{word}' cannot be used in a DYNAMIC segment", "move it to the script, above DYNAMIC"
     ),
     "state-twice": Wording(101, "'{name}' has two derivatives", "remove one d/dt line"),
+    "state-twice-overlaid": Wording(
+        101,
+        "a state of '{name}' has two derivatives: it has one through '{other}' already",
+        "the two arrays share storage; remove one d/dt line",
+    ),
     "second-request": Wording(
         8, "a second {kind}: the segment has one in line {line}", "join the lists, or use another segment"
     ),
