@@ -16,9 +16,9 @@ ALIASES = {"zz": "erun", "rld": "reload", "quit": "bye", "old": "load", "MACRO":
 
 def keywords() -> list[str]:
     """Every word that the syntax tree knows as the beginning of a statement."""
-    words = list(get_args(nodes.Word)) + list(get_args(get_type_hints(nodes.FileCommand)["word"]))
+    words = list(get_args(nodes.Word)) + list(get_args(get_type_hints(nodes.FileCommand, localns=vars(nodes))["word"]))
     for cls in (nodes.Declare, nodes.Request, nodes.Learn):
-        words += get_args(get_type_hints(cls)["kind"])
+        words += get_args(get_type_hints(cls, localns=vars(nodes))["kind"])
     return sorted(set(words) - {"compare"})
 
 

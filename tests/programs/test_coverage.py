@@ -50,5 +50,5 @@ def test_the_table_has_every_statement():
     assert {cls.__name__ for cls in statements} == {
         cls.__name__ for cls in with_rows if issubclass(cls, nodes.Statement)
     }
-    codes = set(get_args(get_type_hints(nodes.Display)["mode"]))
+    codes = set(get_args(get_type_hints(nodes.Display, localns=vars(nodes))["mode"]))
     assert {row.split()[1] for row in SCRIPT if row.startswith("display ")} == codes

@@ -1,0 +1,104 @@
+"""A lowered segment: statements, states, what is sampled and shown, the JACOBIAN lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.nodes.record import node
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered.statements import Action, Where
+    from desire_tui.engine.lowered.values import Value
+    from desire_tui.engine.source import Source
+
+
+@node
+class StateRange:
+    """Consecutive states: `count` states from number `first` on live in `slot … slot+count-1`."""
+
+    name: str
+    slot: int
+    first: int
+    count: int
+    where: Where
+
+
+@node
+class Column:
+    """A requested variable: its name as written (`x`, `A[2]`) and its slot."""
+
+    name: str
+    slot: int
+    where: Where
+
+
+@node
+class Request:
+    """dispt, dispxy, DISPXY or type, with the variables they sample."""
+
+    kind: Literal["dispt", "dispxy", "DISPXY", "type"]
+    columns: tuple[Column, ...]
+    channel: int | None = None
+    where: Where | None = None
+
+
+@node
+class Picture:
+    """`SHOW A, ncol`: the array's values are kept at each communication point."""
+
+    name: str
+    slot: int
+    count: int
+    columns: int
+
+
+@node
+class Entry:
+    """J[row, column] = value, states from 0."""
+
+    row: int
+    column: int
+    value: Value
+    where: Where | None = None
+
+
+@node
+class Jacobian:
+    """The JACOBIAN segment: `body` computes helper variables, `entries` fill the matrix at `slot`."""
+
+    slot: int
+    body: tuple[Action, ...]
+    entries: tuple[Entry, ...]
+
+
+@dataclass(frozen=True)
+class Segment:
+    """Everything a back end needs. `requests` holds at most one display request and one `type`.
+
+    `scalars` lists the slots of scalars that the segment sets; `counters` says how many history positions
+    it has.
+    """
+
+    label: str | None
+    source: Source
+    body: tuple[Action, ...]
+    states: tuple[StateRange, ...]
+    requests: tuple[Request, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+    stash: tuple[Column, ...] = ()
+    recover: tuple[Column, ...] = ()
+    jacobian: Jacobian | None = None
+    counters: int = 0
+    scalars: tuple[int, ...] = ()
+    names: dict[int, str] = field(default_factory=dict)
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """What a row of samples holds behind t: the requests' variables in turn, then the stashed ones."""
+        return tuple(column for request in self.requests for column in request.columns) + self.stash
+
+    @property
+    def order(self) -> int:
+        """Number of states."""
+        return sum(r.count for r in self.states)

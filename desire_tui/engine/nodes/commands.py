@@ -1,0 +1,75 @@
+"""Commands to the desk, and statements that set up, start or work up a run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.nodes.record import Statement, node
+
+if TYPE_CHECKING:
+    from desire_tui.engine.nodes.expressions import Expr
+
+
+Word = Literal[
+    "else", "proceed", "end if", "next", "end while", "repeat", "exit", "end", "STOP", "go", "reset", "clear",
+    "time", "trace", "DYNAMIC", "OUT", "step", "JACOBIAN",
+    "erun", "run", "bye", "new", "NEW", "list", "list+", "ed", "edit", "reload", "keep+",
+]  # fmt: skip
+
+
+@node
+class Simple(Statement):
+    """A statement that is its keyword, aliases replaced (`zz` → `erun`, `rld` → `reload`, `quit` → `bye`)."""
+
+    word: Word
+    start: int = 0
+    end: int = 0
+
+
+@node
+class FileCommand(Statement):
+    """`keep 'f'`, `load 'f'`, `snapshot 'f'`, `notebook 'f'|on|off`, `help x`, `sh …`, `compare …`."""
+
+    word: Literal["keep", "keep+", "load", "snapshot", "notebook", "help", "sh", "compare"]
+    argument: str | None
+    start: int = 0
+    end: int = 0
+
+
+@node
+class Irule(Statement):
+    """`irule n`; bare prints the current rule."""
+
+    rule: Expr | None
+    start: int = 0
+    end: int = 0
+
+
+@node
+class Seed(Statement):
+    """`SEED n`."""
+
+    value: Expr
+    start: int = 0
+    end: int = 0
+
+
+@node
+class Drun(Statement):
+    """`drun`, `drun L`, `drun *` (`star`), `drunr …` (`reset`)."""
+
+    label: str | None
+    reset: bool
+    star: bool
+    start: int = 0
+    end: int = 0
+
+
+@node
+class Fft(Statement):
+    """`FFT F, n, x, y`."""
+
+    kind: Literal["F", "I", "R", "C"]
+    args: tuple[Expr, ...]
+    start: int = 0
+    end: int = 0

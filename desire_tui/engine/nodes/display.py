@@ -1,0 +1,50 @@
+"""Statements that draw, and requests for samples of a run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.nodes.record import Statement, node
+
+if TYPE_CHECKING:
+    from desire_tui.engine.nodes.expressions import Expr, Target
+
+
+@node
+class Display(Statement):
+    """`display 2`, `display N14`, `display W 10,20`. `mode` is `0 1 2` or the letter."""
+
+    mode: Literal["0", "1", "2", "A", "B", "C", "F", "N", "Q", "R", "W", "Y"]
+    args: tuple[Expr, ...]
+    start: int = 0
+    end: int = 0
+
+
+@node
+class Plot(Statement):
+    """`plot x, y [, c]`, `plot z [, c]`."""
+
+    args: tuple[Expr, ...]
+    start: int = 0
+    end: int = 0
+
+
+@node
+class Show(Statement):
+    """`SHOW A, ncol`."""
+
+    name: str
+    columns: Expr | None
+    start: int = 0
+    end: int = 0
+
+
+@node
+class Request(Statement):
+    """`dispt`, `dispxy`, `DISPXY`, `type [#n,]`, `stash`, `recover`."""
+
+    kind: Literal["dispt", "dispxy", "DISPXY", "type", "stash", "recover"]
+    channel: Expr | None
+    items: tuple[Target, ...]
+    start: int = 0
+    end: int = 0
