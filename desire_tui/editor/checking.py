@@ -1,4 +1,7 @@
-"""Problems while typing: programs are checked in a thread of their own, only the newest text of each tab."""
+"""Problems while typing: programs are checked in a thread of their own, only the newest text of each tab.
+
+A quick check follows each key; a closer look waits until nobody types.
+"""
 
 from __future__ import annotations
 
@@ -15,22 +18,33 @@ if TYPE_CHECKING:
 
     Report = Callable[[int, int, "tuple[Diagnostic, ...]"], None]
     Check = Callable[[Source], "tuple[Diagnostic, ...]"]
+    Checked = tuple[int, Source, "tuple[Diagnostic, ...]"]
 
 CHECKED_MAX = 2_000_000
 """Longer texts are not checked while typing (characters)."""
+QUIET_SECONDS = 0.5
+"""Nobody has typed for so long: time for a closer look."""
 
 
 class Checker:
     """Checks texts one after the other.
 
-    `report(tab number, version, problems)` is called in the checking thread.
+    `report(tab number, version, problems)` is called in the checking thread; once more if `look_closer`
+    finds something else than `check` did.
     """
 
-    def __init__(self, check: Check, report: Report, fault: Callable[[Exception], object]) -> None:
-        self._check = check
+    def __init__(
+        self,
+        check: Check,
+        report: Report,
+        fault: Callable[[Exception], object],
+        look_closer: Check | None = None,
+    ) -> None:
+        self._check, self._look_closer = check, look_closer
         self._report = report
         self._fault = fault
         self._wanted: dict[int, tuple[int, Source]] = {}
+        self._checked: dict[int, Checked] = {}  # waiting for a closer look
         self._news = threading.Condition()
         self._thread: threading.Thread | None = None
 
@@ -47,14 +61,35 @@ class Checker:
 
     def _work(self) -> None:
         while True:
-            with self._news:
-                while not self._wanted:
-                    self._news.wait()
-                number = next(iter(self._wanted))
-                version, source = self._wanted.pop(number)
+            wanted = self._next_wanted()
             try:
-                problems = self._check(source)
+                if wanted is None:
+                    self._closer()
+                else:
+                    self._quickly(*wanted)
             except Exception as error:  # noqa: BLE001 - a fault in a check must not end all checking
                 self._fault(error)
-            else:
-                self._report(number, version, problems)
+
+    def _next_wanted(self) -> tuple[int, int, Source] | None:
+        """Wait for a text; None: it is quiet, and some are waiting for a closer look."""
+        with self._news:
+            self._news.wait_for(lambda: self._wanted, QUIET_SECONDS if self._checked else None)
+            if not self._wanted:
+                return None
+            number = next(iter(self._wanted))
+            return number, *self._wanted.pop(number)
+
+    def _quickly(self, number: int, version: int, source: Source) -> None:
+        self._checked.pop(number, None)
+        problems = self._check(source)
+        if self._look_closer is not None:
+            self._checked[number] = (version, source, problems)
+        self._report(number, version, problems)
+
+    def _closer(self) -> None:
+        number = next(iter(self._checked))
+        version, source, known = self._checked.pop(number)
+        assert self._look_closer is not None
+        problems = self._look_closer(source)
+        if problems != known:
+            self._report(number, version, problems)

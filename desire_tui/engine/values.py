@@ -81,10 +81,12 @@ class Values:
     `defined[slot]` is 0 for a scalar nobody has assigned yet (array elements are always defined, and their
     slots, from `SCALAR_SLOTS` on, have no place in it: ask `is_defined`);
     `random[0]` is the 48-bit state of `ran()`; `generation` counts how often all names were cleared.
+    `elements_most` limits the arrays; by default the machine's memory does.
     """
 
-    def __init__(self) -> None:
-        self._memory, self.capacity = _reserve()
+    def __init__(self, elements_most: int | None = None) -> None:
+        allowed = _allowed_bytes() if elements_most is None else 8 * (SCALAR_SLOTS + elements_most)
+        self._memory, self.capacity = _reserve(allowed)
         view = memoryview(self._memory)
         self.cells: memoryview[float] = view.cast("d")
         self.data: NDArray[np.float64] = np.frombuffer(view, dtype=np.float64)
@@ -214,9 +216,9 @@ def _allowed_bytes() -> int:
     return max(size // 4 * 3, 1 << 27)
 
 
-def _reserve() -> tuple[mmap.mmap, int]:
-    """Reserve address space for as many doubles as the machine's memory could hold, or what is allowed."""
-    size = _pages(_allowed_bytes())
+def _reserve(allowed: int) -> tuple[mmap.mmap, int]:
+    """Reserve address space of so many bytes, or as many as there are; return it and its doubles."""
+    size = _pages(allowed)
     while True:
         try:
             flags = mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | _NO_RESERVE

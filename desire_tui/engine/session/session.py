@@ -57,7 +57,7 @@ class Session:
         self._commands = Commands(self, self._desk, self._world, self._listener)
         self._world.carry_out = self._commands.carry_out
         self._script = Script(self._desk, self._world, self._control, self._listener)
-        self._checked: tuple[Source | None, tuple[Diagnostic, ...]] = (None, ())
+        self._checked: tuple[Source | None, bool, tuple[Diagnostic, ...]] = (None, False, ())
 
     # ------------------------------------------------------------------ what there is
 
@@ -145,21 +145,31 @@ class Session:
         self._desk.structure = structure(self._desk.program)
         self._desk.journal.program(source)
         if self._listener.wants_check:
-            problems = self.check(source)
+            problems = self.check(source, quick=True)  # the run itself compares the JACOBIAN it uses
         else:
             problems = tuple(p.within(source) for p in program.problems)
         self._listener.program_accepted(program, problems)
         return problems
 
-    def check(self, source: Source) -> tuple[Diagnostic, ...]:
-        """Return all problems of a text (parser, structure, static check) without touching the session."""
+    def check(self, source: Source, *, quick: bool = False) -> tuple[Diagnostic, ...]:
+        """Return all problems of a text without touching the session, in the order of their places.
+
+        Parser, structure, static check; for a text without errors also JACOBIAN segments that disagree with
+        the model (warnings 462). `quick` leaves those out, which may take some 20 ms.
+        """
         from desire_tui.engine.analysis import check
+        from desire_tui.engine.session.rehearsal import wrong_jacobians
         from desire_tui.engine.syntax import parse
 
-        known, problems = self._checked  # one reference: read and written as a whole
-        if known != source:
-            problems = tuple(d.within(source) for d in check(parse(source)))
-            self._checked = (source, problems)
+        known, whole, problems = self._checked  # one reference: read and written as a whole
+        if known == source and (whole or quick):
+            return problems
+        program = parse(source)
+        problems = check(program)
+        if not quick and not any(d.severity == "error" for d in problems):
+            problems = tuple(sorted((*problems, *wrong_jacobians(program)), key=lambda d: d.span or (0, 0)))
+        problems = tuple(d.within(source) for d in problems)
+        self._checked = (source, not quick, problems)
         return problems
 
     def override(self, settings: Mapping[str, float]) -> None:

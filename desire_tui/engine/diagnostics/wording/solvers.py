@@ -78,6 +78,11 @@ MESSAGES: dict[str, Wording] = {
         "J[{row},{column}] is {given:.6g} but the derivative of d/dt {state} by {by} is {found:.6g} here",
         "states count in the order of their d/dt lines; rule 15 needs no JACOBIAN",
     ),
+    "jacobian-differs": Wording(
+        462,
+        "J[{row},{column}] is {given:.6g} but d/dt {state}, differentiated by {by}, is {exact:.6g} at {place}",
+        "states count in the order of their d/dt lines; without JACOBIAN rule 14 differentiates the model itself",
+    ),
     "jacobian-not-diagonal": Wording(
         463,
         "rule {rule} keeps only the Jacobian's diagonal, but it is far from diagonal: results may be wrong",
