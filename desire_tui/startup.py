@@ -43,8 +43,13 @@ async def _first_example(app: DesireApp) -> None:
     folder = examples_folder()
     found = next((folder / name for name in FIRST_EXAMPLES if (folder / name).exists()), None)
     found = found or next(iter(sorted(folder.rglob("*.src"))), None)
-    if found is not None:
-        await app.file.open_path(found, focus=False)
+    if found is None:
+        return
+    try:
+        await app.file.open_example(found, found.read_text(encoding="utf-8"))
+    except OSError:
+        return
+    if not app.tour.was_taken:
         app.tour.begin()
 
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import TYPE_CHECKING
 
+from desire_tui.places import state_folder
+
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from desire_tui.app import DesireApp
 
 WELCOME = """\
@@ -25,8 +30,16 @@ class Tour:
         self._next: list[str] = []
         self._ran = False
 
+    @property
+    def was_taken(self) -> bool:
+        """Whether the tour began once on this machine."""
+        return _mark().exists()
+
     def begin(self) -> None:
-        """Start the tour."""
+        """Start the tour, and remember that."""
+        with contextlib.suppress(OSError):  # a state folder that cannot be written: the tour comes again
+            _mark().parent.mkdir(parents=True, exist_ok=True)
+            _mark().touch()
         self._next = list(NEXT)
         self._app.command.console.add(WELCOME, "notice")
 
@@ -39,3 +52,7 @@ class Tour:
         if self._ran and self._next:
             self._app.command.console.add(self._next.pop(0), "notice")
         self._ran = False
+
+
+def _mark() -> Path:
+    return state_folder() / "tour-taken"

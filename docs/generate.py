@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.help import topics
+from desire_tui.help.examples import CHAPTERS, Example, examples
 from tests.programs.coverage import markdown as tested_where
 
 if TYPE_CHECKING:
@@ -24,18 +25,6 @@ NOTE = "<!-- made by python -m docs.generate; edit the tables it reads, not this
 GALLERY = """\
 {count} programs, one for every system of the book and more. Open them with F11 in the app, or by name:
 `desire examples/ch2/lorenz.src`. The `--?` lines say what they must show; a test holds them to it."""
-
-CHAPTERS = {
-    "ch1": "First steps: runs, samples, integration rules",
-    "ch2": "Oscillators, reactors, flight, orbits, populations",
-    "ch3": "Control, parameter studies, difference equations, sampled data",
-    "ch4": "Functions, noise, limiters, hysteresis, relays, submodels",
-    "ch5": "The script: control flow, procedures, arrays, files, console",
-    "ch6": "Vectors and matrices, filters, Monte Carlo studies, partial differential equations, delays",
-    "ch7": "Benchmarks, models with events, physiology, system dynamics",
-    "ch8": "Fast plots, statistics, complex numbers, Fourier transforms",
-    "appendix": "Integration errors and stiff systems",
-}
 
 
 def statements() -> str:
@@ -76,37 +65,22 @@ def _section(page: Topic) -> str:
 
 def gallery() -> str:
     """Every example with what it shows, and pictures of some."""
-    count = sum(1 for _ in EXAMPLES.glob("*/*.src"))
-    parts = [
-        "# Examples",
-        NOTE,
-        GALLERY.format(count=count),
-    ]
+    every = examples(EXAMPLES)
+    parts = ["# Examples", NOTE, GALLERY.format(count=len(every))]
     for folder, title in CHAPTERS.items():
-        parts += [f"## {_chapter(folder)}. {title}", _list(sorted((EXAMPLES / folder).glob("*.src")))]
-        names = [path.stem for path in sorted((EXAMPLES / folder).glob("*.src"))]
-        drawn = [name for name in names if (DOCS / "pictures" / f"{name}.png").exists()]
+        here = [example for example in every if example.folder == folder]
+        parts += [f"## {here[0].chapter}. {title}", _list(here)]
+        drawn = [e.name for e in here if (DOCS / "pictures" / f"{e.name}.png").exists()]
         parts += [f"![{name}](pictures/{name}.png)\n*{name}*" for name in drawn]
     return "\n\n".join(parts) + "\n"
 
 
-def _chapter(folder: str) -> str:
-    return "Appendix" if folder == "appendix" else f"Chapter {folder[2:]}"
-
-
-def _list(paths: Iterable[Path]) -> str:
-    rows = [f"| [{p.stem}](../examples/{p.parent.name}/{p.name}) | {first_comment(p)} |" for p in paths]
+def _list(programs: Iterable[Example]) -> str:
+    rows = []
+    for program in programs:
+        about = program.about.replace("|", "\\|").replace("*", "\\*")
+        rows.append(f"| [{program.name}](../examples/{program.folder}/{program.path.name}) | {about} |")
     return "\n".join(["| program | |", "| --- | --- |", *rows])
-
-
-def first_comment(path: Path) -> str:
-    """Return the comment lines at the top of a program as one text."""
-    lines = []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        if not line.startswith("-- "):
-            break
-        lines.append(line[3:].strip())
-    return " ".join(lines).replace("|", "\\|").replace("*", "\\*")
 
 
 def coverage() -> str:

@@ -271,10 +271,28 @@ class FileActions(Controller):
         del argument
         from desire_tui.panes.examples import ExamplesScreen
 
-        path = await self.app.push_screen_wait(ExamplesScreen())
-        if path is not None:
-            await self.open_path(path, focus=False)
-            self.app.command.prompt.focus()
+        chosen = await self.app.push_screen_wait(ExamplesScreen())
+        if chosen is None:
+            return
+        await self.open_example(chosen.example.path, chosen.example.text)
+        self.app.command.prompt.focus()
+        if chosen.run:
+            self.app.do("run.start")
+
+    async def open_example(self, path: Path, text: str) -> None:
+        """Open a copy of an example, so that saving it never changes the original.
+
+        An untouched copy that is open already comes to the front.
+        """
+        editor = self.app.editor
+        known = (a for a in editor.areas if a.buffer.name == path.name and a.text == text)
+        if (area := next(known, None)) is not None:
+            editor.show(area)
+            return
+        blank = editor.front if not editor.front.text and editor.front.buffer.path is None else None
+        await editor.add(Buffer(label=path.name, saved_text=text))
+        if blank is not None and blank is not editor.active:
+            await editor.close_tab(blank)
 
     async def ask_name(self, title: str, value: str) -> str | None:
         """Ask for a file name."""
