@@ -22,7 +22,6 @@ from desire_tui.actions.help import HelpActions
 from desire_tui.actions.run import RunActions
 from desire_tui.actions.view import ViewActions
 from desire_tui.desk import Desk
-from desire_tui.editor.area import CodeArea
 from desire_tui.editor.checking import Checker
 from desire_tui.editor.completer import Completer
 from desire_tui.editor.keeper import Keeper
@@ -39,7 +38,6 @@ from desire_tui.panes.graph import GraphPane
 from desire_tui.panes.history import History
 from desire_tui.panes.keynames import key_names
 from desire_tui.panes.problems import ProblemsPane
-from desire_tui.panes.prompt import Prompt
 from desire_tui.panes.quantities import QuantitiesPane
 from desire_tui.shell import Shell
 from desire_tui.startup import open_first
@@ -106,6 +104,7 @@ class DesireApp(Shell):
         self.set_keymap(config.keymap(self.settings))
         self.keeper = Keeper(self.editor)
         self.completer = Completer(self, self.desk.query_one(CompletionPopup))
+        self.editor.aid = self.command.prompt.aid = self.completer
         await open_first(self)
         for sentence in (*self._complaints, *self._theme_complaint()):
             self.complain(sentence, code=None)
@@ -243,19 +242,6 @@ class DesireApp(Shell):
             return
         buffer = event.area.buffer
         self.checker.ask(buffer, self.editor.versions.get(buffer.number, 0), event.area.text)
-
-    @on(EditorPane.Typed)
-    def _typed(self) -> None:
-        self.completer.open(forced=False)
-
-    @on(CodeArea.PopupKey)
-    @on(Prompt.PopupKey)
-    def _popup_key(self, event: CodeArea.PopupKey | Prompt.PopupKey) -> None:
-        self.completer.key(event.key)
-
-    @on(Prompt.CompletionWanted)
-    def _completion_wanted(self) -> None:
-        self.completer.open(forced=True)
 
     @on(CompletionPopup.OptionSelected, "#completion")
     def _completion_clicked(self) -> None:

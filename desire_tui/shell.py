@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from textual import events
 from textual.app import App
 
-from desire_tui import places
+from desire_tui import keyorder, places
 from desire_tui.editor.pane import EditorPane
 from desire_tui.engine.session import State
 from desire_tui.panes.command import CommandPane
@@ -37,6 +38,13 @@ class Shell(App[None]):
     def session(self) -> Session:
         """The engine; waits for it during the first moments."""
         return self.engine.session
+
+    async def on_event(self, event: events.Event) -> None:
+        """Deal with an event; keys in the order in which they were typed."""
+        if isinstance(event, events.Key) and not event.is_forwarded and not event.is_printable:
+            await keyorder.carry_out(self, event, super().on_event)
+        else:
+            await super().on_event(event)
 
     # ----------------------------------------------------------------------------------------------- panes
 

@@ -67,7 +67,7 @@ class EditActions(Controller):
     def complete(self, argument: str = "") -> None:
         """Open the list of completions."""
         del argument
-        self.app.completer.open(forced=True)
+        self.app.completer.open()
 
     def _go_to_problem(self, step: int) -> None:
         area = self.app.editor.front

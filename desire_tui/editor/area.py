@@ -15,12 +15,12 @@ from textual.binding import Binding, BindingType
 from textual.document._document import Document
 from textual.document._document_navigator import DocumentNavigator
 from textual.geometry import Size
-from textual.message import Message
 from textual.strip import Strip
 from textual.widgets import TextArea
 from textual.widgets.text_area import Selection
 
 from desire_tui.editor import indent
+from desire_tui.editor.aid import TypingAid
 from desire_tui.editor.highlighting import LineHighlights
 from desire_tui.editor.marks import Marks
 from desire_tui.editor.unwrapped import UnwrappedDocument
@@ -59,17 +59,10 @@ class CodeArea(TextArea):
         Binding("alt+shift+down", "move_line(1)", "Move line down", show=False),
     ]
 
-    class PopupKey(Message):
-        """A key for the completion list, while one is open."""
-
-        def __init__(self, key: str) -> None:
-            super().__init__()
-            self.key = key
-
     def __init__(self, buffer: Buffer, text: str) -> None:
         self.buffer = buffer
         self.marks = Marks()
-        self.popup_open = False
+        self.aid = TypingAid()
         self._width_most = 0
         self._text: str | None = None
         super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
@@ -197,10 +190,9 @@ class CodeArea(TextArea):
     # ----------------------------------------------------------------------------------------------- typing
 
     async def _on_key(self, event: events.Key) -> None:
-        if self.popup_open and event.key in {"up", "down", "enter", "tab", "escape", "pageup", "pagedown"}:
+        if self.aid.takes(event, self):
             event.stop()
             event.prevent_default()
-            self.post_message(self.PopupKey(event.key))
             return
         if event.key == "escape":  # TextArea would move the focus
             return
@@ -215,6 +207,12 @@ class CodeArea(TextArea):
             self.action_shift_lines(1)
             return
         await super()._on_key(event)
+        if event.is_printable:
+            self.aid.typed(self)
+
+    def on_blur(self) -> None:
+        """Close the completions."""
+        self.aid.left(self)
 
     def _new_line(self) -> None:
         row, column = self.cursor_location

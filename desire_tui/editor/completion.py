@@ -11,11 +11,16 @@ from desire_tui.commands import COMMANDS
 from desire_tui.help import topics
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
 _WORD = re.compile(r"[A-Za-z][A-Za-z0-9_$]*")
-_TAIL = re.compile(r"[A-Za-z][A-Za-z0-9_$/]*$")
+_TAIL = re.compile(r"(?<![A-Za-z0-9_$.])(?:d/[A-Za-z]*|[A-Za-z][A-Za-z0-9_$]*)$")
+"""`d/dt` is the one word with a stroke; what follows a digit or a point is a number's exponent."""
+_TYPED = re.compile(r"d/[A-Za-z]*|[A-Za-z][A-Za-z0-9_$]*")
 OFFERED_MAX = 60
+LINES_SEARCHED, LINE_SEARCHED = 2000, 1000
+"""So many lines before and behind the cursor are searched for names, and so many characters of each."""
+OWN_NAME = "name in this program"
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +40,21 @@ def prefix_of(line: str, column: int) -> str:
     return found.group() if found else ""
 
 
+def around(lines: Sequence[str], row: int) -> str:
+    """Return the lines around a row, as many as are searched for names."""
+    top, bottom = max(0, row - LINES_SEARCHED), row + LINES_SEARCHED
+    return "\n".join(line[:LINE_SEARCHED] for line in lines[top:bottom])
+
+
 def offers(
-    prefix: str, texts: Iterable[str], known: Mapping[str, str], *, commands: bool = False
+    prefix: str,
+    texts: Iterable[str],
+    known: Mapping[str, str],
+    *,
+    commands: bool = False,
+    complete: bool = False,
 ) -> list[Offer]:
-    """Return completions of `prefix`, the program's own names first.
+    """Return completions of `prefix`, the program's own names first; itself before all if it is `complete`.
 
     `texts` are programs whose names count, `known` are names with a line about each (quantities with their
     values); with `commands` the command line's words are offered too.
@@ -46,20 +62,35 @@ def offers(
     about = _words(commands=commands)
     own: dict[str, str] = dict(known)
     for text in texts:
-        for word in _WORD.findall(_without_comments(text)):
+        for word in _names(text):
             own.setdefault(word, "")
     found = [
-        Offer(word, own[word] or "name in this program")
+        Offer(word, own[word] or OWN_NAME)
         for word in sorted(own)
         if _fits(prefix, word) and word not in about
     ]
     found += [Offer(word, line) for word, line in sorted(about.items()) if _fits(prefix, word)]
     found.sort(key=lambda offer: not offer.word.startswith(prefix))
+    if complete:
+        found.insert(0, Offer(prefix, own.get(prefix) or about.get(prefix) or OWN_NAME))
     return found[:OFFERED_MAX]
+
+
+def is_complete(
+    word: str, texts: Iterable[str], known: Mapping[str, str], *, commands: bool = False, itself: int = 1
+) -> bool:
+    """Whether a word is one already: the language's, a quantity, or in the texts beyond `itself` times."""
+    if word in known or word in _words(commands=commands):
+        return True
+    return sum(name == word for text in texts for name in _names(text)) > itself
 
 
 def _fits(prefix: str, word: str) -> bool:
     return word != prefix and word.casefold().startswith(prefix.casefold())
+
+
+def _names(text: str) -> list[str]:
+    return _WORD.findall(_without_comments(text))
 
 
 def _without_comments(text: str) -> str:
@@ -79,7 +110,7 @@ def _words(*, commands: bool) -> dict[str, str]:
         if page.kind == "error" or (page.kind == "command" and not commands):
             continue
         for word in (page.name, *page.words):
-            if _TAIL.fullmatch(word):
+            if _TYPED.fullmatch(word):
                 table.setdefault(word, page.summary)
     if commands:
         for command in COMMANDS:

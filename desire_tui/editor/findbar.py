@@ -132,5 +132,7 @@ class FindBar(Horizontal):
 
     def action_close(self) -> None:
         """Hide the bar."""
+        if self.area is not None:
+            self.screen.set_focus(self.area)  # at once: letters typed next belong there
         self.display = False
         self.post_message(self.Closed())

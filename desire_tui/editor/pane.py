@@ -9,6 +9,7 @@ from textual.containers import Horizontal, Vertical
 from textual.message import Message
 from textual.widgets import Label, TextArea
 
+from desire_tui.editor.aid import TypingAid
 from desire_tui.editor.area import CodeArea
 from desire_tui.editor.buffer import Buffer
 from desire_tui.editor.findbar import FindBar
@@ -55,9 +56,6 @@ class EditorPane(Vertical):
             super().__init__()
             self.area = area
 
-    class Typed(Message):
-        """The text in front changed."""
-
     def __init__(self) -> None:
         super().__init__(id="editor")
         self.areas: list[CodeArea] = []
@@ -66,6 +64,8 @@ class EditorPane(Vertical):
         self.active: CodeArea | None = None
         self.versions: dict[int, int] = {}
         self._check_timer: Timer | None = None
+        self.aid = TypingAid()
+        """What completes words in the texts; set before the first tab is opened."""
 
     def compose(self) -> ComposeResult:
         """Tabs above, texts, find bar and message row below."""
@@ -88,6 +88,7 @@ class EditorPane(Vertical):
     async def add(self, buffer: Buffer, text: str | None = None, *, front: bool = True) -> CodeArea:
         """Open a tab; an untouched empty one is replaced."""
         area = CodeArea(buffer, buffer.saved_text if text is None else text)
+        area.aid = self.aid
         blank = (
             self._front if self._front and not self._front.text and self._front.buffer.path is None else None
         )
@@ -196,8 +197,7 @@ class EditorPane(Vertical):
         assert isinstance(area, CodeArea)
         self.versions[area.buffer.number] = self.versions.get(area.buffer.number, 0) + 1
         self.refresh_tabs()
-        if area.has_focus:
-            self.post_message(self.Typed())
+        area.aid.moved(area)
         self._ask_check(area)
 
     def _ask_check(self, area: CodeArea) -> None:
@@ -210,6 +210,9 @@ class EditorPane(Vertical):
     @on(TextArea.SelectionChanged)
     def _moved(self, event: TextArea.SelectionChanged) -> None:
         event.stop()
+        area = event.text_area
+        assert isinstance(area, CodeArea)
+        area.aid.moved(area)
         self._tell_place()
 
     def _tell_place(self) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 from typing import TYPE_CHECKING
 
 from rich.text import Text
@@ -37,6 +39,8 @@ class CompletionPopup(OptionList):
         super().__init__(id="completion")
         self.offered: list[Offer] = []
         self.prefix = ""
+        self.seen_at = math.inf
+        """When the list was drawn, on the clock of `Message.time`; infinite before."""
 
     @property
     def is_open(self) -> bool:
@@ -70,11 +74,17 @@ class CompletionPopup(OptionList):
         self.styles.width = width
         self.styles.offset = (x, max(0, y))
         self.highlighted = 0
-        self.display = True
+        if not self.is_open:
+            self.display = True
+            self.call_after_refresh(self._drawn)
+
+    def _drawn(self) -> None:
+        self.seen_at = time.monotonic()
 
     def close(self) -> None:
         """Hide the list."""
         self.display = False
+        self.seen_at = math.inf
 
     def move(self, key: str) -> None:
         """Move the mark as an arrow or page key asks."""

@@ -8,6 +8,8 @@ from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets import Input
 
+from desire_tui.editor.aid import TypingAid
+
 if TYPE_CHECKING:
     from textual import events
 
@@ -34,16 +36,6 @@ class Prompt(Input):
             super().__init__()
             self.lines = lines
 
-    class CompletionWanted(Message):
-        """Tab was pressed."""
-
-    class PopupKey(Message):
-        """A key for the completion list, while one is open."""
-
-        def __init__(self, key: str) -> None:
-            super().__init__()
-            self.key = key
-
     class Searching(Message):
         """The history search began, went on, or ended (`pattern` None)."""
 
@@ -54,7 +46,7 @@ class Prompt(Input):
     def __init__(self, history: History) -> None:
         super().__init__(id="prompt", select_on_focus=False)
         self.history = history
-        self.popup_open = False
+        self.aid = TypingAid()
         self._pattern: str | None = None
         self._hit: int | None = None
 
@@ -105,19 +97,27 @@ class Prompt(Input):
     # ------------------------------------------------------------------------------------------------ keys
 
     async def _on_key(self, event: events.Key) -> None:
-        if self.popup_open and event.key in {"up", "down", "enter", "tab", "escape", "pageup", "pagedown"}:
-            self.post_message(self.PopupKey(event.key))
-        elif self._pattern is not None and self._search_key(event):
+        if self.aid.takes(event, self) or (self._pattern is not None and self._search_key(event)):
             pass
         elif event.key == "tab":
-            self.post_message(self.CompletionWanted())
+            self.aid.wanted(self)
         elif event.key == "enter":
             self._enter()
         else:
             await super()._on_key(event)
+            if event.is_printable:
+                self.aid.typed(self)
             return
         event.stop()
         event.prevent_default()
+
+    def on_blur(self) -> None:
+        """Close the completions."""
+        self.aid.left(self)
+
+    def on_input_changed(self) -> None:
+        """Close completions that no longer fit."""
+        self.aid.moved(self)
 
     def _search_key(self, event: events.Key) -> bool:
         """Handle a key of the history search; False if it ends the search and counts as usual."""
