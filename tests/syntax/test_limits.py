@@ -23,7 +23,7 @@ HOSTILE = {
     "x = " + "(" * 10_000 + "1" + ")" * 10_000: "nested-too-deep",
     "x = " + "-" * 1 + "+" * 10_000 + "1": "expression-too-deep",
     "x = " + "2^" * 10_000 + "1": "expression-too-deep",
-    "x = " + "1+" * 10_000 + "1": "expression-too-deep",
+    "x = " + "1-(-" * 99 + "1" + ")" * 99: "expression-too-deep",
     "if " + "not " * 10_000 + "a > b then": "expression-too-deep",
     "x = " + "y" * 10_000_000: "line-too-long",
     "x = 1 + _\n" * 200_000: "line-too-long",

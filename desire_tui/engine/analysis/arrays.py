@@ -8,6 +8,7 @@ from desire_tui.engine.analysis.expressions import lower
 from desire_tui.engine.analysis.products import array, matrix_vector, nonconformable, note_read, unsigned
 from desire_tui.engine.analysis.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.analysis.targets import mark_array, mark_set, matrix, scalar_slot, vector
+from desire_tui.engine.chains import chain
 from desire_tui.engine.lowered import DotTerm, SetDot, SetMat, SetVec, Vec
 from desire_tui.engine.nodes import Binary, Name, Number, Unary
 
@@ -103,12 +104,16 @@ def dot(builder: Builder, node: nodes.Dot) -> None:
 
 def _terms(node: Expr, sign: float) -> list[tuple[float, Expr]]:
     """Split a sum into signed terms, from left to right."""
-    if isinstance(node, Binary) and node.op in "+-":
-        right = sign if node.op == "+" else -sign
-        return [*_terms(node.left, sign), *_terms(node.right, right)]
     if isinstance(node, Unary):
         return _terms(node.operand, -sign if node.op == "-" else sign)
-    return [(sign, node)]
+    following: list[tuple[float, Expr]] = []
+    first, steps = chain(node)
+    while steps and steps[-1].op in "+-":
+        step = steps.pop()
+        following += _terms(step.right, sign if step.op == "+" else -sign)[::-1]
+    if not following:
+        return [(sign, node)]
+    return [*_terms(steps[-1] if steps else first, sign), *following[::-1]]
 
 
 def _dot_term(builder: Builder, sign: float, node: Expr) -> DotTerm | None:

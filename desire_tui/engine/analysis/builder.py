@@ -176,8 +176,8 @@ class Builder:
     def overlaid(self, slot: int, count: int, array: Quantity) -> str | None:
         """Return the array through which some of these states of `array` have a `d/dt` already (error 101).
 
-        An element may be given a derivative of its own beside its vector's (boundary elements), but not beside
-        that of another array that shares only a part of the storage.
+        An element may be given a derivative of its own beside its vector's (boundary elements), but not
+        beside that of another array that shares only a part of the storage.
         """
         path = self.path if self.guards else ()
         first, size = array.slot, prod(array.shape)

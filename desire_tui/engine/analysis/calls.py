@@ -70,12 +70,12 @@ def _expanded(context: Context, node: Call, extent: Extent) -> Value:
     context.enter(Frame(function.at, {}, arguments, invoked, called))
     value = expressions.lower(context, function.node.body, extent)
     context.enter(frame)
-    if not frame.calls and _levels(value) > LEVELS_MOST:
+    if not frame.calls and levels_of(value) > LEVELS_MOST:
         return context.report("expression-too-deep", node, limit=LEVELS_MOST)
     return value
 
 
-def _levels(value: Value) -> int:
+def levels_of(value: Value) -> int:
     """Return how deep an expression is; parts that stand at several places are looked at once."""
     depth: dict[int, int] = {}
     rest = [value]

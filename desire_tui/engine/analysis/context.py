@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from desire_tui.engine.analysis.scope import Scope
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered import Action, Value
     from desire_tui.engine.nodes import Expr, Function, Node
 
 BAD = Const(0.0)
@@ -90,6 +90,8 @@ class Context:
         self.complained: set[str] = set()
         self.reads: list[str] = []
         """Names that the expression being lowered has read; "" for what is more than reading a name."""
+        self.before: list[Action] = []
+        """What the present statement computes first: the pieces of its long chains (`pieces`)."""
         self.redefines_library = not functions.keys().isdisjoint(LIBRARY)
 
     def enter(self, frame: Frame) -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine import nodes
 from desire_tui.engine.analysis.scope import SYSTEM_SLOTS, UNKNOWN, StaticScope
+from desire_tui.engine.chains import chain
 from desire_tui.engine.library import power
 from desire_tui.engine.nodes import Binary, Declare, Name, Number, Unary
 from desire_tui.engine.values import Kind, Quantity
@@ -206,11 +207,19 @@ def _evaluate(node: Expr, known: dict[str, float]) -> float | None:
         return None if value is None else -value if node.op == "-" else value
     if not isinstance(node, Binary):
         return None
-    left, right = _evaluate(node.left, known), _evaluate(node.right, known)
-    if left is None or right is None:
-        return None
+    first, steps = chain(node) if node.op != "^" else (node.left, [node])
+    result = _evaluate(first, known)
+    for step in steps:
+        right = _evaluate(step.right, known)
+        if result is None or right is None:
+            return None
+        result = _computed(step.op, result, right)
+    return result
+
+
+def _computed(op: str, left: float, right: float) -> float | None:
     try:
-        match node.op:
+        match op:
             case "+":
                 return left + right
             case "-":

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.analysis import calls, products
+from desire_tui.engine.analysis import calls, pieces, products
 from desire_tui.engine.analysis.context import BAD
 from desire_tui.engine.analysis.subscripts import element
+from desire_tui.engine.chains import LONG
 from desire_tui.engine.lowered import Const, Load, Op
 from desire_tui.engine.nodes import (
     Binary,
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 Extent = tuple[int, ...]
 SCALAR: Extent = ()
 
-_NAMES = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
+OPERATIONS = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
 
 
 def lower(context: Context, node: Expr, extent: Extent = SCALAR) -> Value:
@@ -100,11 +101,13 @@ def subscripted(context: Context, node: Element) -> Value:
 def binary(context: Context, node: Binary, extent: Extent) -> Value:
     """Lower an operation; products over an extent may hold matrix/vector products."""
     op = node.op
+    if node.end - node.start >= LONG and op != "^":
+        return pieces.lower_long(context, node, extent)
     if extent and op in "*/&":
         return products.product(context, node, extent)
     left = lower(context, node.left, extent)
     right = lower(context, node.right, extent)
-    operation = _NAMES.get(op)
+    operation = OPERATIONS.get(op)
     if operation is not None:
         return Op(operation, (left, right))
     if op == "^":

@@ -49,13 +49,18 @@ def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
         target = node.target
         quantity = context.quantity(target.name) if isinstance(target, Element) else None
         if not isinstance(target, Element) or quantity is None or len(quantity.shape) != 2:
+            place = len(builder.body)
             assign(builder, node)
+            builder.body[place:place] = context.before
+            context.before.clear()
             continue
         if matrix not in (None, quantity.name):
             context.report("second-jacobian", target, name=quantity.name, first=matrix)
             continue
         matrix, slot = quantity.name, quantity.slot
         value = lower(context, node.value)
+        builder.body += context.before
+        context.before.clear()
         row, column = (constant(context, s) for s in target.subscripts)
         if row is None or column is None:
             continue

@@ -13,6 +13,7 @@ from desire_tui.engine.analysis import expressions
 from desire_tui.engine.analysis.context import BAD
 from desire_tui.engine.analysis.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.analysis.subscripts import constant
+from desire_tui.engine.chains import PIECE, is_long
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import rounded
 from desire_tui.engine.lowered import MatVec, Op, Outer, RowOf, Shifted, Vec
@@ -22,6 +23,8 @@ from desire_tui.engine.nodes import Shifted as ShiftedNode
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.engine.analysis.context import Context
     from desire_tui.engine.analysis.expressions import Extent
     from desire_tui.engine.lowered import Value
@@ -30,8 +33,13 @@ if TYPE_CHECKING:
 _OPERATIONS = {"*": "mul", "/": "div"}
 
 
-def product(context: Context, node: Binary, extent: Extent) -> Value:
-    """Lower a chain of factors from left to right, with `A*x`, `A%*x`, `u*v`, `u & v` as units."""
+def product(
+    context: Context, node: Binary, extent: Extent, keep: Callable[[Value], Value] | None = None
+) -> Value:
+    """Lower a chain of factors from left to right, with `A*x`, `A%*x`, `u*v`, `u & v` as units.
+
+    `keep` computes the first factors of a long chain beforehand, and factors that are long themselves.
+    """
     factors: list[tuple[str, Expr]] = []
     rest: Expr = node
     while isinstance(rest, Binary) and rest.op in "*/&":
@@ -49,9 +57,16 @@ def product(context: Context, node: Binary, extent: Extent) -> Value:
             if op == "&":
                 context.report("ampersand-here", factor)
                 op = "*"
+            long = keep is not None and is_long(factor)
+            if long and keep is not None and result is not None:
+                result = keep(result)
             value = expressions.lower(context, factor, extent)
+            if long and keep is not None:
+                value = keep(value)
         else:
             at += 1
+        if keep is not None and result is not None and at % PIECE == 0:
+            result = keep(result)
         result = value if result is None else Op(_OPERATIONS.get(op, "mul"), (result, value))
         at += 1
     assert result is not None

@@ -89,11 +89,15 @@ def lower_segment(
                 "illegal-in-dynamic", node, word=source.text[slice(*context.span(node))].split(" ")[0]
             )
         else:
+            outer, place = builder.body, len(builder.body)
             try:
                 handler(builder, node)
             except RecursionError:
                 context.enter(frame)
                 context.report("expression-too-deep", node, limit=LEVELS_MOST)
+            if context.before:
+                outer[place:place] = context.before
+                context.before.clear()
     body = builder.finish()
     jacobian = lower_jacobian(builder, jacobian_lines) if jacobian_lines else None
     context.flow.mark_persistent([(r.slot, r.count) for r in builder.states.ranges])

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.analysis.context import Argument, Frame
 from desire_tui.engine.analysis.scope import UNKNOWN
+from desire_tui.engine.chains import chain
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY, power
 from desire_tui.engine.nodes import Binary, Call, Element, Name, Number, Unary
@@ -93,8 +94,15 @@ def _value(context: Context, node: Expr) -> float | None:
         value = _value(context, node.operand)
         return None if value is None else -value if node.op == "-" else value
     if isinstance(node, Binary) and node.op in _OPERATIONS:
-        left, right = _value(context, node.left), _value(context, node.right)
-        return None if left is None or right is None else _OPERATIONS[node.op](left, right)
+        first, steps = chain(node) if node.op != "^" else (node.left, [node])
+        result = _value(context, first)
+        for step in steps:
+            right = _value(context, step.right)
+            if step.op not in _OPERATIONS:
+                context.report("constant-not-computable", step)
+                return None
+            result = None if result is None or right is None else _OPERATIONS[step.op](result, right)
+        return result
     if isinstance(node, Element):
         slot, _ = element(context, node)
         quantity = context.quantity(node.name)

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.chains import chain
 from desire_tui.engine.interpreter.arrays import ArrayExpressions, conform
 from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.nodes import (
-    Binary,
     Dot,
     Expr,
     MatrixAssign,
@@ -115,17 +115,27 @@ def dot(site: Site) -> Operation:
 
 
 def _terms(node: Expr, sign: float) -> list[tuple[float, Expr]]:
-    if isinstance(node, Binary) and node.op in {"+", "-"}:
-        return _terms(node.left, sign) + _terms(node.right, sign if node.op == "+" else -sign)
+    """Split a sum into signed terms, from left to right."""
     if isinstance(node, Unary):
         return _terms(node.operand, sign if node.op == "+" else -sign)
-    return [(sign, node)]
+    following: list[tuple[float, Expr]] = []
+    first, steps = chain(node)
+    while steps and steps[-1].op in {"+", "-"}:
+        step = steps.pop()
+        following += _terms(step.right, sign if step.op == "+" else -sign)[::-1]
+    if not following:
+        return [(sign, node)]
+    return [*_terms(steps[-1] if steps else first, sign), *following[::-1]]
 
 
 def _factors(node: Expr) -> list[Expr]:
-    if isinstance(node, Binary) and node.op == "*":
-        return _factors(node.left) + _factors(node.right)
-    return [node]
+    first, steps = chain(node)
+    right: list[Expr] = []
+    while steps and steps[-1].op == "*":
+        right += _factors(steps.pop().right)[::-1]
+    if not right:
+        return [node]
+    return [*_factors(steps[-1] if steps else first), *right[::-1]]
 
 
 class _DotTerm:

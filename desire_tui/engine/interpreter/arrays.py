@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from desire_tui.engine.chains import OPERATORS, chain
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.library import LIBRARY, integer_power, power
@@ -54,7 +55,7 @@ class ArrayExpressions:
                 inner = self.evaluator(operand)
                 return inner if op == "+" else lambda: -inner()
             case Binary():
-                return self._binary(node)
+                return self._chain(node) if node.op in OPERATORS else self._power(node)
             case Call():
                 return self._call(node)
         raise Fault("not-in-array-expression", node)
@@ -68,8 +69,10 @@ class ArrayExpressions:
                 return True
             case Unary(_, operand):
                 return self._has_array(operand)
-            case Binary(_, left, right):
-                return self._has_array(left) or self._has_array(right)
+            case Binary():
+                first, steps = chain(node)
+                parts = [first, *(step.right for step in steps)] if steps else [node.left, node.right]
+                return any(map(self._has_array, parts))
             case Call(name, args):
                 return name.startswith("$") or (
                     name not in {"func1", "func2"} and any(map(self._has_array, args))
@@ -96,20 +99,41 @@ class ArrayExpressions:
 
         return evaluate
 
-    def _binary(self, node: Binary) -> Evaluator:
-        a, b = self.evaluator(node.left), self.evaluator(node.right)
+    def _chain(self, node: Binary) -> Evaluator:
+        """Evaluate sums and products; what stands before the first array is a scalar expression."""
+        first, steps = chain(node)
+        begin: Expr = first
+        if not self._has_array(first):
+            scalars = next(i for i, step in enumerate(steps) if self._has_array(step.right))
+            begin = steps[scalars - 1] if scalars else first
+            steps = steps[scalars:]
+        start, check = self.evaluator(begin), self._site.machine.check
+        operations = [(self._operation(step), self.evaluator(step.right)) for step in steps]
+
+        def evaluate() -> Any:
+            result = start()
+            for operation, right in operations:
+                check()
+                result = operation(result, right())
+            return result
+
+        return evaluate
+
+    def _operation(self, node: Binary) -> Callable[[Any, Any], Any]:
         match node.op:
             case "+":
-                return lambda: np.add(*self._same(a(), b(), node))
+                return lambda a, b: np.add(*self._same(a, b, node))
             case "-":
-                return lambda: np.subtract(*self._same(a(), b(), node))
+                return lambda a, b: np.subtract(*self._same(a, b, node))
             case "*":
-                return lambda: self._product(a(), b(), node)
+                return lambda a, b: self._product(a, b, node)
             case "/":
-                return lambda: _quotient(*self._same(a(), _finite(b(), node.right), node))
-            case "&":
-                return lambda: np.minimum.outer(a(), b())
-        return lambda: _elementwise(_power, *self._same(a(), b(), node))
+                return lambda a, b: _quotient(*self._same(a, _finite(b, node.right), node), node.right)
+        return np.minimum.outer
+
+    def _power(self, node: Binary) -> Evaluator:
+        a, b = self.evaluator(node.left), self.evaluator(node.right)
+        return lambda: _elementwise(_whole_or_real_power, *self._same(a(), b(), node))
 
     def _same(self, a: Any, b: Any, node: Node) -> tuple[Any, Any]:
         if np.ndim(a) and np.ndim(b) and np.shape(a) != np.shape(b):
@@ -152,7 +176,6 @@ class ArrayExpressions:
 
         return evaluate
 
-
     def _own_function(self, node: Call, args: list[Evaluator]) -> Evaluator:
         """Apply the program's FUNCTION to each element, from the last to the first as random draws go."""
         function, wanted = self._site.machine.functions.of_elements(node, self._site.scope)
@@ -175,14 +198,14 @@ def _elementwise(function: Callable[..., complex], *args: Any) -> Any:
     return np.vectorize(function, otypes=[np.float64])(*args)
 
 
-def _power(x: float, y: float) -> complex:
+def _whole_or_real_power(x: float, y: float) -> complex:
     """x^y as in scalar expressions: whole powers are products."""
     return integer_power(x, int(y)) if y == int(y) and abs(y) < 1 << 31 else power(x, y)
 
 
-def _quotient(a: Any, b: Any) -> Any:
+def _quotient(a: Any, b: Any, divisor: Node) -> Any:
     if np.any(np.equal(b, 0.0)):
-        raise ZeroDivisionError
+        raise Fault("division-by-zero", divisor)
     return np.divide(a, b)
 
 

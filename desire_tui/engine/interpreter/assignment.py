@@ -97,12 +97,17 @@ def store_code(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Ex
 
 def _mentions(node: object, name: str) -> bool:
     """Whether an expression reads a name."""
-    if isinstance(node, tuple):
-        return any(_mentions(part, name) for part in node)
-    if not isinstance(node, Node):
-        return False
-    parts: tuple[str, ...] = type(node).__slots__
-    return getattr(node, "name", None) == name or any(_mentions(getattr(node, part), name) for part in parts)
+    rest = [node]
+    while rest:
+        part = rest.pop()
+        if isinstance(part, tuple):
+            rest.extend(part)
+        elif isinstance(part, Node):
+            if getattr(part, "name", None) == name:
+                return True
+            slots: tuple[str, ...] = type(part).__slots__
+            rest.extend(getattr(part, slot) for slot in slots)
+    return False
 
 
 def storer(site: Site, target: Target) -> Callable[[complex], None]:

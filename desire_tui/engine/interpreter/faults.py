@@ -89,6 +89,8 @@ def explain(
         key, facts, node = error.key, error.facts, error.node or node
     else:
         key, facts = _key_of(error, node)
+        if isinstance(node, Binary) and node.op == "/" and key == "division-by-zero":
+            node = node.right
     span = placed.span(node if node is not None and node.end > node.start else None)
     if isinstance(node, Name) and source is not None and span.end - span.start > len(node.name):
         span = source.name_within(span, node.name)  # a statement that keeps the name alone

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.chains import chain
 from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.scope import Local, Meaning, Scope
@@ -125,7 +126,11 @@ def _is_used_as_array(dummy: str, body: Expr) -> bool:
         case Call(name, args):
             tables = args[{"func1": 1, "func2": 2}.get(name, len(args)) :]
             return Name(dummy) in tables or any(_is_used_as_array(dummy, part) for part in args)
-        case Binary(_, left, right) | Pair(left, right):
+        case Binary():
+            first, steps = chain(body)
+            parts = [body.left, body.right] if not steps else [first, *(step.right for step in steps)]
+            return any(_is_used_as_array(dummy, part) for part in parts)
+        case Pair(left, right):
             return _is_used_as_array(dummy, left) or _is_used_as_array(dummy, right)
         case Unary(_, operand):
             return _is_used_as_array(dummy, operand)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.chains import LONG, PIECE, chain, is_long
 from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.calls import CallTranslator
 from desire_tui.engine.interpreter.faults import Fault
@@ -88,12 +89,8 @@ class Translator:
                 return self._element(node)
             case Binary(op="^"):
                 return self._power(node)
-            case Binary(op="&"):
-                raise Fault("matrix-operator", node, operator="&")
-            case Binary(op="/", left=left, right=right):
-                return self._arithmetic(node, "/", self.expression(left), self.finite(right))
-            case Binary(op, left, right):
-                return self._arithmetic(node, op, self.expression(left), self.expression(right))
+            case Binary():
+                return self._chain(node)
             case Unary(op, operand):
                 code, kind = self.expression(operand)
                 return Typed(code if op == "+" else at(py.unary(py.MINUS, code), node), kind)
@@ -143,6 +140,28 @@ class Translator:
         if kind is Kind.COMPLEX:
             return Typed(at(py.call("complex_at", slot), node), kind)
         return Typed(at(py.cell(slot), node), kind)
+
+    def _chain(self, node: Binary) -> Typed:
+        """Translate sums and products. Python compiles no deep trees: a long chain is computed in pieces.
+
+        The pieces are items of a tuple, `(v := a + b + …, v + c + …)[-1]`: evaluated in their order.
+        """
+        first, steps = chain(node)
+        result = self.expression(first)
+        pieces: list[ast.expr] = []
+        levels = LONG if is_long(first) else 0
+        for step in steps:
+            deep = is_long(step.right)
+            if step.op == "&":
+                raise Fault("matrix-operator", step, operator="&")
+            if levels >= PIECE or (deep and levels):
+                name = self.build.fresh("v")
+                pieces.append(py.named(name, result.code))
+                result, levels = Typed(py.load(name), result.kind), 0
+            right = self.finite(step.right) if step.op == "/" else self.expression(step.right)
+            result = self._arithmetic(step, step.op, result, right)
+            levels = LONG if deep else levels + 1
+        return Typed(py.last([*pieces, result.code]), result.kind) if pieces else result
 
     def _arithmetic(self, node: Node, op: str, left: Typed, right: Typed) -> Typed:
         kinds = {left.kind, right.kind}

@@ -102,6 +102,11 @@ def named(variable: str, value: ast.expr) -> ast.expr:
     return ast.NamedExpr(ast.Name(variable, _STORE, **_P), value, **_P)
 
 
+def last(values: list[ast.expr]) -> ast.expr:
+    """Return `(a, b, …)[-1]`: all are evaluated in their order, the last is the value."""
+    return ast.Subscript(ast.Tuple(values, _LOAD, **_P), number(-1), _LOAD, **_P)
+
+
 def store(variable: str, value: ast.expr) -> ast.stmt:
     """Return `variable = value`."""
     return ast.Assign([ast.Name(variable, _STORE, **_P)], value, **_P)

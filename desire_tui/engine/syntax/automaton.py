@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from desire_tui.engine.chains import OPERATORS
 from desire_tui.engine.syntax.build import Builder, Misuse
 from desire_tui.engine.syntax.tables import tables
 
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 HEIGHT_MAX = 200
 """Levels of an expression's tree: later passes recurse, twice for each level at worst."""
+PIECE_HEIGHT = 100
+"""Left operands of this height count no more: long chains are computed piece by piece (`engine.chains`)."""
 
 
 class Unexpected(Exception):  # noqa: N818 - not an error of this program
@@ -65,6 +68,8 @@ def derive(kinds: Sequence[str], texts: Sequence[str]) -> Statement:
         else:
             children = values[-size:]
             first, last = firsts[-size], lasts[-1]
+            if size == 3 and heights[-3] >= PIECE_HEIGHT and kinds[lasts[-2]] in OPERATORS:
+                heights[-3] = 0
             height = max(heights[-size:])
             del states[-size:], values[-size:], firsts[-size:], lasts[-size:], heights[-size:]
             if method:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine import nodes as n
+from desire_tui.engine.chains import chain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -102,10 +103,24 @@ def _bare_expr(node: n.Node) -> tuple[str, int]:
             # A sign may follow `^` without parentheses, a sign before it belongs to the whole power.
             exponent = _expr(right, _SIGN)
             return f"{_expr(left, _ATOM)}^{exponent}", _BINDS["^"]
-        case n.Binary(op, left, right):
-            own = _BINDS[op]
-            return f"{_expr(left, own)} {op} {_expr(right, own + 1)}", own
+        case n.Binary():
+            return _chain(node)
     raise TypeError(node)
+
+
+def _chain(node: n.Binary) -> tuple[str, int]:
+    """Write a sum or product; a sum on the left of `*` needs parentheses, the other way round it does not."""
+    first, steps = chain(node)
+    text, binds = _bare_expr(first)
+    pieces, opened = [text], 0
+    for step in steps:
+        own = _BINDS[step.op]
+        if binds < own:
+            opened += 1
+            pieces.append(")")
+        pieces.append(f" {step.op} {_expr(step.right, own + 1)}")
+        binds = own
+    return "(" * opened + "".join(pieces), binds
 
 
 def _operand(sign: str, text: str) -> str:

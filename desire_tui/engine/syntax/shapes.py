@@ -11,6 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine import nodes
+from desire_tui.engine.chains import OPERATORS, chain
 from desire_tui.engine.syntax.automaton import derive
 from desire_tui.engine.syntax.build import NumberToken, Token
 from desire_tui.engine.syntax.chunk import NUMBER, STRING
@@ -63,6 +64,13 @@ def forget() -> None:
 
 def _filled(part: Any, chunk: Chunk) -> Any:
     """Copy a pattern with this statement's texts and offsets: worth it for a shape that is seen only once."""
+    if isinstance(part, nodes.Binary) and part.op in OPERATORS:
+        first, steps = chain(part)
+        made = _filled(first, chunk)
+        for step in steps:
+            right = _filled(step.right, chunk)
+            made = nodes.Binary(step.op, made, right, chunk.starts[step.start], chunk.ends[step.end])
+        return made
     if isinstance(part, nodes.Node):
         record: Any = part
         values = [

@@ -188,8 +188,9 @@ _EXPLANATIONS = {
         real arrays at once; `FFT C, n, x, y` convolves cyclically.
     """,
     "expression-too-deep": """
-        An expression this long cannot be handled safely. Assign parts of it to variables; the compiler
-        makes no slower code of that.
+        Operations are nested this deeply: powers of powers, signs before signs, parentheses in parentheses.
+        A sum or a product may have any number of terms. Assign parts of the expression to variables; the
+        compiler makes no slower code of that.
     """,
 }
 """What the help page of a message says beyond sentence and hint."""

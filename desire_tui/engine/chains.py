@@ -1,0 +1,39 @@
+"""Long sums and products: chains of operations whose left operands nest as deep as they are long.
+
+`a + b + … + z` is a tree that leans to the left. Every pass that recurses into operands walks down such a
+chain in a loop, so that a sum may have any number of terms; only true nesting is limited
+(`syntax.automaton`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.nodes import Binary
+
+if TYPE_CHECKING:
+    from desire_tui.engine.nodes import Expr, Node
+
+OPERATORS = frozenset("+-*/&")
+"""Operations that group from the left."""
+
+LONG = 400
+"""Characters from which on an expression may be too deep for one piece; a level takes two at least."""
+
+PIECE = 50
+"""Operations of a long chain that are computed in one piece, before the rest goes on from its result."""
+
+
+def chain(node: Expr) -> tuple[Expr, list[Binary]]:
+    """Return the leftmost operand of a chain and its operations in the order in which they are computed."""
+    steps: list[Binary] = []
+    while isinstance(node, Binary) and node.op in OPERATORS:
+        steps.append(node)
+        node = node.left
+    steps.reverse()
+    return node, steps
+
+
+def is_long(node: Node) -> bool:
+    """Whether an expression may be too deep for recursion, by its length in the text."""
+    return node.end - node.start >= LONG
