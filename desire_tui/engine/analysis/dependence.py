@@ -13,14 +13,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from desire_tui.engine.analysis.reach import reads, writes
 from desire_tui.engine.analysis.slices import derivative_slice
 from desire_tui.engine.lowered import (
     Deriv,
     DerivVec,
     Guard,
     Load,
+    MatVec,
     Op,
+    Outer,
+    RowOf,
     Set,
     SetVec,
     Shifted,
@@ -28,6 +30,7 @@ from desire_tui.engine.lowered import (
     Table2,
     Vec,
 )
+from desire_tui.engine.lowered.reading import memory, reads, writes
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -88,7 +91,8 @@ class _Finder:
     def _assign(self, action: Action, *, certain: bool) -> None:
         if isinstance(action, Set | SetVec):
             bonds = self.of(action.value)
-            certain = certain and not action.persistent
+            adds = isinstance(action, SetVec) and action.mode == "add"
+            certain = certain and not action.persistent and not adds
         else:  # sums, matrices and whatever else: everything depends on everything that is read
             bonds = _block(self._read(slot, count) for slot, count in reads(action))
         for slot, count in writes(action):
@@ -118,8 +122,7 @@ class _Finder:
         if isinstance(value, Table2):
             count = extent(value)
             return _spread(self.of(value.x), count) | _spread(self.of(value.y), count)
-        pieces = reads(DerivVec(0, 1, value, None))  # type: ignore[arg-type]
-        return _spread(_block(self._read(slot, count) for slot, count in pieces), extent(value))
+        return _spread(_block(self._read(slot, count) for slot, count in memory(value)), extent(value))
 
     def _read(self, slot: int, count: int) -> Bonds:
         """Bonds of the numbers in `slot` …, whatever names they were written under."""
@@ -165,13 +168,12 @@ def extent(value: Value) -> int:
         return extent(value.x)
     if isinstance(value, Table2):
         return max(extent(value.x), extent(value.y))
-    name = type(value).__name__
-    if name == "MatVec":
-        return value.cols if value.transposed else value.rows  # type: ignore[union-attr]
-    if name == "RowOf":
-        return value.cols  # type: ignore[union-attr]
-    if name == "Outer":
-        return value.u_count * value.v_count  # type: ignore[union-attr]
+    if isinstance(value, MatVec):
+        return value.cols if value.transposed else value.rows
+    if isinstance(value, RowOf):
+        return value.cols
+    if isinstance(value, Outer):
+        return value.u_count * value.v_count
     return 1
 
 

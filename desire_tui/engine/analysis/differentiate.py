@@ -12,7 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.analysis.slices import derivative_slice, draws, needed
+from desire_tui.engine.analysis.needs import draws, needed
+from desire_tui.engine.analysis.slices import derivative_slice
 from desire_tui.engine.analysis.slopes import SLOPES, ZERO, op, plus
 from desire_tui.engine.analysis.tangents import NotDifferentiable, Tangents
 from desire_tui.engine.lowered import (

@@ -5,8 +5,8 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.analysis.reach import reads, writes
 from desire_tui.engine.lowered import Guard, Table1, Vec
+from desire_tui.engine.lowered.reading import reads, writes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence

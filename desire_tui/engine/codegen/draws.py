@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 MULTIPLIER, INCREMENT, BITS = 0x5DEECE66D, 11, 48
 MASK = (1 << BITS) - 1
 _INVERSE = pow(MULTIPLIER, -1, 1 << BITS)
-DRAWS = {"ran": 1, "gauss": 2}
-"""Numbers that one call takes from the sequence."""
 
 
 def jump(count: int) -> tuple[int, int]:

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen import draws
 from desire_tui.engine.codegen.expressions import Expressions
-from desire_tui.engine.codegen.reach import draws as draws_of
-from desire_tui.engine.codegen.reach import walk
-from desire_tui.engine.lowered import Const, MatVec, Op, Outer, RowOf, Shifted, Table1, Table2, Vec
+from desire_tui.engine.lowered import Const, MatVec, Op, Outer, RowOf, Shifted, Vec
+from desire_tui.engine.lowered.reading import DRAWS, OVER_ELEMENTS, operands, walk
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.cells import Cells
@@ -34,8 +33,7 @@ class Prepared:
 def is_invariant(node: Value) -> bool:
     """Whether a value is one number for all elements: no operand over elements, no draw."""
     return not any(
-        isinstance(n, Vec | Shifted | MatVec | RowOf | Outer) or (isinstance(n, Op) and n.name in draws.DRAWS)
-        for n in walk(node)
+        isinstance(n, OVER_ELEMENTS) or (isinstance(n, Op) and n.name in DRAWS) for n in walk(node)
     )
 
 
@@ -45,18 +43,7 @@ def invariants(node: Value) -> list[Value]:
         return []
     if is_invariant(node):
         return [node]
-    if isinstance(node, Op):
-        return [part for arg in node.args for part in invariants(arg)]
-    if isinstance(node, Table1):
-        return invariants(node.x)
-    if isinstance(node, Table2):
-        return invariants(node.x) + invariants(node.y)
-    return []
-
-
-def needed_draws(*values: Value | None) -> int:
-    """Numbers that one element of a statement takes from the random sequence."""
-    return sum(draws_of(v) for v in values if v is not None)
+    return [part for operand in operands(node) for part in invariants(operand)]
 
 
 class ElementExpressions(Expressions):

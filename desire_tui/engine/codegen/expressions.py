@@ -8,6 +8,7 @@ from desire_tui.engine.codegen import draws
 from desire_tui.engine.codegen.functions import apply, power
 from desire_tui.engine.codegen.helpers import table1, table2
 from desire_tui.engine.lowered import Const, Load, Op, Table1, Table2
+from desire_tui.engine.lowered.reading import DRAWS
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.cells import Cells
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Expressions:
-    """Evaluates one statement's values; an object met again is the same number (lowered.py)."""
+    """Evaluates one statement's values; an object met again is the same number (`engine.lowered`)."""
 
     def __init__(self, lanes: Lanes, cells: Cells) -> None:
         self.lanes = lanes
@@ -40,7 +41,7 @@ class Expressions:
 
     def _write(self, node: Value) -> str:
         if isinstance(node, Op):
-            if node.name in draws.DRAWS:
+            if node.name in DRAWS:
                 return self.draw(node.name)
             if node.name == "ipow":
                 exponent = node.args[1]

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen import products
-from desire_tui.engine.codegen.elements import ElementExpressions, needed_draws
+from desire_tui.engine.codegen.elements import ElementExpressions
 from desire_tui.engine.codegen.loops import loop
-from desire_tui.engine.codegen.reach import Reach, needs_copy, value_reach, walk
+from desire_tui.engine.codegen.reach import Reach, needs_copy, value_reach
 from desire_tui.engine.codegen.strips import Strip
 from desire_tui.engine.lowered import Outer
+from desire_tui.engine.lowered.reading import draws, walk
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +23,7 @@ def write_matrix(statements: ArrayOperands, action: SetMat) -> None:
     """Write `MATRIX W = …` or `DELTA W = …`."""
     count = action.rows * action.cols
     values = (action.value, action.lower, action.upper)
-    prepared = statements.prepare(count, needed_draws(*values), *values)
+    prepared = statements.prepare(count, draws(*values), *values)
     reads = value_reach(action.value)
     copies = needs_copy(Reach(reads.same, reads.other, {(action.slot, action.slot + count)}))
     own = statements.at(action.slot)

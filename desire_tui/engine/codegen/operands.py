@@ -9,10 +9,10 @@ from desire_tui.engine.codegen.draws import advance
 from desire_tui.engine.codegen.elements import Prepared, invariants, lane_states
 from desire_tui.engine.codegen.lanes import Lanes
 from desire_tui.engine.codegen.loops import loop
-from desire_tui.engine.codegen.reach import walk
 from desire_tui.engine.codegen.statements import ScalarStatements
 from desire_tui.engine.codegen.strips import Strip
 from desire_tui.engine.lowered import MatVec, Outer, RowOf, Shifted, Vec
+from desire_tui.engine.lowered.reading import walk
 from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:

@@ -5,22 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.draws import DRAWS
-from desire_tui.engine.lowered import (
-    Const,
-    DerivVec,
-    Load,
-    MatVec,
-    Op,
-    Outer,
-    RowOf,
-    SetVec,
-    Shifted,
-    Table1,
-    Table2,
-    Vec,
-)  # fmt: skip
-from desire_tui.engine.values import IROW
+from desire_tui.engine.lowered import DerivVec, SetVec, Vec
+from desire_tui.engine.lowered.reading import memory, walk
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -65,59 +51,12 @@ def _crosses(ranges: Iterable[Range], others: Iterable[Range]) -> bool:
     return any(a != b and overlap(a, b) for a in ranges for b in listed)
 
 
-def walk(node: Value) -> Iterator[Value]:
-    """Every node of an expression, shared ones once."""
-    seen: set[int] = set()
-    stack: list[Value] = [node]
-    while stack:
-        top = stack.pop()
-        if id(top) in seen:
-            continue
-        seen.add(id(top))
-        yield top
-        if isinstance(top, Op):
-            stack.extend(reversed(top.args))
-        elif isinstance(top, Table1):
-            stack.append(top.x)
-        elif isinstance(top, Table2):
-            stack.extend((top.y, top.x))
-
-
-def draws(node: Value) -> int:
-    """Random numbers that one element takes."""
-    return sum(DRAWS.get(n.name, 0) for n in walk(node) if isinstance(n, Op))
-
-
 def value_reach(node: Value) -> Reach:
     """Return what an expression reads."""
     reach = Reach()
-    for n in walk(node):
-        match n:
-            case Vec():
-                reach.same.add((n.slot, n.slot + n.count))
-            case Load():
-                reach.other.add((n.slot, n.slot + 1))
-            case Shifted():
-                reach.other.add((n.slot, n.slot + n.count))
-            case MatVec():
-                reach.other.add((n.slot, n.slot + n.rows * n.cols))
-                reach.other.add((n.x_slot, n.x_slot + (n.rows if n.transposed else n.cols)))
-            case RowOf():
-                reach.other.update(((n.slot, n.slot + n.rows * n.cols), (IROW, IROW + 1)))
-            case Outer():
-                reach.other.update(((n.u_slot, n.u_slot + n.u_count), (n.v_slot, n.v_slot + n.v_count)))
-            case Table1():
-                reach.other.add((n.slot, n.slot + 2 * n.count))
-            case Table2():
-                reach.other.update(
-                    (
-                        (n.f_slot, n.f_slot + n.rows * n.cols),
-                        (n.x_slot, n.x_slot + n.rows),
-                        (n.y_slot, n.y_slot + n.cols),
-                    )
-                )
-            case Const() | Op():
-                pass
+    for part in walk(node):
+        ranges = reach.same if isinstance(part, Vec) else reach.other
+        ranges.update((slot, slot + count) for slot, count in memory(part))
     return reach
 
 

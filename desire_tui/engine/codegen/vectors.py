@@ -5,27 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen import products
-from desire_tui.engine.codegen.elements import ElementExpressions, needed_draws
+from desire_tui.engine.codegen.elements import ElementExpressions
 from desire_tui.engine.codegen.learning import write_learning
 from desire_tui.engine.codegen.matrices import write_dot, write_matrix
 from desire_tui.engine.codegen.operands import ArrayOperands
-from desire_tui.engine.codegen.reach import groups, needs_copy, statement_reach, walk
+from desire_tui.engine.codegen.reach import groups, needs_copy, statement_reach
 from desire_tui.engine.codegen.rolled import write_rolled
 from desire_tui.engine.codegen.rolling import Rolled
 from desire_tui.engine.lowered import (
     Deriv,
     DerivVec,
     Learn,
-    MatVec,
-    Outer,
-    RowOf,
     Set,
     SetDot,
     SetMat,
     SetVec,
     Shifted,
-    Vec,
-)  # fmt: skip
+)
+from desire_tui.engine.lowered.reading import OVER_ELEMENTS, draws, walk
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -64,7 +61,7 @@ class Statements(ArrayOperands):
 
     def single_element(self, action: Set | Deriv) -> bool:
         """Write a statement over arrays of one element; return False for an ordinary one."""
-        if not any(isinstance(n, Vec | Shifted | MatVec | RowOf | Outer) for n in walk(action.value)):
+        if not any(isinstance(n, OVER_ELEMENTS) for n in walk(action.value)):
             return False
         if isinstance(action, Set):
             self._fused([SetVec(action.slot, 1, action.value, action.where)])
@@ -99,7 +96,7 @@ class _Writer:
         self._action = action
         self._mask = self._own = ""
         self._copy = False
-        self._prepared = statements.prepare(action.count, needed_draws(action.value), action.value)
+        self._prepared = statements.prepare(action.count, draws(action.value), action.value)
         if isinstance(action, DerivVec):
             self._target = statements.text.op(f"getelementptr double, ptr %dx, i64 {action.state}")
             return

@@ -20,6 +20,7 @@ from desire_tui.engine.lowered import (
     Table2,
     Vec,
 )  # fmt: skip
+from desire_tui.engine.lowered.reading import operands
 from desire_tui.engine.reference.draws import ElementDraws, Sequence, normal
 from desire_tui.engine.reference.numbers import ARRAYS, scalar_function, whole_power
 from desire_tui.engine.values import IROW
@@ -40,7 +41,7 @@ class Expressions:
     """Compiles the expressions of one statement; `begin` must be called before each evaluation.
 
     `count` None: a number; else the number of elements that the statement assigns. An expression object that
-    stands at two places is evaluated once (lowered.py).
+    stands at two places is evaluated once (`engine.lowered`).
     """
 
     def __init__(self, values: Values, sequence: Sequence, count: int | None) -> None:
@@ -77,14 +78,8 @@ class Expressions:
         uses[key] = uses.get(key, 0) + 1
         if uses[key] > 1:
             return
-        if isinstance(value, Op):
-            for argument in value.args:
-                self._count_uses(argument)
-        elif isinstance(value, Table1):
-            self._count_uses(value.x)
-        elif isinstance(value, Table2):
-            self._count_uses(value.x)
-            self._count_uses(value.y)
+        for operand in operands(value):
+            self._count_uses(operand)
 
     def _thunk(self, value: Value) -> Thunk:
         if isinstance(value, Const):

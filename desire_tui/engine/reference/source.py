@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.library import LIBRARY, func1
 from desire_tui.engine.lowered import Const, Deriv, Guard, Load, Op, Set, Table1, Terminate
+from desire_tui.engine.lowered.reading import operands
 from desire_tui.engine.reference.numbers import power, whole_power
 
 if TYPE_CHECKING:
@@ -110,10 +111,8 @@ class _Expression:
         uses = self.uses
         uses[id(value)] = uses.get(id(value), 0) + 1
         if uses[id(value)] == 1:
-            for argument in (
-                value.args if isinstance(value, Op) else (value.x,) if isinstance(value, Table1) else ()
-            ):
-                self._count(argument)
+            for operand in operands(value):
+                self._count(operand)
 
     def _written(self, value: Value, depth: int) -> tuple[str, int]:
         if depth > _NESTING_MAX:
