@@ -198,3 +198,25 @@ def test_nothing_but_the_states_moves():
     model.exact(x)
     assert model.values.data[model.slots].tolist() == x.tolist()
     assert model.values.cells[T] == 1.25
+
+
+@pytest.mark.parametrize(
+    ("script", "body"),
+    [
+        ("STATE x[3], z[3] | ARRAY y[3]", "Vector y = x\nVectr delta y = z\nVectr d/dt x = y\nVectr d/dt z = -x"),
+        ("STATE x[2], z[2] | ARRAY W[2,2], y[2]",
+         "MATRIX W = x*z\nDELTA W = z*z\nVector y = W*x\nVectr d/dt x = y\nVectr d/dt z = -z"),
+        ("STATE x[2], z[2] | ARRAY W[2,2], M[2,2], y[2], one[2]\nM[1,2] = 1 | one[1] = 1 | one[2] = 1",
+         "MATRIX W = x*z\nMATRIX W = [M] one*z\nVector y = W*one\nVectr d/dt x = y\nVectr d/dt z = -z"),
+        ("x = 0.5 | z = 0.4 | h = 0.1 | k = 0.2", "trkhld h, k = z, x*z\nd/dt x = k\nd/dt z = h - z"),
+    ],
+    ids=["delta", "DELTA", "mask", "trkhld"],
+)  # fmt: skip
+def test_what_a_statement_leaves_as_it_was_still_depends_on_what_it_depended_on(script, body):
+    """Where derivatives have no exact tangent, differences fill the pattern: it must hold all they touch."""
+    model = Model(program(script, body))
+    rows, columns = dependence(model.segment)
+    pattern = np.zeros((model.n, model.n), dtype=bool)
+    pattern[rows, columns] = True
+    x = np.random.default_rng(2).uniform(0.2, 0.9, model.n)
+    assert not (np.abs(model.differenced(x)[~pattern]) > 1e-6).any()
