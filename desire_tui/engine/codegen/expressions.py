@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen import draws
 from desire_tui.engine.codegen.functions import apply, power
-from desire_tui.engine.codegen.helpers import table1, table2
+from desire_tui.engine.codegen.lookup import table1, table2
 from desire_tui.engine.lowered import Const, Load, Op, Table1, Table2
 from desire_tui.engine.lowered.reading import DRAWS
 

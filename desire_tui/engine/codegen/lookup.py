@@ -1,4 +1,4 @@
-"""Small functions that compiled pieces carry with them: table look-up (func1, func2)."""
+"""Table look-up (func1, func2) as functions that compiled pieces carry with them."""
 
 from __future__ import annotations
 
