@@ -36,7 +36,7 @@ CASES = (  # statement, expression nodes, the same in Python
 class Quiet:
     """A host that nothing is asked of."""
 
-    rule, rule_is_set = 1, False
+    rule = 1
 
     def interrupted(self) -> bool:
         return False

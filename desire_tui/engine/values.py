@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.source import Span
 
 SYSTEM_VARIABLES = (
     "t", "TMAX", "DT", "NN", "scale", "DTMAX", "DTMIN", "ERMAX", "ERMIN", "ERRMAX", "CHECKN", "MM", "iRow",
@@ -61,7 +60,6 @@ class Quantity:
     shape: tuple[int, ...] = ()
     kind: Kind = Kind.REAL
     is_state: bool = False
-    declared_at: Span | None = None
 
     @property
     def size(self) -> int:

@@ -17,7 +17,6 @@ class World:
 
     def __init__(self, folder: Path | None = None) -> None:
         self.rule = 1
-        self.rule_is_set = False
         self.folder = folder
         self.values = Values()
         self.written: list[str] = []

@@ -145,7 +145,7 @@ def test_stopping_before_a_traced_statement():
 def test_drun_and_rules_reach_the_host():
     world = run("irule 4\ndrun\ndrunr SECOND\ndrun *\nreset\nirule")
     assert world.calls == [("drun", None, False), ("drun", "SECOND", False), ("reset",), ("drun", None, True), ("reset",)]
-    assert (world.rule, world.rule_is_set) == (4, True)
+    assert world.rule == 4
     assert world.text == "irule 4\n"
 
 

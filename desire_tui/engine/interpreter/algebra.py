@@ -147,7 +147,7 @@ class _DotTerm:
             raise Fault("script-dot-term", node)
         while isinstance(first := factors[0], Unary):  # `-u*v`
             sign, factors[0] = sign if first.op == "+" else -sign, first.operand
-        self._sign, self._node = sign, node
+        self._sign = sign
         left = self._vector(site, factors[0])
         self._left = site.numbers(left)
         self.length = left.size

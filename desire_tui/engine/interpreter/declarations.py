@@ -63,8 +63,7 @@ def _declare_group(site: Site, node: Declare, group: DeclaredGroup, shapes: list
         same = known is not None and known.shape == (shape or (1,)) and known.slot == slot
         if not same:
             _check_free(site, part, part.name, scalar=not shape)
-            made = site.values.alias(part.name, shape, slot, is_state=is_state)
-            made.declared_at = site.placed.span(part)
+            site.values.alias(part.name, shape, slot, is_state=is_state)
         slot += prod(shape)
 
 
@@ -83,9 +82,7 @@ def _declare_one(
     if prod(shape) >= values.capacity:
         raise Fault("array-too-large", node, name=name, elements=prod(shape), room=values.capacity)
     values.names.pop(name, None)
-    made = values.array(name, shape, kind, is_state=is_state)
-    made.declared_at = site.placed.span(node)
-    return made
+    return values.array(name, shape, kind, is_state=is_state)
 
 
 def _declare_scalar(site: Site, node: Node, name: str, kind: Kind, *, is_state: bool) -> Quantity:
@@ -98,7 +95,6 @@ def _declare_scalar(site: Site, node: Node, name: str, kind: Kind, *, is_state: 
         known = None
     made = known or values.scalar(name, kind, is_state=is_state)
     made.is_state = made.is_state or is_state
-    made.declared_at = site.placed.span(node)
     if not values.defined[made.slot]:
         values.assign(made.slot, 0.0)
     return made

@@ -75,7 +75,6 @@ def irule(site: Site) -> Operation:
         if number not in RULES:
             raise Fault("no-such-rule", argument, rule=number)
         host.rule = number
-        host.rule_is_set = True
 
     return site.then(action)
 

@@ -17,8 +17,7 @@ class Host(Protocol):
     """Calls out of the script. Everything here may raise DesireError; the interpreter adds the place."""
 
     rule: int
-    """`irule`, 1 if never set; `rule_is_set` tells."""
-    rule_is_set: bool
+    """`irule`, 1 if never set."""
 
     def write(self, text: str) -> None:
         """Console output, exactly this text."""

@@ -73,10 +73,6 @@ class Interpreter:
         """Stop before the present statement as at a STOP; for `Host.before` while tracing."""
         self._machine.stop_before()
 
-    def forget_position(self) -> None:
-        """Make `go` impossible: the program was edited, or the values were cleared."""
-        self._machine.stopped = None
-
     def execute(self, statements: Sequence[Placed], source: Source | None = None) -> None:
         """Carry out a command line; loops must be complete in it. A FUNCTION line defines that function."""
         structure = script_structure(statements, source or Source("", "<command>"))

@@ -66,7 +66,6 @@ class _EmptyWorld:
         self, program: Program, structure: Structure, values: Values, labels: set[str | None]
     ) -> None:
         self.rule = 1
-        self.rule_is_set = False
         self.found: list[Diagnostic] = []
         self._program, self._structure, self._values = program, structure, values
         self._wanted = labels

@@ -184,7 +184,7 @@ class Session:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
         self._desk.program = self._desk.structure = None
         self._script.forget()
-        self._world.rule, self._world.rule_is_set = 1, False
+        self._world.rule = 1
 
     # ------------------------------------------------------------------ running
 
@@ -194,7 +194,7 @@ class Session:
         if source is None:
             raise DesireError(Diagnostic("no-program"))
         self.accept(source)
-        self._world.rule, self._world.rule_is_set = 1, False
+        self._world.rule = 1
         self._script.run(scale=1.0)
 
     def run(self) -> None:

@@ -47,7 +47,6 @@ class World:
         self._values: Values = desk.values
         self.simulator = Simulator(desk.values, control)
         self.rule = 1
-        self.rule_is_set = False
         self.state = State.IDLE
         self.runs: list[RunRecord] = []
         self.runs_made = 0
