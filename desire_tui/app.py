@@ -22,6 +22,7 @@ from desire_tui.actions.help import HelpActions
 from desire_tui.actions.run import RunActions
 from desire_tui.actions.view import ViewActions
 from desire_tui.desk import Desk
+from desire_tui.drawing import Drawing
 from desire_tui.editor.checking import Checker
 from desire_tui.editor.completer import Completer
 from desire_tui.editor.keeper import Keeper
@@ -77,6 +78,7 @@ class DesireApp(Shell):
         self.listener = ScreenListener(self.post_message)
         self.engine = EngineThread(self.listener, self.post_message, permissions)
         self.news = EngineNews(self)
+        self.drawing = Drawing(self)
         self.line = CommandLine(self)
         self.live = Live(self)
         self.tour = Tour(self)
@@ -121,7 +123,7 @@ class DesireApp(Shell):
         for area in self.editor.areas:
             area.marks_changed()
             self._check_wanted(EditorPane.CheckWanted(area))
-        self.desk.set_interval(1 / self.settings.frames_per_second, self.draw_frame)
+        self.desk.set_interval(1 / self.settings.frames_per_second, self.drawing.frame)
         self.desk.set_interval(STATUS_EVERY_S, self.show_status)
         self.desk.set_interval(QUANTITIES_EVERY_S, lambda: self.quantities.show(self.session.values))
         self.is_ready = True

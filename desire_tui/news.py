@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from desire_tui.editor.area import CodeArea
     from desire_tui.engine.diagnostics import Diagnostic
 
+FIRST_SAMPLE_S = 0.003
+"""A run's first sample mostly comes sooner: it is drawn together with the graph's frame."""
+
 
 class EngineNews(Controller):
     """`handle(message)`; all of it happens on the screen's thread."""
@@ -64,9 +67,13 @@ class EngineNews(Controller):
 
     @handle.register
     def _run_started(self, message: messages.RunStarted) -> None:
-        del message
-        self.app.graph.follow_newest(self.app.session.graph)
-        self.app.show_status()
+        app = self.app
+        app.graph.follow_newest(app.session.graph)
+        app.show_status()
+        if message.record.count:
+            app.drawing.at_once()
+        else:
+            app.desk.set_timer(FIRST_SAMPLE_S, app.drawing.at_once)
 
     @handle.register
     def _run_ended(self, message: messages.RunEnded) -> None:
@@ -172,6 +179,7 @@ class EngineNews(Controller):
         del message
         self.flush()
         app = self.app
+        app.drawing.release()
         if (
             app.session.stopped_at is None
             and app.editor.active is not None

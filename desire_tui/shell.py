@@ -126,17 +126,6 @@ class Shell(App[None]):
         self.desk.query_one(StatusBar).status = self.session.status
         self.show_hint()
 
-    def draw_frame(self) -> None:
-        """Draw what is new in the graph, unless the terminal has not yet taken the last frame."""
-        if not self.output_is_backed_up:
-            self.graph.tick()
-
-    @property
-    def output_is_backed_up(self) -> bool:
-        """Whether the terminal is slower than the app."""
-        writer = getattr(self._driver, "_writer_thread", None)
-        return writer is not None and writer._queue.qsize() > 0  # noqa: SLF001 - Textual is pinned; it has no public way
-
     @property
     def clipboard_hint(self) -> str:
         """What stands between OSC 52 and the clipboard."""

@@ -29,6 +29,7 @@ class RunActions(Controller):
         app.listener.front = source
         app.send_breakpoints()
         self.end_now()
+        app.drawing.hold()
         app.engine.submit(lambda: app.session.erun(source))
 
     def accept(self, argument: str = "") -> None:
@@ -49,8 +50,10 @@ class RunActions(Controller):
 
     def _accept_front(self) -> None:
         editor = self.app.editor
-        editor.active = editor.front
-        editor.front.marks.traced = None
+        front = editor.active = editor.front
+        if front.marks.traced is not None:
+            front.marks.traced = None
+            front.marks_changed()
         editor.refresh_tabs()
 
     def again(self, argument: str = "") -> None:
@@ -61,6 +64,7 @@ class RunActions(Controller):
             self.start()
             return
         self.end_now()
+        app.drawing.hold()
         app.engine.submit(app.session.run)
 
     def proceed(self, argument: str = "") -> None:

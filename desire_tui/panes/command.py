@@ -54,7 +54,7 @@ class CommandPane(Vertical):
         yield Input(id="output-search", placeholder="search output · Enter upwards · Esc")
         with Horizontal():
             yield Label(PROMPT, id="sign", markup=False)
-            yield Prompt(self._history)
+            yield Prompt(self._history, self._entered)
 
     @property
     def console(self) -> Console:
@@ -101,20 +101,19 @@ class CommandPane(Vertical):
             for line in rest:
                 self.console.add(line, "code", place)
 
-    @on(Prompt.Entered)
-    def _entered(self, event: Prompt.Entered) -> None:
-        event.stop()
-        if self._asked is not None:
-            answer = event.lines[0]
+    def _entered(self, lines: list[str]) -> None:
+        if self._asked is not None and lines:
+            answer = lines[0]
             self.console.write(self._asked + answer + "\n", "output")
             self.stop_asking()
-            self.post_message(self.LinesEntered([answer], answer=True))
-            event.lines.pop(0)
-            if not event.lines:
+            self.app.post_message(self.LinesEntered([answer], answer=True))
+            lines.pop(0)
+            if not lines:
                 return
-        for line in event.lines:
+        for line in lines:
             self.prompt.history.add(line)
-        self.post_message(self.LinesEntered(event.lines, answer=False))
+        # not by way of all ancestors: a command begins some milliseconds sooner
+        self.app.post_message(self.LinesEntered(lines, answer=False))
 
     @on(Prompt.Searching)
     def _searching(self, event: Prompt.Searching) -> None:

@@ -6,17 +6,20 @@ from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING, ClassVar
 
+from rich.style import Style
 from textual.binding import Binding, BindingType
 from textual.containers import Container
 from textual.geometry import Region
 from textual.message import Message
 
 from desire_tui.panes import readout
-from desire_tui.panes.tiles import TILE_COLUMNS, WHITE_STYLE, CanvasTile, FrameLayer, KeyRow
+from desire_tui.panes.sheet import Look, Sheet
+from desire_tui.panes.tiles import TILE_COLUMNS, WHITE_STYLE, KeyRow, SheetTile, curve_style
 from desire_tui.panes.window import Window
 
 if TYPE_CHECKING:
-    from rich.style import Style
+    from collections.abc import Iterable
+
     from textual import events
     from textual.app import ComposeResult
 
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.outputs.painter import Painter
 
 DRAG_CELLS_MIN = 2
+NOTICE_COLUMNS_MIN = 30
 OVERLAYS_MAX = 12
 
 
@@ -33,7 +37,7 @@ class GraphPane(Container, can_focus=True):
     """Shows one page of the session's graphs."""
 
     DEFAULT_CSS = """
-    GraphPane { layers: frame curves; background: #0b0d11; color: #b8bec9; }
+    GraphPane { layout: horizontal; overflow: hidden; background: #0b0d11; color: #b8bec9; }
     GraphPane:light { background: #ffffff; color: #202020; }
     GraphPane:focus { border-left: solid $primary; }
     """
@@ -74,12 +78,16 @@ class GraphPane(Container, can_focus=True):
         self._drawn: tuple[object, ...] = ()
         self._drag: tuple[int, int] | None = None
         self._under: list[Graph] = []
-        self._sheet: tuple[object, ...] = ()
+        self.sheet = Sheet()
+        self._keys: tuple[object, ...] = ()
+        self._tiles: list[SheetTile] = []
         self._ground: tuple[tuple[str, bool], tuple[Style, bool]] | None = None
 
     def compose(self) -> ComposeResult:
-        """Frame behind; tiles come with the size."""
-        yield FrameLayer()
+        """Tiles for half of the screen, which is what the graph mostly has; more come with the size."""
+        self._tiles = [SheetTile(number) for number in range(self.app.size.width // 2 // TILE_COLUMNS + 1)]
+        self.sheet.ground = self.paper[0]
+        yield from self._tiles
         yield KeyRow()
 
     # ---------------------------------------------------------------------------------------------- drawing
@@ -118,16 +126,15 @@ class GraphPane(Container, can_focus=True):
             return None
         return min(int(self.reading.x * self.canvas.columns), self.canvas.columns - 1)
 
-    @property
-    def cursor_colour(self) -> str:
-        """Colour of the cursor line."""
-        return "#000000" if self.is_white else "#ffffff"
-
     def follow_newest(self, graph: Graph | None) -> None:
         """Show a graph that was just begun; the window stays if the same variables are drawn again."""
         if graph is None:
             return
-        if graph is not self.page:
+        if graph is self.page:
+            if self._under:
+                self._drawn = ()
+            self._show_keys()
+        else:
             before = self.page
             if before is None or (before.caption, before.frame.kind) != (graph.caption, graph.frame.kind):
                 self.window = Window()
@@ -138,101 +145,108 @@ class GraphPane(Container, can_focus=True):
                 self._under.clear()
             self.overlay_next = False
             self.page = graph
-        self._drawn = ()
 
-    def tick(self) -> None:
-        """Draw what is new. Called as often as frames are wanted; costs nothing when nothing changed."""
-        if self.page is None or not self.size.width or not self.is_on_screen:
-            return
+    def tick(self) -> bool:
+        """Draw what is new; returns whether anything was.
+
+        Called as often as frames are wanted; costs nothing when nothing changed.
+        """
+        if not self.size.width or not self.is_on_screen:
+            return False
         state = self._state()
-        if state != self._drawn:
+        begins = state != self._drawn
+        if begins:
             self._begin_page(state)
-        assert self._painter is not None
-        assert self.canvas is not None
+        if self._painter is None or self.canvas is None or self.frame is None:
+            return begins
         self._painter.update()
-        self._refresh_tiles(self.canvas.take_dirty())
+        dirty, top = self.canvas.take_dirty(), self.frame.top
+        self._refresh_cells((row + top, tile) for row, tile in dirty)
         if self._cursor is not None:
             self._read()
+        return begins or bool(dirty)
 
     def _state(self) -> tuple[object, ...]:
         page = self.page
-        assert page is not None
+        if page is None:
+            return self.paper, self.size
         under = tuple(len(graph.curves) for graph in self._under)
         curves = len(page.curves) if under else 0
-        look = (page.frame, page.caption, page.net, self.is_white, self.window, self.size)
+        look = (page.frame, page.caption, page.net, self.paper, self.window, self.size)
         return id(page), look, under, curves
 
     def _begin_page(self, state: tuple[object, ...]) -> None:
+        self._drawn = state
+        ground, white = self.paper
+        columns, rows = self.size.width, max(self.size.height - 1, 1)
+        page = self.page
+        if page is None:
+            notice = "No graph yet · F5 runs the program" if columns > NOTICE_COLUMNS_MIN else ""
+            lines = [""] * (rows // 2) + [notice.center(columns)]
+            self.sheet.lay(columns, rows, Look(ground, ground + Style(dim=True), ground, white), lines)
+            self._refresh_cells(self.sheet.cells)
+            return
         from desire_tui.engine.outputs.canvas import Canvas
         from desire_tui.engine.outputs.frame import text_frame
         from desire_tui.engine.outputs.painter import Painter
 
-        page = self.page
-        assert page is not None
-        self._drawn = state
-        frame = text_frame(page, self.size.width, max(self.size.height - 1, 1), self.window)
-        resized = self.frame is None or self.canvas is None or (
-            (frame.left, frame.top, frame.columns, frame.rows)
-            != (self.frame.left, self.frame.top, self.frame.columns, self.frame.rows)
-        )  # fmt: skip
-        self.frame = frame
-        if resized:
-            self.canvas = Canvas(max(frame.columns, 1), max(frame.rows, 1))
-            self._place_tiles()
-        assert self.canvas is not None
+        before, canvas = self.frame, self.canvas
+        frame = self.frame = text_frame(page, columns, rows, self.window)
+        place = (frame.left, frame.columns, frame.rows)
+        if before is None or canvas is None or place != (before.left, before.columns, before.rows):
+            canvas = self.canvas = Canvas(max(frame.columns, 1), max(frame.rows, 1), frame.left)
+        self._show_keys()
         if self._under:
             page = replace(page, curves=[curve for graph in (*self._under, page) for curve in graph.curves])
-        self._painter = Painter(self.canvas, page, self.window)
-        sheet = (frame.lines, self.is_white, page.net, page.keys, self.page_mark)
-        if sheet != self._sheet:
-            self._sheet = sheet
-            self.query_one(FrameLayer).refresh()
+        self._painter = Painter(canvas, page, self.window)
+        mark = self.page_mark
+        lines = [frame.lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark, *frame.lines[1:]]
+        net = ground if page.net is None else ground + curve_style(page.net, white=white)
+        look = Look(ground, ground + Style(bold=True), net, white)
+        self.sheet.lay(columns, rows, look, lines, frame, canvas)
+        self._painter.update()  # first: a piece is sent with what stands in it
+        canvas.take_dirty()
+        self._mark_cells()
+
+    def _show_keys(self) -> None:
+        """Have the colour keys drawn if they are others than before."""
+        keys = (self.page.keys if self.page is not None else (), self.paper)
+        if keys != self._keys:
+            self._keys = keys
             self.query_one(KeyRow).refresh()
 
     def on_resize(self) -> None:
-        """Have tiles at hand before the first graph: making them takes longer than drawing it."""
-        if self.canvas is None:
-            self._have_tiles(self.size.width // TILE_COLUMNS)
-
-    def _have_tiles(self, wanted: int) -> list[CanvasTile]:
-        tiles = list(self.query(CanvasTile))
-        for tile in tiles[wanted:]:
-            tile.remove()
-        if wanted > len(tiles):
-            new = [CanvasTile(number) for number in range(len(tiles), wanted)]
+        """Follow the pane's size."""
+        wanted = -(-self.size.width // TILE_COLUMNS)
+        if wanted > len(self._tiles):
+            new = [SheetTile(number) for number in range(len(self._tiles), wanted)]
+            self._tiles += new
             self.mount(*new)
-            tiles += new
-        return tiles
+        self.tick()
 
-    def _place_tiles(self) -> None:
-        assert self.frame is not None
-        assert self.canvas is not None
-        wanted = self.canvas.tiles
-        tiles = self._have_tiles(wanted)
-        for number, tile in enumerate(tiles[:wanted]):
-            tile.styles.offset = (self.frame.left + number * TILE_COLUMNS, self.frame.top)
-            tile.styles.width = min(TILE_COLUMNS, self.canvas.columns - number * TILE_COLUMNS)
-            tile.styles.height = self.canvas.rows
-
-    def _refresh_tiles(self, dirty: set[tuple[int, int]]) -> None:
-        if not dirty:
-            return
-        by_number = {tile.number: tile for tile in self.query(CanvasTile)}
-        for number, cells in groupby(sorted(dirty, key=lambda at: (at[1], at[0])), key=lambda at: at[1]):
-            tile = by_number.get(number)
-            if tile is None:
+    def _refresh_cells(self, cells: Iterable[tuple[int, int]]) -> None:
+        """Have those cells (row, tile) sent that look different from before."""
+        news = sorted((tile, row) for row, tile in self.sheet.changed(cells))
+        for number, of_tile in groupby(news, key=lambda cell: cell[0]):
+            if number >= len(self._tiles):
                 continue
-            rows = [row for row, _ in cells]
+            rows = [row for _, row in of_tile]
             regions, first = [], rows[0]
             for row, following in zip(rows, [*rows[1:], -1], strict=True):
                 if following != row + 1:
-                    regions.append(Region(0, first, tile.size.width, row - first + 1))
+                    regions.append(Region(0, first, TILE_COLUMNS, row - first + 1))
                     first = following
-            tile.refresh(*regions)
+            self._tiles[number].refresh(*regions)
 
-    def _redraw_tiles(self) -> None:
-        for tile in self.query(CanvasTile):
-            tile.refresh()
+    def _mark_cells(self) -> None:
+        """Have the cursor line and the rectangle being marked drawn."""
+        frame, column = self.frame, self.cursor_column
+        if frame is None:
+            return
+        colour = Style(color="#000000" if self.is_white else "#ffffff", bold=True)
+        self.sheet.cursor = (frame.left + column, colour) if column is not None else None
+        self.sheet.box = self.rubber.translate((frame.left, frame.top)) if self.rubber is not None else None
+        self._refresh_cells(self.sheet.cells)
 
     # ------------------------------------------------------------------------------------------- the window
 
@@ -248,7 +262,7 @@ class GraphPane(Container, can_focus=True):
         """Back to the program's scale; the cursor goes."""
         self._cursor, self.reading = None, None
         self._look(Window())
-        self._redraw_tiles()
+        self._mark_cells()
         self.query_one(KeyRow).refresh()
 
     def _look(self, window: Window) -> None:
@@ -262,7 +276,7 @@ class GraphPane(Container, can_focus=True):
         """Show or hide the cursor."""
         self._cursor = 0.5 if self._cursor is None else None
         self._read()
-        self._redraw_tiles()
+        self._mark_cells()
 
     def action_arrow(self, x: int, y: int) -> None:
         """Move the cursor if it is shown, else the window."""
@@ -274,16 +288,12 @@ class GraphPane(Container, can_focus=True):
         self._read()
 
     def _read(self) -> None:
-        before, column = self.reading, self.cursor_column
-        self.reading = None
+        before, self.reading = self.reading, None
         if self._cursor is not None and self.page is not None:
             self.reading = readout.read(self.page, self.window, self._cursor)
         if self.reading != before:
             self.query_one(KeyRow).refresh()
-            for at in (column, self.cursor_column):
-                for tile in self.query(CanvasTile):
-                    if at is not None and tile.number == at // TILE_COLUMNS:
-                        tile.refresh()
+            self._mark_cells()
 
     def toggle_keys(self) -> None:
         """Show or hide the colour keys."""
@@ -351,7 +361,7 @@ class GraphPane(Container, can_focus=True):
             return
         (x1, x2), (y1, y2) = sorted((self._drag[0], cell[0])), sorted((self._drag[1], cell[1]))
         self.rubber = Region(x1, y1, x2 - x1 + 1, y2 - y1 + 1)
-        self._redraw_tiles()
+        self._mark_cells()
 
     def on_mouse_up(self, event: events.MouseUp) -> None:
         """Zoom into the rectangle; a mere click puts the cursor there."""
@@ -370,7 +380,7 @@ class GraphPane(Container, can_focus=True):
         elif (cell := self._cell(event)) is not None and self._cursor is not None:
             self._cursor = (cell[0] + 0.5) / self.canvas.columns
             self._read()
-        self._redraw_tiles()
+        self._mark_cells()
 
     def on_click(self, event: events.Click) -> None:
         """Two clicks pause the run."""

@@ -11,6 +11,8 @@ from textual.widgets import Input
 from desire_tui.editor.aid import TypingAid
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from textual import events
 
     from desire_tui.panes.history import History
@@ -29,13 +31,6 @@ class Prompt(Input):
         Binding("escape", "clear", "Clear", show=False),
     ]
 
-    class Entered(Message):
-        """A line, or several pasted ones."""
-
-        def __init__(self, lines: list[str]) -> None:
-            super().__init__()
-            self.lines = lines
-
     class Searching(Message):
         """The history search began, went on, or ended (`pattern` None)."""
 
@@ -43,9 +38,11 @@ class Prompt(Input):
             super().__init__()
             self.pattern = pattern
 
-    def __init__(self, history: History) -> None:
+    def __init__(self, history: History, entered: Callable[[list[str]], object]) -> None:
+        """`entered` is called with a line, or with several pasted ones."""
         super().__init__(id="prompt", select_on_focus=False)
         self.history = history
+        self._entered = entered
         self.aid = TypingAid()
         self._pattern: str | None = None
         self._hit: int | None = None
@@ -138,7 +135,7 @@ class Prompt(Input):
     def _enter(self) -> None:
         line, self.value = self.value, ""
         self.history.forget_place()
-        self.post_message(self.Entered([line]))
+        self._entered([line])
 
     def _on_paste(self, event: events.Paste) -> None:
         """Carry out several pasted lines one after the other.
@@ -154,4 +151,4 @@ class Prompt(Input):
         lines[0] = self.value[: self.cursor_position] + lines[0]
         self.value = lines.pop()
         self.cursor_position = len(self.value)
-        self.post_message(self.Entered([line for line in lines if line.strip()]))
+        self._entered([line for line in lines if line.strip()])

@@ -1,9 +1,7 @@
-"""The pieces of the graph on screen.
-
-The frame behind, tiles of 8 columns with the curves, the row of colour keys.
+"""The pieces of the graph on screen: tiles of 8 columns with frame and curves, and the row of colour keys.
 
 A widget's partial refresh sends a row again from the widget's left edge: tiles keep a frame at a few
-kilobytes.
+kilobytes. They stand where the pane's size puts them, whatever the frame: a new graph lays nothing out anew.
 """
 
 from __future__ import annotations
@@ -18,6 +16,8 @@ from textual.strip import Strip
 from textual.widget import Widget
 
 if TYPE_CHECKING:
+    from textual.geometry import Region
+
     from desire_tui.panes.graph import GraphPane
 
 TILE_COLUMNS, NO_COLOR = 8, 255
@@ -37,6 +37,7 @@ class GraphPiece(Widget):
     """Anything drawn inside a graph pane."""
 
     can_focus = False
+    ALLOW_SELECT = False
 
     _pane: GraphPane | None = None
 
@@ -57,34 +58,10 @@ class GraphPiece(Widget):
         self._pane = self._find_pane()
 
 
-class FrameLayer(GraphPiece):
-    """Axes, ticks, labels, title and caption."""
+class SheetTile(GraphPiece):
+    """Columns `number * 8 …` of the sheet."""
 
-    DEFAULT_CSS = "FrameLayer { width: 1fr; height: 1fr; layer: frame; }"
-
-    def render_line(self, y: int) -> Strip:
-        """Draw a row."""
-        pane = self.pane
-        ground, white = pane.paper
-        frame, page = pane.frame, pane.page
-        width = self.size.width
-        if frame is None or page is None:
-            text = "No graph yet · F5 runs the program" if y == self.size.height // 2 and width > 30 else ""
-            return Strip([Segment(text.center(width), ground + Style(dim=True))], width)
-        line = frame.lines[y] if y < len(frame.lines) else ""
-        net = ground if page.net is None else ground + curve_style(page.net, white=white)
-        style = net if frame.top - 1 <= y <= frame.top + frame.rows else ground
-        head = ""
-        if y == 0:
-            style, head = ground + Style(bold=True), pane.page_mark
-            line = line[: width - len(head)] if head else line
-        return Strip([Segment(line + head, style)], len(line) + len(head)).adjust_cell_length(width, ground)
-
-
-class CanvasTile(GraphPiece):
-    """Columns `number * 8 …` of the canvas."""
-
-    DEFAULT_CSS = "CanvasTile { layer: curves; position: absolute; width: 0; height: 0; }"
+    DEFAULT_CSS = "SheetTile { width: 8; height: 1fr; }"
 
     def __init__(self, number: int) -> None:
         super().__init__()
@@ -92,36 +69,30 @@ class CanvasTile(GraphPiece):
 
     def render_line(self, y: int) -> Strip:
         """Draw a row of cells."""
-        pane = self.pane
-        ground, white = pane.paper
-        canvas = pane.canvas
-        start = self.number * TILE_COLUMNS
-        stop = start + self.size.width
-        if canvas is None or y >= canvas.rows or stop > canvas.columns:
-            return Strip.blank(self.size.width, ground)
-        segments = [
-            Segment(text, ground if color == NO_COLOR else ground + curve_style(color, white=white))
-            for text, color in canvas.runs(y, start, stop)
-        ]
-        strip = Strip(segments, stop - start)
-        if (column := pane.cursor_column) is not None and start <= column < stop:
-            at = column - start
-            cell = strip.crop(at, at + 1)
-            mark = cell.text if cell.text.strip() else "│"
-            line = Strip([Segment(mark, ground + Style(color=pane.cursor_colour, bold=True))], 1)
-            strip = Strip.join([strip.crop(0, at), line, strip.crop(at + 1)])
-        if (box := pane.rubber) is not None and box.y <= y < box.bottom:
-            first, last = max(box.x, start) - start, min(box.right, stop) - start
-            if first < last:
-                chosen = strip.crop(first, last).apply_style(Style(bgcolor="#4a5a70"))
-                strip = Strip.join([strip.crop(0, first), chosen, strip.crop(last)])
-        return strip
+        return self.pane.sheet.piece(self.number, y)
+
+    def render_lines(self, crop: Region) -> list[Strip]:
+        """Draw rows.
+
+        Widget's own way deals with padding, border, opacity and links in each row. Tiles have none, and
+        it took most of the time from a run's start to its first dots.
+        """
+        piece = self.pane.sheet.piece
+        strips = [piece(self.number, y) for y in crop.line_range]
+        filters = self.get_line_filters()
+        if filters:
+            background = self.background_colors[1]
+            for line_filter in filters:
+                strips = [strip.apply_filter(line_filter, background) for strip in strips]
+        if crop.column_span != (0, TILE_COLUMNS):
+            strips = [strip.crop(*crop.column_span) for strip in strips]
+        return strips
 
 
 class KeyRow(GraphPiece):
     """Colour keys, or what the cursor reads."""
 
-    DEFAULT_CSS = "KeyRow { height: 1; width: 1fr; layer: frame; dock: bottom; }"
+    DEFAULT_CSS = "KeyRow { height: 1; width: 1fr; dock: bottom; }"
 
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
@@ -134,9 +105,7 @@ class KeyRow(GraphPiece):
         if reading is not None:
             segments.append(Segment(f" {reading.head} ", ground + Style(bold=True)))
             for name, color, value in reading.values:
-                segments.append(
-                    Segment(f" {name} = {value}", ground + curve_style(color, white=white))
-                )
+                segments.append(Segment(f" {name} = {value}", ground + curve_style(color, white=white)))
         elif pane.page is not None and pane.keys_shown:
             for name, color in pane.page.keys:
                 segments.append(Segment(" ■ ", ground + curve_style(color, white=white)))

@@ -28,27 +28,28 @@ _BITS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]], dtype
 class Canvas:
     """`columns` × `rows` cells. Coordinates are frame units: 0 … 1 from the left and from the bottom.
 
+    `left` is the column of a sheet where the canvas begins: its tiles are counted from the sheet's left edge.
     `patterns[row, column]` is the braille pattern (0: empty), `colors[row, column]` the colour number of the
     last thing drawn there (NO_COLOR: nothing).
     """
 
-    def __init__(self, columns: int, rows: int) -> None:
-        self.columns, self.rows = columns, rows
+    def __init__(self, columns: int, rows: int, left: int = 0) -> None:
+        self.columns, self.rows, self.left = columns, rows, left
         self.width, self.height = 2 * columns, 4 * rows
         self.patterns = np.zeros((rows, columns), dtype=np.uint8)
         self.colors = np.full((rows, columns), NO_COLOR, dtype=np.uint8)
         self._dirty: set[tuple[int, int]] = set()
 
     @property
-    def tiles(self) -> int:
-        """Tiles in a row of cells."""
-        return -(-self.columns // TILE_COLUMNS)
+    def tiles(self) -> range:
+        """Numbers of the tiles that hold a row of cells."""
+        return range(self.left // TILE_COLUMNS, -(-(self.left + self.columns) // TILE_COLUMNS))
 
     def clear(self) -> None:
         """Empty the canvas."""
         self.patterns[:] = 0
         self.colors[:] = NO_COLOR
-        self._dirty = {(row, tile) for row in range(self.rows) for tile in range(self.tiles)}
+        self._dirty = {(row, tile) for row in range(self.rows) for tile in self.tiles}
 
     def take_dirty(self) -> set[tuple[int, int]]:
         """Return (row, tile) of the tiles that changed since the last call."""
@@ -117,5 +118,6 @@ class Canvas:
         np.bitwise_or.at(self.patterns, (cell_row, cell_column), bits)
         self.colors[cell_row, cell_column] = color
         changed = ((before | bits) != before) | (colored != color)
-        keys = np.unique(cell_row[changed] * self.tiles + cell_column[changed] // TILE_COLUMNS)
-        self._dirty.update((int(k) // self.tiles, int(k) % self.tiles) for k in keys)
+        tiles = self.tiles.stop
+        keys = np.unique(cell_row[changed] * tiles + (cell_column[changed] + self.left) // TILE_COLUMNS)
+        self._dirty.update(divmod(key, tiles) for key in keys.tolist())
