@@ -185,10 +185,12 @@ class EditorPane(Vertical):
     # --------------------------------------------------------------------------------------------- problems
 
     def set_problems(self, area: CodeArea, diagnostics: Iterable[Diagnostic]) -> None:
-        """Show a text's problems in it."""
+        """Show a text's problems in it; nothing is drawn again if they are those it shows."""
+        before = area.marks.problems
         area.marks.set_problems(diagnostics)
-        area.marks_changed()
-        self._tell_place()
+        if area.marks.problems != before:
+            area.marks_changed()
+            self._tell_place()
 
     @on(TextArea.Changed)
     def _changed(self, event: TextArea.Changed) -> None:
