@@ -34,6 +34,8 @@ ELSEWHERE = {
     "solver-version": "tests/integration/test_sundials.py::test_another_version_is_refused",
     "stopped-by-user": "tests/runtime/test_run_control.py::test_pause_resume_and_end",
     "go-after-edit": "tests/runtime/test_run_control.py::test_go_after_an_edit_is_refused",
+    "notebook-lost": "tests/session/test_notebook.py::test_a_disk_that_fills_up_costs_the_notebook_not_the_run",
+    "notebook-vanished": "tests/session/test_notebook.py::test_a_file_that_vanishes_begins_anew_and_says_so",
     "time-limit": "tests/batch/test_headless.py::test_timeout_is_status_3",
     "program-missing": "tests/batch/test_headless.py::test_files_that_are_no_programs",
     "file-unreadable": "tests/batch/test_headless.py::test_files_that_are_no_programs",

@@ -80,7 +80,7 @@ class Commands:
             case "dump":
                 if not session.runs:
                     raise DesireError(Diagnostic("no-run"))
-                write(run_report(session.runs[-1]))
+                self._world.write(run_report(session.runs[-1]))
             case "compare":
                 self._compare(argument)
             case "snapshot":

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.session.journal import Journal
 from desire_tui.engine.session.segments import Segments
 from desire_tui.engine.source import Source
 from desire_tui.engine.values import Values
@@ -15,6 +14,7 @@ from desire_tui.engine.values import Values
 if TYPE_CHECKING:
     from desire_tui.engine.analysis import Structure
     from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.session.journal import Journal
     from desire_tui.engine.session.permissions import Permissions
 
 _NO_SOURCE = Source("", "<none>")
@@ -23,7 +23,7 @@ _NO_SOURCE = Source("", "<none>")
 class Desk:
     """State of a session that belongs to the program rather than to a run."""
 
-    def __init__(self, backend: str, folder: Path | None, permissions: Permissions) -> None:
+    def __init__(self, backend: str, folder: Path | None, permissions: Permissions, journal: Journal) -> None:
         self.values = Values()
         self.segments = Segments(self.values, backend)
         self.permissions = permissions
@@ -35,7 +35,7 @@ class Desk:
         self.breakpoints: frozenset[int] = frozenset()
         """Lines of the script (from 1) before which it stops as at a STOP."""
         self.parse_seconds = 0.0
-        self.journal = Journal()
+        self.journal = journal
         self._folder = folder
 
     @property

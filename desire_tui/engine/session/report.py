@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from desire_tui.engine.runtime.record import RunRecord
 
-_WHY = {
+WHY = {
     "running": "still going on",
     "tmax": "TMAX reached",
     "term": "ended by term",
@@ -20,7 +20,7 @@ def run_report(record: RunRecord) -> str:
     """Return settings, counts and times of a run, one fact a line."""
     name = f" {record.segment}" if record.segment else ""
     lines = [
-        f"run {record.number}{name}: rule {record.rule}, {_WHY[record.ended]}",
+        f"run {record.number}{name}: rule {record.rule}, {WHY[record.ended]}",
         f"t          {record.t0:g} to {record.end_time:g} (TMAX = {record.t_max:g})",
         f"samples    {record.count} of NN = {record.nn}",
         f"steps      {record.steps}, rejected {record.rejected}",

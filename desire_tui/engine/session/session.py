@@ -10,6 +10,7 @@ from desire_tui.engine.graph import GraphBook
 from desire_tui.engine.runtime.control import Control
 from desire_tui.engine.session.commands import Commands
 from desire_tui.engine.session.desk import Desk
+from desire_tui.engine.session.journal import Journal
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.permissions import Permissions
 from desire_tui.engine.session.script import Script
@@ -50,7 +51,10 @@ class Session:
     ) -> None:
         self._listener = console if console is not None else Listener()
         self._control = Control()
-        self._desk = Desk(backend, folder, permissions if permissions is not None else Permissions())
+        self._journal = Journal(lambda problem: self._listener.problems((problem,)), _draw)
+        if permissions is None:
+            permissions = Permissions()
+        self._desk = Desk(backend, folder, permissions, self._journal)
         self.graphs = GraphBook()
         """The last graphs, oldest first; `graph` is the newest."""
         self._world = World(self._desk, self._listener, self._control, self.graphs)
@@ -143,7 +147,7 @@ class Session:
             self._script.edited = True
         self._desk.program = self._desk.with_breakpoints(self._desk.overridden(program))
         self._desk.structure = structure(self._desk.program)
-        self._desk.journal.program(source)
+        self._journal.program(source)
         if self._listener.wants_check:
             problems = self.check(source, quick=True)  # the run itself compares the JACOBIAN it uses
         else:
@@ -193,17 +197,20 @@ class Session:
         source = source or self._listener.front_source() or (self.program.source if self.program else None)
         if source is None:
             raise DesireError(Diagnostic("no-program"))
-        self.accept(source)
-        self._world.rule = 1
-        self._script.run(scale=1.0)
+        with self._journal.task("" if self._desk.overrides else "zz", lambda: self.graph):
+            self.accept(source)
+            self._world.rule = 1
+            self._script.run(scale=1.0)
 
     def run(self) -> None:
         """Run the active program's script again from the top, keeping irule and scale."""
-        self._script.run(scale=self.values.cells[SCALE])
+        with self._journal.task("run", lambda: self.graph):
+            self._script.run(scale=self.values.cells[SCALE])
 
     def go(self) -> None:
         """Continue after STOP; error 43 if there is nothing to continue or the program was edited."""
-        self._script.go()
+        with self._journal.task("go", lambda: self.graph):
+            self._script.go()
 
     def execute(self, text: str) -> None:
         """Carry out one command line; an empty line does nothing."""
@@ -213,17 +220,18 @@ class Session:
         statements, problems = parse_command(source)
         if problems:
             raise DesireError(*(p.within(source) for p in problems))
-        if statements:
-            self._desk.journal.command(text)
-        waiting: list[Placed] = []
-        for placed in statements:
-            if self._commands.is_own(placed.node):
-                self._script.interpret(waiting, source)
-                waiting = []
-                self._commands.carry_out_statement(placed, source)
-            else:
-                waiting.append(placed)
-        self._script.interpret(waiting, source)
+        if not statements:
+            return
+        with self._journal.task(text, lambda: self.graph):
+            waiting: list[Placed] = []
+            for placed in statements:
+                if self._commands.is_own(placed.node):
+                    self._script.interpret(waiting, source)
+                    waiting = []
+                    self._commands.carry_out_statement(placed, source)
+                else:
+                    waiting.append(placed)
+            self._script.interpret(waiting, source)
 
     # ------------------------------------------------------------------ steering, from any thread
 
@@ -252,9 +260,15 @@ class Session:
         from desire_tui.engine.outputs.picture import write_picture
 
         write_picture(graph, path)
-        self._desk.journal.picture(path)
+        self._journal.picture(path)
         return path
 
     def help(self, topic: str = "") -> str:
         """Return the help page (Markdown) of a statement, function, command or error number."""
         return self._commands.help_page(topic)
+
+
+def _draw(graph: Graph, path: Path) -> None:
+    from desire_tui.engine.outputs.picture import write_picture
+
+    write_picture(graph, path)

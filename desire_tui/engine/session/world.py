@@ -100,7 +100,7 @@ class World:
             record.message = record.message or error.diagnostics[0].message
             raise _placed_at(error, desk, placed) from None
         finally:
-            desk.journal.run_ended(record)
+            desk.journal.run_ended(record, desk.overrides)
             self._listener.run_ended(record)
         if not finished:
             raise Interrupted
@@ -159,6 +159,7 @@ class World:
 
     def write(self, text: str) -> None:
         """Console output."""
+        self._desk.journal.output(text)
         self._listener.console_text(text)
 
     def ask(self, prompt: str) -> str:

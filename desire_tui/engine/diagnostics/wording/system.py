@@ -24,6 +24,12 @@ MESSAGES: dict[str, Wording] = {
     "file-unwritable": Wording(
         106, "cannot write {path}: {reason}", "does its folder exist, and is there room?"
     ),
+    "notebook-lost": Wording(
+        106,
+        "the notebook {path} cannot be written any more ({reason}): it is off",
+        "notebook 'other.md' begins another",
+    ),
+    "notebook-vanished": Wording(473, "the notebook {path} was removed: a new one begins in its place"),
     "picture-kind": Wording(34, "cannot draw {path}", "end the name with .png, .svg or .pdf"),
     "no-graph": Wording(471, "there is no graph yet", "run a program with dispt, dispxy or DISPXY first"),
     "no-run": Wording(472, "there is no run yet", "start one with zz or drun"),
