@@ -45,7 +45,7 @@ def assign(site: Site) -> Operation:
             values.defined[fresh] = 0
             raise
         values.defined[fresh] = 1
-        site.machine.codes.operations[site.address] = operation
+        site.machine.codes.improve(site.address, operation)
         return following
 
     return once

@@ -53,12 +53,17 @@ class Code:
 
 
 class Codes:
-    """The list of operations; `make` turns the statement at a place of some code into its operation."""
+    """The list of operations; `make` turns the statement at a place of some code into its operation.
 
-    def __init__(self, make: Callable[[Code, int], Operation]) -> None:
+    `halt` is called with the address of a statement at which the script is to halt, before it is carried out.
+    """
+
+    def __init__(self, make: Callable[[Code, int], Operation], halt: Callable[[int], None]) -> None:
         self.operations: list[Operation] = []
         self._make = make
+        self._halt = halt
         self._codes: list[Code] = []
+        self._halts: frozenset[int] = frozenset()
 
     def link(
         self,
@@ -72,7 +77,7 @@ class Codes:
     ) -> Code:
         """Add the statements `first` … `last - 1` of a text; the end follows the last one."""
         code = Code(text, scope, translator, first, last, len(self.operations) - first, is_command)
-        self.operations += [partial(self._first, code, place) for place in range(first, last)]
+        self.operations += [self._fresh(code, place) for place in range(first, last)]
         self.operations.append(_finish)
         self._codes.append(code)
         return code
@@ -94,12 +99,45 @@ class Codes:
         """Make all operations anew when they are next reached."""
         for code in self._codes:
             for place in range(code.first, code.last):
-                self.operations[code.base + place] = partial(self._first, code, place)
+                self.operations[code.base + place] = self._fresh(code, place)
+
+    def halt_at(self, places: frozenset[int]) -> None:
+        """Halt before these statements of the script, and no others; at once, and from any thread."""
+        changed, self._halts = self._halts ^ places, places
+        for code in tuple(self._codes):
+            for place in changed:
+                if not code.is_command and code.first <= place < code.last:
+                    self.operations[code.base + place] = self._fresh(code, place)
+
+    def halts_before(self, address: int) -> bool:
+        """Whether the script halts before the statement at an address."""
+        return self._halts_at(*self.locate(address))
+
+    def _halts_at(self, code: Code, place: int) -> bool:
+        return place in self._halts and not code.is_command
+
+    def _fresh(self, code: Code, place: int) -> Operation:
+        return partial(self._halted if self._halts_at(code, place) else self._first, code, place)
 
     def _first(self, code: Code, place: int) -> int:
         """Make the operation of a statement that is reached for the first time, and carry it out."""
-        operation = self.operations[code.base + place] = self._make(code, place)
+        operation = self._make(code, place)
+        self._put(code, place, operation)
         return operation()
+
+    def improve(self, address: int, operation: Operation) -> None:
+        """Take a quicker operation for the statement at an address from now on."""
+        self._put(*self.locate(address), operation)
+
+    def _put(self, code: Code, place: int, operation: Operation) -> None:
+        self.operations[code.base + place] = operation
+        if self._halts_at(code, place):  # asked after the change: another thread may want it just now
+            self.operations[code.base + place] = partial(self._halted, code, place)
+
+    def _halted(self, code: Code, place: int) -> int:
+        """Halt before a statement; carry it out if the script is to pass this time."""
+        self._halt(code.base + place)
+        return self._make(code, place)()
 
 
 def _finish() -> NoReturn:

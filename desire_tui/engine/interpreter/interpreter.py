@@ -15,7 +15,7 @@ from desire_tui.engine.interpreter.statements import make
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from desire_tui.engine.interpreter.host import Host
     from desire_tui.engine.nodes import Placed, Program
@@ -25,8 +25,9 @@ if TYPE_CHECKING:
 class Interpreter:
     """Interprets one program's script over a session's values.
 
-    `stepping` asks for `Host.before` before each statement (tracing, breakpoints); it may be set from another
-    thread. All methods raise DesireError for the user's mistakes, with the exact place, and `Interrupted`.
+    `stepping` asks for `Host.before` before each statement (tracing); it may be set from another thread, as
+    breakpoints may. All methods raise DesireError for the user's mistakes, with the exact place, and
+    `Interrupted`.
     """
 
     def __init__(self, program: Program, structure: Structure, values: Values, host: Host) -> None:
@@ -44,6 +45,18 @@ class Interpreter:
     @stepping.setter
     def stepping(self, wanted: bool) -> None:
         self._machine.stepping = wanted
+
+    def halt_at(self, lines: Iterable[int]) -> None:
+        """Stop as at a STOP before the first statement of each of these lines (from 1), from now on."""
+        self._machine.codes.halt_at(self._places(frozenset(lines)))
+
+    def _places(self, lines: frozenset[int]) -> frozenset[int]:
+        """Return the places of the first statements of lines, where they have one."""
+        first: dict[int, int] = {}
+        if lines:
+            for place, placed in enumerate(self.program.script):
+                first.setdefault(self.program.source.position(placed.at).row, place)
+        return frozenset(first[line] for line in lines if line in first)
 
     @property
     def position(self) -> Placed | None:

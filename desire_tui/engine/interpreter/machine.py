@@ -74,13 +74,15 @@ class Machine:
         functions = dict(structure.functions)  # commands may add to it
         self.scope = Scope(values, functions, structure.procedures)
         self.functions = Functions(functions, self.scope, self.build, program.source)
-        self.codes = Codes(partial(make, self))
+        self.codes = Codes(partial(make, self), self._halt)
         self.procedures: dict[tuple[object, ...], Code] = {}
         text = Statements(program.script, structure, program.source)
         self.script = self.link(text, self.scope, 0, len(program.script))
         self.returns: list[tuple[int, str]] = []
         self.stopped: Stop | None = None
         self._address = 0
+        self._passing: int | None = None
+        """The halt from which the script goes on: it does not halt there a second time."""
         self.stepping = False
         self._generation = values.generation
 
@@ -192,9 +194,16 @@ class Machine:
         self.stopped = Stop(self._address, self.returns)
         raise Finished
 
+    def _halt(self, address: int) -> None:
+        """Stop before the statement at an address that holds a breakpoint, unless `go` starts there."""
+        passing, self._passing = self._passing, None
+        if passing != address:
+            self.stop(address)
+
     def resume(self) -> None:
         """Continue after STOP; error 43."""
         if self.stopped is None:
             raise DesireError(Diagnostic("go-without-stop"))
         stop, self.stopped = self.stopped, None
+        self._passing = stop.address if self.codes.halts_before(stop.address) else None
         self.run(stop.address, stop.returns)

@@ -96,19 +96,3 @@ class Desk:
                 placed = placed._replace(node=Assign(node.target, value, node.start, node.end))  # noqa: PLW2901
             script.append(placed)
         return replace(program, script=tuple(script))
-
-    def with_breakpoints(self, program: Program) -> Program:
-        """Return the program with a STOP before the first statement of each line that holds a breakpoint."""
-        if not self.breakpoints:
-            return program
-        from desire_tui.engine.nodes import Placed, Simple
-
-        script: list[Placed] = []
-        waiting = set(self.breakpoints)
-        for placed in program.script:
-            row = program.source.position(placed.at).row
-            if row in waiting:
-                waiting.discard(row)
-                script.append(Placed(Simple("STOP"), placed.at))
-            script.append(placed)
-        return replace(program, script=tuple(script))

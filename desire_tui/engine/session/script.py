@@ -67,6 +67,12 @@ class Script:
             self._interpreter.go()
         self._note_stop()
 
+    def set_breakpoints(self, lines: frozenset[int]) -> None:
+        """Stop before these lines of the active program from now on; from any thread."""
+        self._desk.breakpoints = lines
+        if (interpreter := self._interpreter) is not None:
+            interpreter.halt_at(lines)
+
     def interpret(self, statements: list[Placed], source: Source) -> None:
         """Carry out statements of a command line."""
         if not statements:
@@ -106,6 +112,7 @@ class Script:
             script = self._desk.structure or structure(program)
             self._interpreter = Interpreter(program, script, self._desk.values, self._world)
             self._world.stop_here = self._interpreter.stop_here
+            self._interpreter.halt_at(self._desk.breakpoints)
         return self._interpreter
 
     def _note_stop(self) -> None:

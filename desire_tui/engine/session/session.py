@@ -145,7 +145,7 @@ class Session:
         self._desk.parse_seconds = perf_counter() - began
         if self._script.stopped is not None and source.text != self._desk.source.text:
             self._script.edited = True
-        self._desk.program = self._desk.with_breakpoints(self._desk.overridden(program))
+        self._desk.program = self._desk.overridden(program)
         self._desk.structure = structure(self._desk.program)
         self._journal.program(source)
         if self._listener.wants_check:
@@ -181,8 +181,11 @@ class Session:
         self._desk.overrides = dict(settings)
 
     def set_breakpoints(self, lines: Iterable[int]) -> None:
-        """Stop the script before these lines (from 1), from the next `accept` on."""
-        self._desk.breakpoints = frozenset(lines)
+        """Stop the script before these lines (from 1) of the active program, as at a STOP.
+
+        Takes effect at once, also in a script that runs or is stopped, and from any thread.
+        """
+        self._script.set_breakpoints(frozenset(lines))
 
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
