@@ -10,6 +10,7 @@ from desire_tui.engine.analysis.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowered import Op, Table1, Table2
+from desire_tui.engine.lowered.reading import DRAWS, operands
 from desire_tui.engine.nodes import Call, Name
 from desire_tui.engine.values import Kind, Quantity
 
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 LEVELS_MOST = 200
 """Levels of an expression with its FUNCTIONs expanded; later stages follow them recursively."""
-
-_DRAWS = frozenset({"ran", "gauss"})
 
 
 def call(context: Context, node: Call, extent: Extent) -> Value:
@@ -44,7 +43,7 @@ def call(context: Context, node: Call, extent: Extent) -> Value:
         return table1(context, node, extent)
     if node.name == "func2":
         return table2(context, node, extent)
-    if node.name in _DRAWS:
+    if node.name in DRAWS:
         return Op(node.name, ())
     return Op(node.name, tuple([expressions.lower(context, argument, extent) for argument in node.args]))
 
@@ -81,12 +80,12 @@ def levels_of(value: Value) -> int:
     rest = [value]
     while rest:
         part = rest[-1]
-        args = part.args if isinstance(part, Op) else ()
-        missing = [a for a in args if id(a) not in depth]
+        inner = operands(part)
+        missing = [a for a in inner if id(a) not in depth]
         if missing and id(part) not in depth:
             rest.extend(missing)
         else:
-            depth[id(part)] = 1 + max((depth[id(a)] for a in args), default=0)
+            depth[id(part)] = 1 + max((depth[id(a)] for a in inner), default=0)
             rest.pop()
     return depth[id(value)]
 

@@ -14,7 +14,8 @@ from desire_tui.engine.analysis.calls import LEVELS_MOST, levels_of
 from desire_tui.engine.analysis.context import BAD
 from desire_tui.engine.analysis.scope import UNKNOWN
 from desire_tui.engine.chains import PIECE, chain, is_long
-from desire_tui.engine.lowered import Const, Load, Op, Set, SetMat, SetVec, Table1, Table2, Vec
+from desire_tui.engine.lowered import Const, Load, Op, Set, SetMat, SetVec, Vec
+from desire_tui.engine.lowered.reading import draws
 
 if TYPE_CHECKING:
     from desire_tui.engine.analysis.context import Context
@@ -61,7 +62,7 @@ def _kept(context: Context, node: Expr, value: Value, extent: Extent) -> Value:
     context.reads.append("")  # the statement's own part alone must not be kept
     if UNKNOWN in extent:
         return BAD  # a check before the run: nothing is computed
-    if extent and _draws(value):
+    if extent and draws(value):
         if levels_of(value) > LEVELS_MOST:
             return context.report("expression-too-deep", node, limit=LEVELS_MOST)
         return value
@@ -75,18 +76,3 @@ def _kept(context: Context, node: Expr, value: Value, extent: Extent) -> Value:
     else:
         context.before.append(SetMat(slot, extent[0], extent[1], value, where))
     return Vec(slot, count)
-
-
-def _draws(value: Value) -> bool:
-    rest = [value]
-    while rest:
-        part = rest.pop()
-        if isinstance(part, Op):
-            if part.name in {"ran", "gauss"}:
-                return True
-            rest.extend(part.args)
-        elif isinstance(part, Table1):
-            rest.append(part.x)
-        elif isinstance(part, Table2):
-            rest += [part.x, part.y]
-    return False
