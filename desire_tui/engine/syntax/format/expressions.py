@@ -1,0 +1,110 @@
+"""Expressions and conditions as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine import nodes as n
+from desire_tui.engine.chains import chain
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "&": 2, "^": 4}
+_SIGN = 3
+_ATOM = 5
+
+
+def expression(node: n.Node, binds: int = 0) -> str:
+    """Return an expression, in parentheses where its operator binds less tightly than `binds`."""
+    text, own = _bare_expr(node)
+    return f"({text})" if own < binds else text
+
+
+def _bare_expr(node: n.Node) -> tuple[str, int]:
+    match node:
+        case n.Number(value):
+            return format_number(value), _ATOM
+        case n.Text(value):
+            return quoted(value), _ATOM
+        case n.Name(name):
+            return name, _ATOM
+        case n.Element(name, subscripts):
+            return f"{name}[{listed(subscripts)}]", _ATOM
+        case n.Call(name, args):
+            return f"{name}({listed(args)})", _ATOM
+        case n.Transposed(name):
+            return f"{name}%", _ATOM
+        case n.RowOf(name):
+            return f"{name}#", _ATOM
+        case n.Shifted(name, by):
+            return f"{name}{{{expression(by)}}}", _ATOM
+        case n.Pair(re, im):
+            return f"[{expression(re)}, {expression(im)}]", _ATOM
+        case n.Unary(op, operand):
+            return f"{op}{_operand(op, expression(operand, _SIGN))}", _SIGN
+        case n.Binary("^", left, right):
+            # A sign may follow `^` without parentheses, a sign before it belongs to the whole power.
+            exponent = expression(right, _SIGN)
+            return f"{expression(left, _ATOM)}^{exponent}", _BINDS["^"]
+        case n.Binary():
+            return _chain(node)
+    raise TypeError(node)
+
+
+def _chain(node: n.Binary) -> tuple[str, int]:
+    """Write a sum or product; a sum on the left of `*` needs parentheses, the other way round it does not."""
+    first, steps = chain(node)
+    text, binds = _bare_expr(first)
+    pieces, opened = [text], 0
+    for step in steps:
+        own = _BINDS[step.op]
+        if binds < own:
+            opened += 1
+            pieces.append(")")
+        pieces.append(f" {step.op} {expression(step.right, own + 1)}")
+        binds = own
+    return "(" * opened + "".join(pieces), binds
+
+
+def _operand(sign: str, text: str) -> str:
+    """Keep two minus signs apart: `--` would begin a comment."""
+    return f" {text}" if sign == "-" and text.startswith("-") else text
+
+
+def condition(node: n.Node, binds: int = 0) -> str:
+    """Return a condition, in parentheses where its operator binds less tightly than `binds`."""
+    match node:
+        case n.Relation(op, left, right):
+            return f"{expression(left, 1)} {op} {expression(right, 1)}"
+        case n.Not(operand):
+            inner = condition(operand, 3)
+            # `not` is a word only before a name, a number or a parenthesis.
+            return f"not {inner}" if inner.startswith("(") else f"not ({condition(operand)})"
+        case n.Logical(op, left, right):
+            own = 2 if op == "and" else 1
+            text = f"{condition(left, own)} {op} {condition(right, own + 1)}"
+            return f"({text})" if own < binds else text
+    raise TypeError(node)
+
+
+def format_number(value: float) -> str:
+    """Return the shortest text that reads back as the same number.
+
+    Only hexadecimal literals are negative (`&&FFFF` is −1); infinite values cannot be written.
+    """
+    if value < 0 and value == int(value):
+        return f"&&{int(value) + 0x10000:X}"
+    if value == int(value) and abs(value) < 1e16:  # repr changes to exponents there
+        return str(int(value))
+    return repr(value)
+
+
+def quoted(text: str) -> str:
+    """Return a string between the quotes that it does not hold."""
+    return f'"{text}"' if "'" in text else f"'{text}'"
+
+
+def listed(items: Iterable[n.Node]) -> str:
+    """Return expressions between commas."""
+    return ", ".join(map(expression, items))

@@ -1,0 +1,54 @@
+"""Programs as text: a statement a line, blocks indented."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine import nodes as n
+from desire_tui.engine.syntax.format.statements import format_statement
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+INDENT = "  "
+_CLOSING = frozenset({"else", "proceed", "next", "end while", "end", "end if"})
+
+
+def format_program(program: n.Program) -> str:
+    """Return a program's canonical text: a statement a line, blocks indented. Comments are lost: no nodes."""
+    lines: list[str] = []
+    depth = 0
+    for placed in program.script:
+        node = placed.node
+        depth -= _closes(node)
+        shown = placed.number is not None and not _repeats(program.script, placed)
+        number = f"{placed.number} " if shown else ""
+        lines.append(number + INDENT * max(0, depth) + format_statement(node))
+        depth += _opens(node)
+    for i, segment in enumerate(program.segments):
+        if i == 0:
+            lines.append("DYNAMIC")
+        if segment.label is not None:
+            lines.append(f"label {segment.label}")
+        lines += [INDENT + format_statement(placed.node) for placed in segment.body]
+        if segment.jacobian:
+            lines.append("JACOBIAN")
+            lines += [INDENT + format_statement(placed.node) for placed in segment.jacobian]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _repeats(script: Sequence[n.Placed], placed: n.Placed) -> bool:
+    """Whether an earlier statement of the same line has shown its number."""
+    return next(other for other in script if other.number == placed.number) is not placed
+
+
+def _opens(node: n.Statement) -> bool:
+    if isinstance(node, (n.If, n.For, n.While, n.Procedure, n.Submodel)):
+        return True
+    return isinstance(node, n.Simple) and node.word in ("repeat", "else")
+
+
+def _closes(node: n.Statement) -> bool:
+    if isinstance(node, n.Until):
+        return True
+    return isinstance(node, n.Simple) and node.word in _CLOSING
