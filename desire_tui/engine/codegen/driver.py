@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.context import context_fields, memory_fields
-from desire_tui.engine.codegen.lanes import Lanes
+from desire_tui.engine.codegen.fixed import TOLERANCE, FixedStep
+from desire_tui.engine.codegen.loopframe import LoopFrame
 from desire_tui.engine.codegen.variable import VariableStep
 from desire_tui.engine.runtime.memory import Ended, Phase
 from desire_tui.engine.values import DT, T
@@ -26,44 +26,21 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.text import Text
     from desire_tui.engine.integration.tableaus import Tableau
 
-TOLERANCE = 1e-9
-"""Relative to DT: a step end this little before a communication point is at it."""
-_CHECK_EVERY = 1024  # steps between two looks for inf and nan inside a communication interval
+_CHECK_EVERY = 1024
+"""Steps between two looks for inf and nan inside a communication interval; a power of 2."""
 
 
-_VARIABLES = {
-    "k": "i64", "steps": "i64", "calls": "i64", "t_base": "double", "dt_base": "double", "t_next": "double",
-    "t_here": "double", "h": "double", "phase": "i32", "ended": "i32", "last": "i1", "reached": "i1", "stop":
-    "i1", "lands": "i1", "cut": "i1",
-}  # fmt: skip
-
-
-_KEPT = {
-    "k": "k", "t_base": "t_base", "dt_base": "dt_base", "phase": "phase", "steps": "steps", "calls":
-    "derivative_calls",
-}  # fmt: skip
-"""Variables of the loop that live on in the run's memory, by their fields there."""
-
-
-class Driver:
-    """Writes the function `i32 @run(ptr memory, ptr context)`."""
+class Driver(LoopFrame):
+    """Writes the function `i32 @run(ptr memory, ptr context)`; `tableau` None: rule 0, no steps."""
 
     def __init__(self, text: Text, storage: Storage, tableau: Tableau | None) -> None:
-        self.text = text
-        self.storage = storage
+        super().__init__(text, storage)
         self.tableau = tableau
-        self.lanes = Lanes(text)
-        self.memory = memory_fields(text)
-        self.context = context_fields(text)
 
     def write(self) -> None:
         """Write the whole body."""
-        text, storage = self.text, self.storage
-        for name, kind in _VARIABLES.items():
-            text.alloca(kind, f"%{name}")
-        storage.enter()
-        for name, field in _KEPT.items():
-            self.put(name, self.memory.load(field))
+        text = self.text
+        self.enter()
         self._next_point()
         text.branch(self._rows_full(), "full", "enter")
         text.begin("enter")
@@ -76,7 +53,7 @@ class Driver:
         text.begin("over")
         self.leave(Ended.TMAX)
         text.begin("recall")
-        storage.recall_first_stage()
+        self.storage.recall_first_stage()
         text.jump("step")
         self._point()
         if self.tableau is None:
@@ -87,37 +64,9 @@ class Driver:
             self._again()
             self._step(self.tableau)
         self._attend()
-        self._exit()
+        self.exit()
 
     # ------------------------------------------------------------------ small things
-
-    def put(self, name: str, value: str) -> None:
-        """Set a variable of the loop."""
-        self.text.do(f"store {_VARIABLES[name]} {value}, ptr %{name}")
-
-    def get(self, name: str) -> str:
-        """Read a variable of the loop."""
-        return self.text.op(f"load {_VARIABLES[name]}, ptr %{name}")
-
-    def count(self, name: str) -> None:
-        """Add one."""
-        self.put(name, self.text.op(f"add i64 {self.get(name)}, 1"))
-
-    def leave(self, ended: Ended, phase: Phase | None = None) -> None:
-        """Go to the function's end."""
-        self.put("ended", str(int(ended)))
-        if phase is not None:
-            self.put("phase", str(int(phase)))
-        self.text.jump("exit")
-
-    def _exit(self) -> None:
-        """Write the one way out: everything back to memory."""
-        text = self.text
-        text.begin("exit")
-        self.storage.leave()
-        for name, field in _KEPT.items():
-            self.memory.store(field, self.get(name))
-        text.do(f"ret i32 {self.get('ended')}")
 
     def _next_point(self) -> None:
         """t_next ← t_start + point·COMINT."""
@@ -127,11 +76,6 @@ class Driver:
 
     def _rows_full(self) -> str:
         return self.text.op(f"icmp sge i64 {self.memory.load('row')}, {self.memory.load('row_limit')}")
-
-    def run_pass(self, kind: str, stage: int) -> None:
-        """Write a pass and count it."""
-        self.storage.run_pass(kind, stage)
-        self.count("calls")
 
     def _clear_term(self) -> None:
         self.context.store("term", "-1")
@@ -200,7 +144,7 @@ class Driver:
         self.put("reached", "1")
         stop = text.op(f"icmp ne i32 {self.memory.load('stop', volatile=True)}, 0")
         self.put("stop", stop)
-        text.branch(text.op(f"or i1 {stop}, {self._hurry()}"), "attend", "point")
+        text.branch(text.op(f"or i1 {stop}, {self.hurried()}"), "attend", "point")
 
     # ------------------------------------------------------------------ steps
 
@@ -216,32 +160,10 @@ class Driver:
         text.jump("sample")
 
     def _step(self, tableau: Tableau) -> None:
-        text, storage = self.text, self.storage
-        text.begin("step")
-        storage.save()
-        if tableau.variable:
-            VariableStep(self, tableau).write()
-            return
-        if tableau.dt_may_change:
-            self._follow_step()
-        else:
-            self.put("h", self.get("dt_base"))
-        dt = self.get("h")
-        for stage in range(1, tableau.stages):
-            storage.advance(tableau.a[stage], dt, last=False)
-            storage.store(T, self._counted_time(float(tableau.c[stage]), dt))
-            self.run_pass("derivative", stage + 1)
-        storage.advance(tableau.b, dt, last=True)
-        storage.store(T, self._counted_time(1.0, dt))
-        self.count("k")
-        self.count("steps")
-        self._arrive()
-
-    def _arrive(self) -> None:
-        lanes = self.lanes
-        slack = lanes.mul(lanes.const(TOLERANCE), self.get("h"))
-        limit = lanes.sub(self.get("t_next"), slack)
-        self.arrived(lanes.compare("oge", self.storage.load(T), limit))
+        self.text.begin("step")
+        self.storage.save()
+        step = VariableStep if tableau.variable else FixedStep
+        step(self, tableau).write()
 
     def arrived(self, reached: str) -> None:
         """End a step; `reached`: it ended on a communication point."""
@@ -253,11 +175,8 @@ class Driver:
         stop = text.op(f"icmp ne i32 {self.memory.load('stop', volatile=True)}, 0")
         self.put("stop", stop)
         looked = text.op(f"or i1 {due}, {stop}")
-        asked = text.op(f"or i1 {looked}, {self._hurry()}")
+        asked = text.op(f"or i1 {looked}, {self.hurried()}")
         text.branch(text.op(f"or i1 {asked}, {reached}"), "attend", "again")
-
-    def _hurry(self) -> str:
-        return self.text.op(f"icmp ne i64 {self.context.load('hurry', volatile=True)}, 0")
 
     def _attend(self) -> None:
         """Write what happens where a step has ended and something is to be looked at."""
@@ -272,27 +191,8 @@ class Driver:
         self.put("phase", text.op(f"select i1 {reached}, {phases}"))
         stop = self.get("stop")
         self.put("ended", text.op(f"select i1 {stop}, i32 {int(Ended.STOPPED)}, i32 {int(Ended.RUNNING)}"))
-        text.branch(text.op(f"or i1 {stop}, {self._hurry()}"), "exit", "attend.on")
+        text.branch(text.op(f"or i1 {stop}, {self.hurried()}"), "exit", "attend.on")
         text.begin("attend.on")
         self.storage.leave()  # others watch the values while the run goes on
         self.memory.store("steps", self.get("steps"))
         text.branch(reached, "point", "again")
-
-    def _counted_time(self, c: float, dt: str) -> str:
-        """Return t_base + (k + c)·dt."""
-        lanes = self.lanes
-        k = self.text.op(f"sitofp i64 {self.get('k')} to double")
-        return lanes.add(self.get("t_base"), lanes.mul(lanes.add(k, lanes.const(c)), dt))
-
-    def _follow_step(self) -> None:
-        """H ← DT; a changed DT begins a new count of steps."""
-        text = self.text
-        dt = self.storage.load(DT)
-        text.branch(self.lanes.compare("une", dt, self.get("dt_base")), "step.changed", "step.same")
-        text.begin("step.changed")
-        self.put("t_base", self.storage.load(T))
-        self.put("k", "0")
-        self.put("dt_base", dt)
-        text.jump("step.same")
-        text.begin("step.same")
-        self.put("h", dt)
