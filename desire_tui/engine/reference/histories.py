@@ -1,0 +1,101 @@
+"""Statements that remember, or count communication points, as Python closures."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any
+
+from desire_tui.engine.lowered import DelayLine, Store, TrackHold
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.lowered import Get
+    from desire_tui.engine.reference.statements import Statements
+    from desire_tui.engine.runtime.memory import RunMemory
+
+    Run = Callable[[], None]
+
+
+def sampled(statements: Statements, every: int, body: Run) -> Run:
+    """Return what carries `body` out at every m-th communication point (`SAMPLE m`)."""
+
+    def run() -> None:
+        memory = statements.memory
+        assert memory is not None
+        if (memory.points_before + memory.point + 1) % every == 0 and _is_fresh(memory):
+            body()
+
+    return run
+
+
+def history(statements: Statements, action: Store | Get | DelayLine | TrackHold) -> Run:
+    """Return the closure of a statement that remembers."""
+    cells = statements.cells
+    if isinstance(action, TrackHold):
+        control, value = statements.value(action.control), statements.value(action.value)
+        held, tracked = action.held_slot, action.tracked_slot
+
+        def track() -> None:
+            p, x = control(), value()
+            if p > 0.0:
+                cells[held] = cells[tracked]
+                cells[tracked] = x
+
+        return track
+    if isinstance(action, DelayLine):
+        return _delay(statements, action)
+    array = action.array_slot
+    count, counter, slot = action.count, action.counter, action.slot
+    stores = isinstance(action, Store)
+
+    def move() -> None:
+        memory = statements.memory
+        assert memory is not None
+        positions = _integers(memory.counters, counter + 1)
+        fresh = _is_fresh(memory)
+        at = positions[counter] - (not fresh)
+        if not 0 <= at < count:
+            return
+        if not stores:
+            cells[slot] = cells[array + at]
+        elif fresh:
+            cells[array + at] = cells[slot]
+        positions[counter] = at + 1
+
+    return move
+
+
+def _delay(statements: Statements, action: DelayLine) -> Run:
+    source = statements.value(action.source)
+    cells, buffer, count = statements.cells, action.buffer_slot, action.count
+    slot, counter = action.slot, action.counter
+
+    def delay() -> None:
+        memory = statements.memory
+        assert memory is not None
+        x = source()
+        positions, lags = _integers(memory.counters, counter + 1), _integers(memory.lags, counter + 1)
+        fresh, lag = _is_fresh(memory), lags[counter]
+        at = positions[counter] - (not fresh)
+        if not fresh and (at < 0 or lag == count):
+            return  # the joint's own record stands where the one looked for was
+        cells[slot] = x if lag == 0 else cells[buffer + (at - lag) % count]
+        if fresh:
+            cells[buffer + at % count] = x
+        positions[counter] = at + 1
+
+    return delay
+
+
+def _is_fresh(memory: RunMemory) -> bool:
+    """Whether this is not the joint of a continued run, which had its turn in the run before.
+
+    `get` and delays read at a joint what they read there before: after a `reset` the script has gone
+    back, and the first interval must not go on with the last value of the run taken back.
+    """
+    return not (memory.joined and memory.point == 0)
+
+
+def _integers(address: int, count: int) -> Any:
+    return (ctypes.c_int64 * count).from_address(address)

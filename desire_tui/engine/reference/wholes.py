@@ -1,0 +1,87 @@
+"""Assignments to whole arrays, and sums over them, as Python closures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.reference.expressions import Expressions
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.lowered import SetDot, SetMat, SetVec
+    from desire_tui.engine.reference.statements import Statements
+
+    Run = Callable[[], None]
+
+
+def vector(statements: Statements, action: SetVec) -> Run:
+    """Return the closure of `Vector` or `Vectr delta`."""
+    target = statements.data[action.slot : action.slot + action.count]
+    mask = None
+    if action.mask_slot is not None:
+        mask = statements.data[action.mask_slot : action.mask_slot + action.count]
+    value = statements.value(action.value, action.count)
+    mode = action.mode
+
+    def run() -> None:
+        new = value()
+        if mask is not None:
+            new = np.where(mask != 0.0, 0.0, new)
+        if mode == "add":
+            new = target + new
+        elif mode == "largest":
+            new = np.broadcast_to(new, target.shape)
+            winner = len(target) - 1 - int(np.argmax(new[::-1]))
+            kept = new[winner]
+            new = np.zeros(len(target))
+            new[winner] = kept
+        target[:] = new
+
+    return run
+
+
+def matrix(statements: Statements, action: SetMat) -> Run:
+    """Return the closure of `MATRIX` or `DELTA`."""
+    count = action.rows * action.cols
+    target = statements.data[action.slot : action.slot + count]
+    mask = None if action.mask_slot is None else statements.data[action.mask_slot : action.mask_slot + count]
+    expressions = Expressions(statements.values, statements.sequence, count)
+    value = expressions.compile(action.value)
+    lower = None if action.lower is None else expressions.compile(action.lower)
+    upper = None if action.upper is None else expressions.compile(action.upper)
+    adds = action.mode == "add"
+
+    def run() -> None:
+        expressions.begin()
+        new = target + value() if adds else np.broadcast_to(value(), target.shape)
+        if lower is not None:
+            least = lower()
+            new = np.where(new < least, least, new)
+        if upper is not None:
+            most = upper()
+            new = np.where(new > most, most, new)
+        target[:] = new if mask is None else np.where(mask != 0.0, new, target)
+
+    return run
+
+
+def dot(statements: Statements, action: SetDot) -> Run:
+    """Return the closure of `DOT` or `AVG`."""
+    terms = []
+    for term in action.terms:
+        left = statements.value(term.left)
+        right = None if term.right is None else statements.value(term.right)
+        terms.append((term.sign, left, right))
+    length = float(action.terms[0].left.count) if action.average and action.terms else 1.0
+    cells, slot = statements.cells, action.slot
+
+    def run() -> None:
+        total = 0.0
+        for sign, left, right in terms:
+            total += sign * float(left().sum() if right is None else left().dot(right()))
+        cells[slot] = total / length
+
+    return run
