@@ -13,6 +13,7 @@ from desire_tui.engine.codegen.loopcode import array_loop, register_loop
 from desire_tui.engine.codegen.scope import survey
 from desire_tui.engine.codegen.tables import Tables
 from desire_tui.engine.lowered import Deriv, Guard, Terminate
+from desire_tui.engine.runtime.faults import first_not_finite
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 
 if TYPE_CHECKING:
@@ -114,17 +115,8 @@ class NativeModel:
             if ended is not Ended.RUNNING or memory.row >= memory.row_limit:
                 break
         if ended is Ended.NOT_FINITE:
-            memory.which = self._first_wild()
+            memory.which = first_not_finite(self._values.data, self._states, self._columns)
         return ended
-
-    def _first_wild(self) -> int:
-        """Return the number of the first state that is inf or nan, or -1 - that of the first column."""
-        data = self._values.data
-        for number, slots in enumerate((self._states, self._columns)):
-            wild = np.flatnonzero(~np.isfinite(data[slots]))
-            if wild.size:
-                return int(wild[0]) if number == 0 else -1 - int(wild[0])
-        return 0
 
 
 def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:

@@ -22,6 +22,7 @@ from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import kind_of, plan
 from desire_tui.engine.integration.system import Functions, Natives, StiffSystem
+from desire_tui.engine.runtime.faults import first_not_finite
 from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
 from desire_tui.engine.values import DT
 
@@ -142,21 +143,13 @@ class StiffModel:
         if ended is Ended.SOLVER:
             memory.suspect = system.suspect()
         elif ended is Ended.NOT_FINITE:
-            memory.which = self._first_wild()
+            memory.which = first_not_finite(self._values.data, self._slots, self._columns)
         return ended
 
     def _clear_array(self) -> None:
         """Elements of J that JACOBIAN does not assign are 0, whatever the script left there."""
         if self._array:
             self._values.data[self._array : self._array + self.system.n**2] = 0.0
-
-    def _first_wild(self) -> int:
-        data = self._values.data
-        for number, slots in enumerate((self._slots, self._columns)):
-            wild = np.flatnonzero(~np.isfinite(data[slots]))
-            if wild.size:
-                return int(wild[0]) if number == 0 else -1 - int(wild[0])
-        return 0
 
 
 def _jacobian_passes(

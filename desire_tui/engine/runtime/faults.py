@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import isnan
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.runtime.memory import Ended
@@ -12,6 +14,8 @@ from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from numpy.typing import NDArray
 
     from desire_tui.engine.lowered import Action, Segment, Where
     from desire_tui.engine.runtime.memory import RunMemory
@@ -24,6 +28,18 @@ _SOLVER_KEYS = {
     -9: "solver-derivative", -10: "solver-derivative", -15: "solver-corrector", -27: "solver-too-close",
 }  # fmt: skip
 """CVODE's return flags (SUNDIALS 7, cvode.h)."""
+
+
+def first_not_finite(data: NDArray[np.float64], states: NDArray[np.int64], columns: NDArray[np.int64]) -> int:
+    """Return `RunMemory.which`: the first state that is inf or nan, else -1 - the first such column.
+
+    `data` are all numbers, `states` and `columns` the slots of states and sampled variables.
+    """
+    for number, slots in enumerate((states, columns)):
+        wild = np.flatnonzero(~np.isfinite(data[slots]))
+        if wild.size:
+            return int(wild[0]) if number == 0 else -1 - int(wild[0])
+    return 0
 
 
 def fault(ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values: Values) -> DesireError:
