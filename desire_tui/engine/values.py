@@ -72,6 +72,16 @@ class Quantity:
         return self.size * (2 if self.kind is Kind.COMPLEX else 1)
 
 
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """All numbers as they were at some time, and the state of `ran()`."""
+
+    numbers: tuple[tuple[int, NDArray[np.float64]], ...]
+    defined: bytes
+    random: NDArray[np.uint64]
+    generation: int
+
+
 class Values:
     """The session's quantities by name, and their numbers.
 
@@ -180,6 +190,24 @@ class Values:
         """Whether it has a value: arrays always, scalars once assigned."""
         slot = quantity.slot
         return slot >= SCALAR_SLOTS or bool(quantity.shape) or bool(self.defined[slot])
+
+    @property
+    def numbers_used(self) -> int:
+        """How many numbers there are, all scalars and arrays together."""
+        return self._scalars + self._arrays - SCALAR_SLOTS
+
+    def saved(self) -> Saved:
+        """Return a copy of all numbers, for `restore`."""
+        parts = ((0, self._scalars), (SCALAR_SLOTS, self._arrays))
+        numbers = tuple((first, self.data[first:last].copy()) for first, last in parts)
+        return Saved(numbers, bytes(self.defined), self.random.copy(), self.generation)
+
+    def restore(self, saved: Saved) -> None:
+        """Put numbers back; names made since stay, with the numbers they have."""
+        for first, numbers in saved.numbers:
+            self.data[first : first + len(numbers)] = numbers
+        self.defined[: len(saved.defined)] = saved.defined
+        self.random[:] = saved.random
 
     def view(self, quantity: Quantity) -> NDArray[np.float64] | NDArray[np.complex128]:
         """Return an array's numbers in its shape, sharing memory."""

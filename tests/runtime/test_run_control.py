@@ -18,20 +18,24 @@ PATIENCE = 20.0
 
 
 class Worker:
-    """A session at work on its own thread."""
+    """A session at work on its own thread: runs a program or, in a session there is, carries out a command."""
 
-    def __init__(self, text):
-        self.kept = Kept()
+    def __init__(self, text, session=None):
+        self.kept = Kept() if session is None else session._listener
         self.started = threading.Event()
         self.kept.at_run_start = self.started.set
-        self.session = Session(self.kept, backend=running.BACKEND)
+        work = Session(self.kept, backend=running.BACKEND) if session is None else session
+        self.session = work
         self.error = None
-        self.thread = threading.Thread(target=self._work, args=(text,), daemon=True)
+        task = (
+            (lambda: work.erun(Source(text, "test.src"))) if session is None else (lambda: work.execute(text))
+        )
+        self.thread = threading.Thread(target=self._work, args=(task,), daemon=True)
         self.thread.start()
 
-    def _work(self, text):
+    def _work(self, task):
         try:
-            self.session.erun(Source(text, "test.src"))
+            task()
         except DesireError as error:
             self.error = error
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from desire_tui.engine.graph.book import GraphBook
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, rgb
+from desire_tui.engine.graph.keys import Key
 from desire_tui.engine.graph.lines import clip_polyline, thin_columns
-from desire_tui.engine.graph.model import Curve, Frame, Graph, Key, Points, ShownArray
+from desire_tui.engine.graph.model import Curve, Frame, Graph, Points, ShownArray
 from desire_tui.engine.graph.settings import DisplaySettings
 
 __all__ = [

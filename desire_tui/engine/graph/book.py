@@ -89,7 +89,25 @@ class GraphBook:
         self._films(page, record, pictures)
         return page
 
-    def _curves(self, record: RunRecord, request: Request, frame: Frame) -> Iterator[Curve]:
+    def compare(self, records: Sequence[RunRecord]) -> Graph | None:
+        """Show runs of one segment over each other on a page of their own, each in other colours.
+
+        None where they have no graph, or the display is off. The next run starts another page.
+        """
+        pages = [(record, next((r for r in record.requests if r.kind != "type"), None)) for record in records]
+        page, first = None, 0
+        for record, request in pages:
+            if request is None or self.settings.mode == 0:
+                return None
+            page = page or self._page(run_frame(record, request), caption(request))
+            page.curves.extend(self._curves(record, request, page.frame, first))
+            first = len(page.curves)
+        self._fresh = True
+        return page
+
+    def _curves(
+        self, record: RunRecord, request: Request, frame: Frame, first_color: int = 0
+    ) -> Iterator[Curve]:
         first = 1 + record.first_column(request)
         names = [column.name for column in request.columns]
         joined = record.rule != 0 or request.kind == "dispt"
@@ -100,9 +118,10 @@ class GraphBook:
         else:
             pairs = [(i, i + 1) for i in range(0, len(names) - 1, 2)]
         for number, (x, y) in enumerate(pairs):
+            color = self.settings.curve_color(first_color + number)
             yield Curve(
-                name=names[y], x_name="t" if x < 0 else names[x], color=self.settings.curve_color(number),
-                record=record, y_column=first + y, x_column=0 if x < 0 else first + x, frame=frame,
+                name=names[y], x_name="t" if x < 0 else names[x], color=color, record=record,
+                y_column=first + y, x_column=0 if x < 0 else first + x, frame=frame,
                 thickness=self.settings.thickness, joined=joined,
             )  # fmt: skip
 

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+
+from desire_tui.engine.graph.keys import told_apart
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from desire_tui.engine.graph.keys import Key
     from desire_tui.engine.runtime.record import RunRecord
 
     Floats = NDArray[np.float64]
@@ -37,13 +40,6 @@ class Frame:
     def y_ticks(self) -> tuple[float, float, float]:
         """Where ordinates are labelled."""
         return self.bottom, (self.bottom + self.top) / 2, self.top
-
-
-class Key(NamedTuple):
-    """A colour key: a curve's name and its colour number."""
-
-    name: str
-    color: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -156,9 +152,7 @@ class Graph:
     @property
     def keys(self) -> tuple[Key, ...]:
         """Colour keys, each name and colour once; none in graphs of one colour."""
-        if not self.has_keys:
-            return ()
-        return tuple(dict.fromkeys(Key(curve.name, curve.color) for curve in self.curves))
+        return told_apart(self.curves) if self.has_keys else ()
 
     @property
     def is_empty(self) -> bool:

@@ -22,6 +22,8 @@ from desire_tui.engine.values import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from desire_tui.engine.lowered import Segment
     from desire_tui.engine.source import Source, Span
     from desire_tui.engine.values import Values
@@ -54,6 +56,11 @@ class Plan:
     every: int
     checked: int
     scale: float
+
+    @property
+    def tolerance(self) -> float:
+        """ERMAX if the rule looks at it, else 0."""
+        return self.error_max if self.rule in VARIABLE_STEP | VARIABLE_ORDER else 0.0
 
     @property
     def rows_most(self) -> int:
@@ -113,6 +120,14 @@ class Defaults:
             checked=self._checked(segment.order) if step_rule else 0,
             scale=cells[SCALE],
         )  # fmt: skip
+
+    def saved(self) -> dict[int, float]:
+        """Return what is a default now, for `restore`."""
+        return self._supplied.copy()
+
+    def restore(self, supplied: Mapping[int, float]) -> None:
+        """Take up what was a default when `saved` was called; the values have been put back too."""
+        self._supplied = dict(supplied)
 
     def follow(self) -> None:
         """Note, after a run or reset, that a DT which a rule made of a default is still nobody's wish."""

@@ -35,6 +35,8 @@ class RunRecord:
     t_max: float
     nn: int
     dt: float
+    error_max: float = 0.0
+    """ERMAX of rules that look at it, else 0."""
     rows: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 1)))
     count: int = 0
     ended: EndedWord = "running"

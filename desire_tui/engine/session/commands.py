@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes import Dump, FileCommand, Simple
-from desire_tui.engine.session.comparison import compare_rules
+from desire_tui.engine.session.comparison import Change, compare_runs
 from desire_tui.engine.session.report import run_report
+from desire_tui.engine.session.status import State
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -121,10 +123,15 @@ class Commands:
         return "\n".join(lines) + "\n"
 
     def _compare(self, argument: str | None) -> None:
-        words = (argument or "").split()
-        if len(words) != 2 or words[0] not in ("rule", "irule") or not words[1].isdigit():
-            raise DesireError(Diagnostic("compare-form"))
-        self._listener.console_text(compare_rules(self._session, self._world, self._desk, int(words[1])))
+        change = Change.parse(argument or "")
+        try:
+            with self._world.working():
+                table = compare_runs(self._session, self._world, self._desk, change)
+        except Interrupted:
+            if self._world.state is State.IDLE:
+                raise DesireError(Diagnostic("stopped-by-user")) from None
+            raise  # the script that compares ends too
+        self._listener.console_text(table)
 
     def _notebook(self, argument: str | None) -> None:
         journal = self._desk.journal

@@ -14,6 +14,7 @@ from desire_tui.engine.runtime.record import RunRecord
 from desire_tui.engine.runtime.run import Simulator
 from desire_tui.engine.runtime.stash import write_stash
 from desire_tui.engine.session.lister import Lister
+from desire_tui.engine.session.starting import NUMBERS_MOST, Situation
 from desire_tui.engine.session.status import State
 from desire_tui.engine.values import SCALE
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
-    from desire_tui.engine.graph import GraphBook
+    from desire_tui.engine.graph import Graph, GraphBook
     from desire_tui.engine.lowered import Segment
     from desire_tui.engine.nodes import Placed
     from desire_tui.engine.runtime.backend import Model
@@ -51,6 +52,10 @@ class World:
         self.runs: list[RunRecord] = []
         self.runs_made = 0
         self._runs_bytes = 0  # of all but the newest
+        self.start: Situation | None = None
+        """Where the last run began, unless the model is large."""
+        self.run_of: tuple[str, int] | None = None
+        """The last run's program text, and `Values.generation` then."""
         self.stop_here: Callable[[], None] = _nothing
         self.step_allowed = False
         """The traced script may carry out the statement it stands at (`go` was given)."""
@@ -76,14 +81,16 @@ class World:
             raise _placed_at(error, desk, placed) from None
         if segment.recover:
             segment = desk.segments.recovering(segment, desk.stash_path)
+        start = self._situation()
         plan = self.simulator.defaults.plan(segment, self.rule, desk.source_of(placed), placed.span())
         model = desk.segments.model(segment, plan.rule)
         self._advise(model)
+        self.start, self.run_of = start, (program.source.text, self._values.generation)
         self.runs_made += 1
         record = RunRecord(
             number=self.runs_made, segment=label, line=desk.line_of(placed), requests=segment.requests,
             columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule,
-            scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt,
+            scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
             compile_seconds=perf_counter() - began,
         )  # fmt: skip
         self._keep(record)
@@ -106,6 +113,10 @@ class World:
             raise Interrupted
         if segment.stash and not star:
             self._stash(segment, record)
+
+    def _situation(self) -> Situation | None:
+        values = self._values
+        return Situation.now(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
 
     def _advise(self, model: Model) -> None:
         """Show what a model has to say before its first run (rules 9 … 16)."""
@@ -134,6 +145,7 @@ class World:
     def forget_runs(self) -> None:
         """Begin a program: its runs count from 1."""
         self.runs.clear()
+        self.start = self.run_of = None
         self.runs_made = self._runs_bytes = 0
 
     def reset(self) -> None:
@@ -141,19 +153,31 @@ class World:
         self.simulator.reset()
 
     @contextmanager
-    def restored(self) -> Iterator[None]:
-        """Put all quantities, random numbers and positions back afterwards."""
-        values = self._values
-        numbers = [(q.slot, values.data[q.slot : q.slot + q.slots].copy()) for q in values]
-        defined, random, history = bytes(values.defined), values.random.copy(), self.simulator.history.copy()
+    def working(self) -> Iterator[None]:
+        """Frame of a command that makes a run: it may be paused and ended."""
+        self._control.begin()
+        before, self.state = self.state, State.RUNNING
         try:
             yield
         finally:
-            for slot, saved in numbers:
-                values.data[slot : slot + len(saved)] = saved
-            values.defined[: len(defined)] = defined
-            values.random[:] = random
-            self.simulator.history = history
+            self.state = before
+            self._control.done()
+
+    @contextmanager
+    def restored(self) -> Iterator[None]:
+        """Put everything that a run could change back afterwards."""
+        before = Situation.now(self._values, self.simulator)
+        try:
+            yield
+        finally:
+            before.put_back(self._values, self.simulator)
+
+    def go_back(self) -> None:
+        """Go to where the last run began: everything as it was, or (large models) t, DT and states only."""
+        if self.start is not None:
+            self.start.put_back(self._values, self.simulator)
+        else:
+            self.simulator.reset()
 
     # ------------------------------------------------------------------ console
 
@@ -186,6 +210,10 @@ class World:
         changed = self._graphs.display(mode, args, self._scale)
         if changed and self._graphs.current is not None:
             self._listener.graph_changed(self._graphs.current)
+
+    def graph_changed(self, graph: Graph) -> None:
+        """Have a page drawn."""
+        self._listener.graph_changed(graph)
 
     def plot(self, x: float, y: float, color: int | None) -> None:
         """Draw one point."""

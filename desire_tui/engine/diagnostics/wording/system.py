@@ -37,9 +37,22 @@ MESSAGES: dict[str, Wording] = {
         402, "'{word}' works in the desktop only", "start the desktop with `desire`"
     ),
     "no-help": Wording(403, "there is no help page about '{topic}'", "`help` alone lists the pages"),
-    "compare-form": Wording(404, "compare what?", "for instance: compare rule 4"),
+    "compare-form": Wording(
+        404, "compare what?", "for instance: compare rule 4, compare DT 0.001, compare rule 14 ERMAX 1.0E-08"
+    ),
     "compare-nothing": Wording(
         405, "the last run shows nothing to compare", "add a dispt, dispxy or type line"
+    ),
+    "compare-changed": Wording(
+        406, "the program or its quantities are others since the last run", "run it again, then compare"
+    ),
+    "compare-not-integrated": Wording(
+        407,
+        "{what} cannot be compared: the last run {why}",
+        "compare another rule, or a run with d/dt lines",
+    ),
+    "compare-failed": Wording(
+        408, "with {setting} the run does not come to its end: {reason}", "the run before stays as it was"
     ),
     "shell-refused": Wording(
         450,
