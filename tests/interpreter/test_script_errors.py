@@ -14,8 +14,8 @@ from tests.interpreter.stand_in import World, error_of, run
 @pytest.mark.parametrize(
     ("script", "code", "piece"),
     [
-        ("y = 2 + 1/(3 - 3)*4", 5, "1/(3 - 3)"),
-        ("x = 0\ny = 5*(1 + 2/x)", 5, "2/x"),
+        ("y = 2 + 1/(3 - 3)*4", 5, "(3 - 3)"),
+        ("x = 0\ny = 5*(1 + 2/x)", 5, "x"),
         ("x = 0 | y = x^-2", 5, "x^-2"),
         ("y = 1 + ln(0)", 9, "ln(0)"),
         ("y = log(-1) + 2", 9, "log(-1)"),
@@ -33,7 +33,7 @@ from tests.interpreter.stand_in import World, error_of, run
         ("ARRAY v[2] | x = 1E300 | Vector v = x\nVector v = atan(v*v)", 3, "atan(v*v)"),
         ("FUNCTION f(a) = 2*a\nARRAY v[2]\nVector v = f(v, v)", 56, "f(v, v)"),
         ("FUNCTION f(a, b) = a*b\nARRAY v[2], w[3]\nVector v = f(v, w)", 74, "f(v, w)"),
-        ("FUNCTION f(a) = 1/a\nARRAY v[2]\nVector v = f(v)", 5, "1/a"),
+        ("FUNCTION f(a) = 1/a\nARRAY v[2]\nVector v = f(v)", 5, "a"),
         ("y = asin(2)", 44, "asin(2)"),
         ("x = 1 | y = x + nosuch", 200, "nosuch"),
         ("y = nosuch(3)", 200, "nosuch(3)"),
@@ -53,7 +53,7 @@ from tests.interpreter.stand_in import World, error_of, run
         ("FUNCTION f(a) = a\nf = 3", 73, "f"),
         ("FUNCTION f(a) = a\ny = f(1, 2)", 56, "f(1, 2)"),
         ("FUNCTION f(a) = g(a)\nFUNCTION g(a) = f(a)\ny = f(1)", 52, "f(a)"),
-        ("FUNCTION f(a) = 1/a\nx = 2 | y = f(x - 2)", 5, "1/a"),
+        ("FUNCTION f(a) = 1/a\nx = 2 | y = f(x - 2)", 5, "a"),
         ("FUNCTION f(a) = a + nosuch\ny = f(1)", 200, "nosuch"),
         ("PROCEDURE p()\ncall p()\nend\ncall p()", 52, "call p()"),
         ("PROCEDURE p(a;b)\nend\ncall p(1)", 56, "call p(1)"),
@@ -69,7 +69,7 @@ from tests.interpreter.stand_in import World, error_of, run
         ("COMPLEX z\nif z < 2 then | x = 1 | proceed", 84, "z < 2"),
         ("INTEGER i\ni = 1E20", 20, "1E20"),
         ("read x", 51, "read x"),
-        ("data 1, 2/0\nread x, y", 5, "2/0"),
+        ("data 1, 2/0\nread x, y", 5, "0"),
         ("data 1, nosuch\nread x, y", 200, "nosuch"),
         ("irule 6", 86, "6"),
         ("irule 17", 86, "17"),
@@ -141,5 +141,5 @@ def test_errors_in_bodies_name_the_statements_that_led_there():
     with pytest.raises(DesireError) as caught:
         run(text)
     problem = caught.value.diagnostics[0]
-    assert (problem.code, text[slice(*problem.span)]) == (5, "1/a")
+    assert (problem.code, text[slice(*problem.span)]) == (5, "a")
     assert [text[slice(*p.span)] for p in problem.related] == ["r = f(x)", "call p(0; r)", "call q(;y)"]

@@ -13,6 +13,7 @@ import numpy as np
 from desire_tui.engine.chains import OPERATORS, chain
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.patience import patiently
 from desire_tui.engine.library import LIBRARY, integer_power, power
 from desire_tui.engine.nodes import Binary, Call, Name, RowOf, Shifted, Transposed, Unary
 from desire_tui.engine.values import Quantity
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
     Evaluator = Callable[[], Any]
 
+ELEMENTS_AT_ONCE = 10_000
+"""Elements that a function is applied to before the user is let in."""
 _SINGULAR = 1e-15
 """A matrix whose reciprocal condition number (1-norm) is below this is called singular."""
 
@@ -133,7 +136,8 @@ class ArrayExpressions:
 
     def _power(self, node: Binary) -> Evaluator:
         a, b = self.evaluator(node.left), self.evaluator(node.right)
-        return lambda: _elementwise(_whole_or_real_power, *self._same(a(), b(), node))
+        check = self._site.machine.check
+        return lambda: _elementwise(check, _whole_or_real_power, *self._same(a(), b(), node))
 
     def _same(self, a: Any, b: Any, node: Node) -> tuple[Any, Any]:
         if np.ndim(a) and np.ndim(b) and np.shape(a) != np.shape(b):
@@ -148,12 +152,15 @@ class ArrayExpressions:
             return np.multiply.outer(a, b) if self._true_products else np.multiply(*self._same(a, b, node))
         if np.shape(a)[-1] != np.shape(b)[0]:
             raise Fault("nonconformable", node, have=_size(a), want=_size(b))
-        return a @ b
+        if dimensions != (2, 2):
+            return a @ b
+        own = a.copy(), b.copy()  # the product may outlive the statement (`patiently`)
+        return patiently(a.size * b.shape[1], lambda: own[0] @ own[1], self._site.machine.check)
 
     def _call(self, node: Call) -> Evaluator:
         args = [self.evaluator(arg) for arg in node.args]
         if node.name == "$In" and len(args) == 1:
-            return lambda: _inverse(args[0](), node)
+            return lambda: _inverse(args[0](), node, self._site.machine.check)
         if node.name == "$Tr" and len(args) == 1:
             return lambda: np.transpose(args[0]())
         if node.name in self._site.machine.functions.definitions:
@@ -166,11 +173,11 @@ class ArrayExpressions:
             raise Fault("not-in-array-expression", node)
         if not entry.fewest <= len(args) <= entry.most:
             raise Fault("argument-count", node, name=node.name, given=len(args), needed=entry.parameters)
-        function = entry.value
+        function, check = entry.value, self._site.machine.check
 
         def evaluate() -> Any:
             try:
-                return _elementwise(function, *(_finite(arg(), node) for arg in args))
+                return _elementwise(check, function, *(_finite(arg(), node) for arg in args))
             except ValueError:
                 raise Fault(entry.domain_error, node, function=node.name) from None
 
@@ -188,14 +195,33 @@ class ArrayExpressions:
                 self._same(arrays[0], other, node)
             shape = np.shape(arrays[0]) if arrays else ()
             columns = [np.broadcast_to(value, shape).ravel().tolist()[::-1] for value in values]
-            backwards = [function(*row) for row in zip(*columns, strict=True)] if columns else [function()]
+            backwards = self._each(function, columns) if columns else [function()]
             return np.array(backwards[::-1], dtype=np.float64).reshape(shape)[()]
 
         return evaluate
 
+    def _each(self, function: Callable[..., float], columns: list[list[float]]) -> list[float]:
+        values: list[float] = []
+        for first in range(0, len(columns[0]), ELEMENTS_AT_ONCE):
+            pieces = [column[first : first + ELEMENTS_AT_ONCE] for column in columns]
+            values += [function(*row) for row in zip(*pieces, strict=True)]
+            self._site.machine.check()
+        return values
 
-def _elementwise(function: Callable[..., complex], *args: Any) -> Any:
-    return np.vectorize(function, otypes=[np.float64])(*args)
+
+def _elementwise(check: Callable[[], None], function: Callable[..., complex], *args: Any) -> Any:
+    """Apply a function to each element, some thousand at a time."""
+    each = np.vectorize(function, otypes=[np.float64])
+    columns = np.broadcast_arrays(*args)
+    if columns[0].size <= ELEMENTS_AT_ONCE:
+        return each(*args)
+    flat = [column.ravel() for column in columns]
+    result = np.empty(columns[0].size)
+    for first in range(0, len(result), ELEMENTS_AT_ONCE):
+        piece = slice(first, first + ELEMENTS_AT_ONCE)
+        result[piece] = each(*(column[piece] for column in flat))
+        check()
+    return result.reshape(columns[0].shape)
 
 
 def _whole_or_real_power(x: float, y: float) -> complex:
@@ -209,15 +235,16 @@ def _quotient(a: Any, b: Any, divisor: Node) -> Any:
     return np.divide(a, b)
 
 
-def _inverse(matrix: Any, node: Node) -> Any:
+def _inverse(matrix: Any, node: Node, check: Callable[[], None]) -> Any:
     """Invert by LAPACK's LU decomposition; error 123 for a matrix that is singular to working precision."""
     if np.ndim(matrix) != 2 or matrix.shape[0] != matrix.shape[1]:
         raise Fault("not-square", node, have=_size(matrix))
+    own = matrix.copy()
     try:
-        inverse = np.linalg.inv(matrix)
+        inverse = patiently(2 * len(own) ** 3, lambda: np.linalg.inv(own), check)
     except np.linalg.LinAlgError:
         raise Fault("singular-matrix", node) from None
-    condition = np.linalg.norm(matrix, 1) * np.linalg.norm(inverse, 1)
+    condition = np.linalg.norm(own, 1) * np.linalg.norm(inverse, 1)
     if not condition * _SINGULAR < 1.0:
         raise Fault("singular-matrix", node)
     return inverse

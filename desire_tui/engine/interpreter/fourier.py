@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.patience import patiently
 from desire_tui.engine.nodes import Fft
 
 if TYPE_CHECKING:
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
+
+WORK_PER_ELEMENT = 50
+"""What a transform costs, in multiplications, roughly (`patiently`)."""
 
 
 def fft(site: Site) -> Operation:
@@ -36,8 +40,10 @@ def fft(site: Site) -> Operation:
         for argument, quantity in zip(node.args[1:], quantities, strict=True):
             if quantity.size < n:
                 raise Fault("fft-array-short", argument, name=quantity.name, size=quantity.size, n=n)
-        parts = [view[:n] for view in views]
-        _TRANSFORMS[node.kind](*parts)
+        parts = [view[:n].copy() for view in views]
+        patiently(WORK_PER_ELEMENT * n, lambda: _TRANSFORMS[node.kind](*parts), site.machine.check)
+        for view, part in zip(views, parts, strict=True):
+            view[:n] = part
 
     return site.then(action)
 
