@@ -89,14 +89,8 @@ class ElementExpressions(Expressions):
             return lanes.mul(u, v)
         return lanes.choose(lanes.compare("olt", v, u), v, u)
 
-    def draw(self, name: str) -> str:
-        """Take the next number(s) of each element."""
-        first = self._next()
-        if name == "ran":
-            return draws.uniform(self.lanes, first)
-        return draws.normal(self.lanes, first, self._next())
-
-    def _next(self) -> str:
+    def next_state(self) -> str:
+        """Move each element's part of the sequence on."""
         if not self._state:
             self._state = self.text.op(f"load {self.lanes.integers}, ptr {self.prepared.states}")
         self._drawn += 1

@@ -65,7 +65,14 @@ class Expressions:
         raise TypeError(f"{type(node).__name__} in a scalar expression")
 
     def draw(self, name: str) -> str:
-        """Take the next random number."""
+        """Take a number from `ran` or `gauss`, for each element."""
+        first = self.next_state()
+        if name == "ran":
+            return draws.uniform(self.lanes, first)
+        return draws.normal(self.lanes, first, self.next_state())
+
+    def next_state(self) -> str:
+        """Move the random sequence on by one draw; return its state(s)."""
         raise NotImplementedError
 
 
@@ -76,14 +83,8 @@ class ScalarExpressions(Expressions):
         super().__init__(lanes, cells)
         self._random = random
 
-    def draw(self, name: str) -> str:
-        """Take the next random number."""
-        first = self._next()
-        if name == "ran":
-            return draws.uniform(self.lanes, first)
-        return draws.normal(self.lanes, first, self._next())
-
-    def _next(self) -> str:
+    def next_state(self) -> str:
+        """Move the sequence on."""
         before = self.text.op(f"load i64, ptr {self._random}")
         after = draws.advance(self.lanes, before, 1)
         self.text.do(f"store i64 {after}, ptr {self._random}")
