@@ -40,6 +40,8 @@ from desire_tui.panes.history import History
 from desire_tui.panes.keynames import key_names
 from desire_tui.panes.problems import ProblemsPane
 from desire_tui.panes.quantities import QuantitiesPane
+from desire_tui.panes.side import SidePane
+from desire_tui.panes.status import StatusBar
 from desire_tui.shell import Shell
 from desire_tui.startup import open_first
 from desire_tui.tour import Tour
@@ -55,7 +57,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.session import Permissions
 
 STATUS_EVERY_S, QUANTITIES_EVERY_S = 0.1, 0.35
-EDITOR_ONLY = {"edit.undo", "edit.redo", "edit.select_all", "edit.comment", "file.close", "view.editor"}
+EDITOR_ONLY = {"edit.undo", "edit.redo", "edit.select_all", "edit.comment", "file.close"}
 """Their keys mean something else inside a one-line field."""
 
 
@@ -184,10 +186,14 @@ class DesireApp(Shell):
 
     # --------------------------------------------------------------------------------------------- actions
 
+    def call(self, command_id: str, argument: str = "") -> Any:
+        """Begin an action of the command table; one that asks the user something is a coroutine to await."""
+        part, _, name = command_id.partition(".")
+        return getattr(self._controllers[part], name)(argument)
+
     def do(self, command_id: str, argument: str = "") -> None:
         """Carry out an action of the command table."""
-        part, _, name = command_id.partition(".")
-        result = getattr(self._controllers[part], name)(argument)
+        result = self.call(command_id, argument)
         if inspect.iscoroutine(result):
             self.run_worker(result, name=command_id, exit_on_error=True)
 
@@ -261,6 +267,12 @@ class DesireApp(Shell):
         self.editor.show(event.area, focus=True)
         event.area.go_to(event.mark.row, event.mark.start)
 
+    @on(SidePane.Wanted)
+    def _page_wanted(self, event: SidePane.Wanted) -> None:
+        self.open_side(event.name)
+        if event.name == "help":
+            self.help_pane.show_topic("")
+
     @on(QuantitiesPane.Edited)
     def _quantity_edited(self, event: QuantitiesPane.Edited) -> None:
         self.line.enter([event.text])
@@ -268,6 +280,10 @@ class DesireApp(Shell):
     @on(QuantitiesPane.SliderMoved)
     def _slider_moved(self, event: QuantitiesPane.SliderMoved) -> None:
         self.live.ask(event.values, overlay=event.overlay)
+
+    @on(StatusBar.Clicked)
+    def _status_clicked(self, event: StatusBar.Clicked) -> None:
+        self.do(event.command_id)
 
     @on(GraphPane.PauseWanted)
     def _pause_wanted(self) -> None:

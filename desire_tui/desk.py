@@ -1,4 +1,4 @@
-"""The desktop's screen: which panes there are, where they stand, which are shown.
+"""The desktop's screen: its panes, and how they follow the terminal's size, the keys and the user's wishes.
 
 ┌ editor ───┬ graph ──────┐
 │           │             │
@@ -8,13 +8,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from textual.containers import Horizontal, Vertical
 from textual.message import Message
 from textual.screen import Screen
-from textual.widgets import ContentSwitcher, Label
+from textual.widgets import Label
 
+from desire_tui.arrangement import SMALLEST, Arrangement, Pane, arrange
 from desire_tui.commands import BY_ID
 from desire_tui.editor.pane import EditorPane
 from desire_tui.editor.popup import CompletionPopup
@@ -22,9 +23,8 @@ from desire_tui.panes.command import CommandPane
 from desire_tui.panes.graph import GraphPane
 from desire_tui.panes.help import HelpPane
 from desire_tui.panes.keynames import key_name
-from desire_tui.panes.problems import ProblemsPane
-from desire_tui.panes.quantities import QuantitiesPane
-from desire_tui.panes.status import StatusBar
+from desire_tui.panes.side import Side, SidePane
+from desire_tui.panes.status import KeyHint, StatusBar
 
 if TYPE_CHECKING:
     from textual.app import ComposeResult
@@ -32,9 +32,7 @@ if TYPE_CHECKING:
 
     from desire_tui.panes.history import History
 
-Side = Literal["quantities", "problems", "help"]
-SMALLEST = (40, 10)
-NARROW_BELOW, LOW_BELOW = 100, 28
+PANES: tuple[Pane, ...] = ("editor", "command", "graph", "side")
 SHOWN_KEYS = {
     "run.start": "run",
     "run.accept": "OK",
@@ -42,8 +40,9 @@ SHOWN_KEYS = {
     "view.palette": "palette",
     "help.word": "help",
     "view.next_pane": "next pane",
-    "view.maximize": "zoom",
+    "view.quantities": "quantities",
     "graph.full": "graph",
+    "view.maximize": "zoom",
     "edit.next_problem": "problem",
     "file.save": "save",
     "file.quit": "quit",
@@ -67,17 +66,24 @@ class Desk(Screen[None]):
     Desk #right { width: 1fr; }
     Desk #editor { height: 2fr; }
     Desk #command { height: 1fr; min-height: 4; border-top: solid $secondary;
-            border-title-color: $foreground 70%; }
+            border-title-color: $foreground; }
     Desk #command:focus-within { border-top: solid $primary; border-title-color: $accent; }
     Desk #graph { height: 2fr; border-left: solid $secondary; }
-    Desk #side { height: 1fr; min-height: 6; display: none; border-top: solid $secondary;
-            border-left: solid $secondary;
-                 border-title-color: $foreground 70%; background: $surface; }
-    Desk #side:focus-within { border-top: solid $primary; border-title-color: $accent; }
-    Desk #side.-shown { display: block; }
-    Desk.-narrow #side.-shown { height: 2fr; }
+    Desk #side { height: 1fr; min-height: 6; border-left: solid $secondary; }
+    Desk.-low #side { height: 2fr; }
+
+    Desk.-rows #desk { layout: vertical; }
+    Desk.-rows #left, Desk.-rows #right { width: 100%; height: 1fr; }
+    Desk.-rows #graph { border-left: none; border-top: solid $secondary; }
+    Desk.-rows #graph:focus { border-top: solid $primary; }
+    Desk.-rows #side { border-left: none; }
+    Desk.-few #left { dock: bottom; height: 34%; min-height: 4; }
+    Desk.-few #graph, Desk.-few #graph:focus { border-top: none; }
+    Desk.-one #graph, Desk.-one #side { border-left: none; min-height: 1; }
+    Desk.-one #command, Desk.-one #command:focus-within { border-top: none; min-height: 1; }
+
     Desk #too-small { layer: cover; width: 100%; height: 100%; display: none; content-align: center middle;
-                      background: $background; }
+                      background: $background; overflow: hidden; }
     Desk.-small #too-small { display: block; }
     """
 
@@ -85,7 +91,10 @@ class Desk(Screen[None]):
         super().__init__()
         self._history = history
         self._keys = keys
-        self._alone: Widget | None = None
+        self._alone: Pane | None = None
+        self._side: bool | None = None
+        self._with_keys: Pane = "command"
+        self._now: Arrangement | None = None
 
     def compose(self) -> ComposeResult:
         """Lay out the panes."""
@@ -95,15 +104,12 @@ class Desk(Screen[None]):
                 yield CommandPane(self._history)
             with Vertical(id="right"):
                 yield GraphPane()
-                with ContentSwitcher(id="side", initial="problems"):
-                    yield QuantitiesPane()
-                    yield ProblemsPane()
-                    yield HelpPane()
-        yield StatusBar([(self._key(command), title) for command, title in SHOWN_KEYS.items()])
-        yield CompletionPopup()
-        yield Label(
-            f"Desire needs a terminal of at least\n{SMALLEST[0]} × {SMALLEST[1]} characters.", id="too-small"
+                yield SidePane()
+        yield StatusBar(
+            [KeyHint(self._key(command), title, command) for command, title in SHOWN_KEYS.items()]
         )
+        yield CompletionPopup()
+        yield Label(f"at least {SMALLEST[0]} × {SMALLEST[1]} characters, please", id="too-small")
 
     def _key(self, command_id: str) -> str:
         keys = self._keys.get(command_id) or BY_ID[command_id].keys
@@ -112,65 +118,88 @@ class Desk(Screen[None]):
     def on_mount(self) -> None:
         """Give the help pane the configured keys; all panes are there now."""
         self.query_one(HelpPane).keys = self._keys
+        self.follow_size()
         self.post_message(self.Ready())
+
+    # -------------------------------------------------------------------------------------- arrangement
 
     def on_resize(self) -> None:
         """Follow the terminal's size."""
+        self.follow_size()
+
+    def on_descendant_focus(self) -> None:
+        """Where there is room for one pane only, show the one that has the keys."""
+        self._with_keys = self.pane_of(self.focused)
+        self.follow_size()
+
+    def follow_size(self) -> None:
+        """Show the panes that belong on the screen now."""
         width, height = self.app.size
-        self.set_class(width < SMALLEST[0] or height < SMALLEST[1], "-small")
-        self.set_class(width < NARROW_BELOW, "-narrow")
-        self.set_class(height < LOW_BELOW, "-low")
+        now = arrange(width, height, keys=self._with_keys, alone=self._alone, side=self._side)
+        self.set_class(height < 28, "-low")
+        if now == self._now:
+            return
+        self._now = now
+        self.set_class(now.too_small, "-small")
+        self.set_class(now.order == "rows", "-rows")
+        self.set_class(now.order == "one", "-one")
+        self.set_class(now.order == "rows" and "editor" not in now.panes, "-few")
+        for name in PANES:
+            self.query_one(f"#{name}").display = name in now.panes
+        for column in ("#left", "#right"):
+            self.query_one(column).display = any(pane.display for pane in self.query_one(column).children)
+
+    @property
+    def shown(self) -> frozenset[Pane]:
+        """The panes that are on the screen."""
+        return self._now.panes if self._now is not None else frozenset()
+
+    def pane_of(self, widget: Widget | None) -> Pane:
+        """Return the pane a widget belongs to; for none, the one that had the keys last."""
+        inside = {ancestor.id for ancestor in widget.ancestors_with_self} if widget is not None else set()
+        return next((name for name in PANES if name in inside), self._with_keys)
+
+    def make_way(self, widget: Widget) -> None:
+        """See to it that a widget that gets the keys can be seen."""
+        self._with_keys = self.pane_of(widget)
+        if self._alone is not None:
+            self._alone = self._with_keys
+        self.follow_size()
 
     # -------------------------------------------------------------------------------------------- side pane
 
     @property
     def side(self) -> Side | None:
-        """Which side pane is shown."""
-        switcher = self.query_one("#side", ContentSwitcher)
-        return switcher.current if switcher.has_class("-shown") else None  # type: ignore[return-value]
+        """Which page of the side pane is shown."""
+        return self.query_one(SidePane).current if "side" in self.shown else None
 
-    def open_side(self, name: Side, *, toggle: bool = False) -> bool:
-        """Show a side pane; with `toggle`, hide it if it is shown. Returns whether it is shown now."""
-        switcher = self.query_one("#side", ContentSwitcher)
-        if toggle and self.side == name:
-            self.close_side()
-            return False
+    def open_side(self, name: Side) -> None:
+        """Show a page of the side pane."""
+        self.query_one(SidePane).choose(name)
+        self._side, self._with_keys = True, "side"
         if self._alone is not None:
-            self.show_alone(None)
-        switcher.current = name
-        switcher.border_title = name.capitalize()
-        switcher.add_class("-shown")
-        return True
+            self._alone = None
+        self.follow_size()
 
     def close_side(self) -> bool:
-        """Hide the side pane; returns whether it had the focus."""
-        switcher = self.query_one("#side", ContentSwitcher)
-        had_focus = self.focused is not None and switcher in self.focused.ancestors_with_self
-        switcher.remove_class("-shown")
-        return had_focus
+        """Hide the side pane; returns whether it had the keys."""
+        had_keys = self._with_keys == "side"
+        self._side = False
+        if had_keys:
+            self._with_keys = "command"
+        if self._alone == "side":
+            self._alone = None
+        self.follow_size()
+        return had_keys
 
     # --------------------------------------------------------------------------------------------- maximize
 
     @property
-    def alone(self) -> Widget | None:
-        """The pane that is shown alone."""
+    def alone(self) -> Pane | None:
+        """The pane that was maximized."""
         return self._alone
 
-    def pane_of(self, widget: Widget | None) -> Widget:
-        """Return the pane a widget belongs to; the editor for none."""
-        panes: list[Widget] = [self.query_one(f"#{name}") for name in ("editor", "command", "graph", "side")]
-        inside = widget.ancestors_with_self if widget is not None else []
-        return next((pane for pane in panes if pane in inside), panes[0])
-
-    def show_alone(self, pane: Widget | None) -> None:
+    def show_alone(self, pane: Pane | None) -> None:
         """Show one pane alone; None: all panes."""
         self._alone = pane
-        left, right = self.query_one("#left"), self.query_one("#right")
-        for column in (left, right):
-            column.display = pane is None or pane in column.children
-            for child in column.children:
-                child.display = pane is None or child is pane
-        switcher = self.query_one("#side")
-        if pane is None:
-            switcher.styles.clear_rule("display")
-        self.query_one("#graph").set_class(pane is not None, "-alone")
+        self.follow_size()

@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from collections import deque
 from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from desire_tui.actions import Controller
 from desire_tui.commands import REFERENCE_WORDS, Command, parse_line
 from desire_tui.engine.session import State
 from desire_tui.panes.quantities import value_text
 
+if TYPE_CHECKING:
+    from collections.abc import Coroutine
+
+    from desire_tui.app import DesireApp
+
 _NAMES = re.compile(r"(?:write\s+)?[A-Za-z][\w$]*(?:\s*[,;]\s*[A-Za-z][\w$]*)*\s*$")
 DURING_A_RUN = "During a run names alone show their values. Ctrl+C pauses, Space Enter ends it."
 
 
 class CommandLine(Controller):
-    """Takes lines from the command pane; several pasted ones wait for each other."""
+    """Takes lines from the command pane; pasted ones wait for each other, and stop where one fails."""
 
-    _waiting: deque[str]
+    def __init__(self, app: DesireApp) -> None:
+        super().__init__(app)
+        self._queue: deque[str] = deque()
+        self._current = ""
+        self._own_goes_on = False
 
     def enter(self, lines: list[str]) -> None:
         """Carry out lines, one after the other."""
@@ -36,25 +47,51 @@ class CommandLine(Controller):
         self._queue.extend(line for line in lines if line.strip())
         self.next()
 
-    @property
-    def _queue(self) -> deque[str]:
-        if not hasattr(self, "_waiting"):
-            self._waiting = deque()
-        return self._waiting
-
     def next(self) -> None:
-        """Carry out lines that wait, as far as the engine is free for them."""
-        while self._queue:
+        """Carry out lines that wait, as far as the engine and the desktop are free for them."""
+        while self._queue and not self._own_goes_on:
             own = self._own(self._queue[0])
             if own is None and self.app.engine.is_busy:
                 return
-            line = self._queue.popleft()
-            self._echo(line)
-            if own is not None:
-                command, argument = own
-                self.app.do(command.id, argument)
+            self._current = self._queue.popleft()
+            self._echo(self._current)
+            if own is None:
+                self.app.engine.submit(partial(self.app.session.execute, self._current))
             else:
-                self.app.engine.submit(partial(self.app.session.execute, line))
+                self._do(*own)
+
+    def _do(self, command: Command, argument: str) -> None:
+        """Carry out an action of the desktop; what it asks the user is answered before the next line."""
+        before = self.app.complaints
+        result = self.app.call(command.id, argument)
+
+        async def finish(work: Coroutine[Any, Any, object]) -> None:
+            try:
+                await work
+            finally:
+                self._own_goes_on = False
+            self._own_done(before)
+            self.next()
+
+        if inspect.iscoroutine(result):
+            self._own_goes_on = True
+            self.app.run_worker(finish(result), name=command.id, exit_on_error=True)
+        else:
+            self._own_done(before)
+
+    def _own_done(self, complaints_before: int) -> None:
+        if self.app.complaints > complaints_before:
+            self.failed()
+
+    def failed(self) -> None:
+        """Stop: if lines wait behind the one that failed, all of them go back to the prompt."""
+        if self._queue:
+            self.app.command.hold([self._current, *self._queue])
+            self._queue.clear()
+
+    def answer(self) -> str | None:
+        """Return the next line that waits as the answer to an `input`, None if there is none."""
+        return self._queue.popleft() if self._queue else None
 
     def _own(self, line: str) -> tuple[Command, str] | None:
         """Return the desktop's action a line means; a quantity of that name is shown instead."""

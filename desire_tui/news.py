@@ -47,6 +47,10 @@ class EngineNews(Controller):
     @handle.register
     def _input(self, message: messages.InputWanted) -> None:
         self.flush()
+        if (pasted := self.app.line.answer()) is not None:  # it came with the line that started the program
+            self.app.command.console.add(message.prompt + pasted, "output")
+            self.app.listener.answer(pasted)
+            return
         self.app.bring(self.app.command.prompt)
         self.app.command.ask(message.prompt)
 
@@ -176,8 +180,9 @@ class EngineNews(Controller):
 
     @handle.register
     def _idle(self, message: messages.EngineIdle) -> None:
-        del message
         self.flush()
+        if message.failed:
+            self.app.line.failed()
         app = self.app
         app.drawing.release()
         if (

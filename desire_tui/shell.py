@@ -16,6 +16,7 @@ from desire_tui.panes.graph import GraphPane
 from desire_tui.panes.help import HelpPane
 from desire_tui.panes.problems import ProblemsPane
 from desire_tui.panes.quantities import QuantitiesPane
+from desire_tui.panes.side import SidePane
 from desire_tui.panes.status import StatusBar
 
 if TYPE_CHECKING:
@@ -23,9 +24,11 @@ if TYPE_CHECKING:
 
     from textual.widget import Widget
 
-    from desire_tui.desk import Desk, Side
+    from desire_tui.arrangement import Pane
+    from desire_tui.desk import Desk
     from desire_tui.engine.session import Session
     from desire_tui.engine_thread import EngineThread
+    from desire_tui.panes.side import Side
 
 
 class Shell(App[None]):
@@ -33,6 +36,8 @@ class Shell(App[None]):
 
     desk: Desk
     engine: EngineThread
+    complaints = 0
+    """How often the user was told that something of his cannot be done."""
 
     @property
     def session(self) -> Session:
@@ -76,21 +81,23 @@ class Shell(App[None]):
     # ----------------------------------------------------------------------------------------------- layout
 
     def open_side(self, name: Side, *, toggle: bool = False) -> None:
-        """Show a side pane and move there."""
-        if not self.desk.open_side(name, toggle=toggle):
-            self.bring(self.command.prompt)
+        """Show a page of the side pane and move there; with `toggle`, hide it if the keys are there."""
+        desk = self.desk
+        if toggle and desk.side == name and desk.pane_of(self.focused) == "side":
+            self.close_side()
             return
+        desk.open_side(name)
         if name == "quantities":
             self.quantities.show(self.session.values)
-            self.quantities.table.focus()
         elif name == "problems":
             self.list_problems()
-            self.desk.query_one("#problems").focus()
+        if name != "help" and (widget := self.side_focus()) is not None:  # help finds its own place
+            self.bring(widget)
 
     def close_side(self) -> None:
         """Hide the side pane."""
         if self.desk.close_side():
-            self.command.prompt.focus()
+            self.bring(self.command.prompt)
 
     def side_focus(self) -> Widget | None:
         """Return what gets the keys in the side pane, None if it is hidden."""
@@ -98,26 +105,26 @@ class Shell(App[None]):
             case "quantities":
                 return self.quantities.table
             case "problems":
-                return self.desk.query_one("#problems")
+                return self.desk.query_one(ProblemsPane)
             case "help":
                 return self.help_pane.query_one("#help-search")
         return None
 
     def bring(self, widget: Widget) -> bool:
-        """Move the keys to a widget; a pane shown alone gives way to the widget's."""
-        if self.desk.alone is not None:
-            self.desk.show_alone(self.desk.pane_of(widget))
+        """Move the keys to a widget; where only one pane is shown, it becomes the widget's."""
+        self.desk.make_way(widget)
         self.desk.set_focus(widget)  # at once: widget.focus() waits, and keys typed meanwhile would go astray
         return widget.focusable
 
-    def toggle_maximized(self, pane: Widget | None) -> None:
+    def toggle_maximized(self, pane: Pane | None) -> None:
         """Show a pane (default: the focused one) alone, or all again."""
-        if self.desk.alone is not None:
-            self.desk.show_alone(None)
+        desk = self.desk
+        if desk.alone is not None:
+            desk.show_alone(None)
             return
-        self.desk.show_alone(pane or self.desk.pane_of(self.focused))
-        if pane is not None:
-            pane.focus()
+        desk.show_alone(pane or desk.pane_of(self.focused))
+        if pane == "graph":
+            self.bring(self.graph)
 
     # --------------------------------------------------------------------------------------------- refresh
 
@@ -137,13 +144,16 @@ class Shell(App[None]):
 
     def complain(self, sentence: str, *, code: int | None) -> None:
         """Tell the user that something of his cannot be done."""
+        self.complaints += 1
         text = f"error {code}: {sentence}" if code else sentence
         self.command.console.add(text, "error" if code else "warning")
         self.notify(text, severity="error" if code else "warning", markup=False, timeout=6)
 
     def list_problems(self) -> None:
         """Bring the problems pane up to date."""
-        self.desk.query_one(ProblemsPane).show(self.editor.areas)
+        self.desk.query_one(SidePane).count_problems(
+            self.desk.query_one(ProblemsPane).show(self.editor.areas)
+        )
 
     def snapshot_written(self, path: Path) -> None:
         """Tell where the picture is."""

@@ -117,6 +117,17 @@ class RunActions(Controller):
             app.command.stop_asking()
             app.listener.answer(None)
 
+    def report(self, argument: str = "") -> None:
+        """`dump run`, at any time: also of the run that goes on."""
+        del argument
+        from desire_tui.engine.session.report import run_report
+
+        runs = self.app.session.runs
+        if runs:
+            self.app.command.console.add(run_report(runs[-1]).rstrip("\n"), "output")
+        else:
+            self.app.notify("No run yet: press F5.", timeout=2)
+
     # ------------------------------------------------------------------------------ stops
 
     def trace(self, argument: str = "") -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from itertools import count
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Container
     from pathlib import Path
 
 _numbers = count(1)
@@ -30,13 +32,14 @@ class Buffer:
     saved_text: str = ""
     stamp: float | None = None
     label: str = ""
+    """Its name while it has no file."""
     crlf: bool = False
     number: int = field(default_factory=lambda: next(_numbers))
 
     @property
     def name(self) -> str:
         """What the tab shows."""
-        return self.path.name if self.path else self.label or f"untitled-{self.number}"
+        return self.path.name if self.path else self.label
 
     @classmethod
     def from_file(cls, path: Path) -> Buffer:
@@ -71,3 +74,12 @@ class Buffer:
             self.stamp = path.stat().st_mtime
         except OSError:
             self.stamp = None
+
+
+def free_label(wanted: str, taken: Container[str]) -> str:
+    """Return a name that no other tab has: `wanted`, else `wanted-2` …; without a wish `untitled-1` …."""
+    if wanted and wanted not in taken:
+        return wanted
+    stem = re.sub(r"-\d+$", "", wanted) or "untitled"
+    first = 1 if stem == "untitled" else 2
+    return next(name for number in count(first) if (name := f"{stem}-{number}") not in taken)

@@ -11,7 +11,7 @@ from textual.widgets import Label, TextArea
 
 from desire_tui.editor.aid import TypingAid
 from desire_tui.editor.area import CodeArea
-from desire_tui.editor.buffer import Buffer
+from desire_tui.editor.buffer import Buffer, free_label
 from desire_tui.editor.findbar import FindBar
 from desire_tui.editor.tabstrip import NEW, TabLabel, TabStrip
 
@@ -87,6 +87,8 @@ class EditorPane(Vertical):
 
     async def add(self, buffer: Buffer, text: str | None = None, *, front: bool = True) -> CodeArea:
         """Open a tab; an untouched empty one is replaced."""
+        if buffer.path is None:
+            buffer.label = free_label(buffer.label, {area.buffer.name for area in self.areas})
         area = CodeArea(buffer, buffer.saved_text if text is None else text)
         area.aid = self.aid
         blank = (

@@ -10,10 +10,11 @@ from textual.message import Message
 from textual.widgets import Input, Label
 
 from desire_tui.panes.console import Console, Place
+from desire_tui.panes.held import HeldLines
 from desire_tui.panes.prompt import Prompt
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from textual.app import ComposeResult
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from desire_tui.panes.history import History
 
 PROMPT = "> "
+HELD = "Stopped at this line; those after it wait. ↑↓ edit them, Enter goes on, Esc gives them up."
 
 
 class CommandPane(Vertical):
@@ -52,9 +54,11 @@ class CommandPane(Vertical):
         """Output, search field, prompt."""
         yield Console()
         yield Input(id="output-search", placeholder="search output · Enter upwards · Esc")
+        held = HeldLines()
+        yield held
         with Horizontal():
             yield Label(PROMPT, id="sign", markup=False)
-            yield Prompt(self._history, self._entered)
+            yield Prompt(self._history, held, self._entered)
 
     @property
     def console(self) -> Console:
@@ -81,6 +85,14 @@ class CommandPane(Vertical):
         """Take lines as commands again."""
         self._asked = None
         self._sign(PROMPT)
+
+    def hold(self, lines: Sequence[str]) -> None:
+        """Put lines that were not carried out back to where they can be edited, the first into the prompt."""
+        unfinished = self.prompt.value
+        self.query_one(HeldLines).hold([*lines, unfinished] if unfinished.strip() else lines)
+        self.prompt.value = lines[0]
+        self.prompt.cursor_position = len(lines[0])
+        self.console.add(HELD, "notice")
 
     def _sign(self, text: str, *, asking: bool = False) -> None:
         sign = self.query_one("#sign", Label)

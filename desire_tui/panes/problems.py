@@ -36,16 +36,16 @@ class ProblemsPane(OptionList):
         super().__init__(id="problems")
         self._entries: list[tuple[CodeArea, Mark]] = []
 
-    def show(self, areas: Sequence[CodeArea]) -> None:
-        """List the problems of these tabs."""
+    def show(self, areas: Sequence[CodeArea]) -> int:
+        """List the problems of these tabs; returns how many there are."""
         entries = [
             (area, mark)
             for area in areas
             for row in sorted(area.marks.problems)
             for mark in area.marks.problems[row]
         ]
-        if [(a, m) for a, m in entries] == self._entries:
-            return
+        if entries == self._entries and self.option_count:
+            return len(entries)
         self._entries = entries
         theme = self.app.current_theme
         self.clear_options()
@@ -57,6 +57,7 @@ class ProblemsPane(OptionList):
             )
         if not entries:
             self.add_option(Option("No problems.", disabled=True))
+        return len(entries)
 
     def on_option_list_option_selected(self, event: OptionList.OptionSelected) -> None:
         """Go to the problem."""

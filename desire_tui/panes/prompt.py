@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from textual import events
 
+    from desire_tui.panes.held import HeldLines
     from desire_tui.panes.history import History
 
 
@@ -38,10 +39,11 @@ class Prompt(Input):
             super().__init__()
             self.pattern = pattern
 
-    def __init__(self, history: History, entered: Callable[[list[str]], object]) -> None:
+    def __init__(self, history: History, held: HeldLines, entered: Callable[[list[str]], object]) -> None:
         """`entered` is called with a line, or with several pasted ones."""
         super().__init__(id="prompt", select_on_focus=False)
         self.history = history
+        self.held = held
         self._entered = entered
         self.aid = TypingAid()
         self._pattern: str | None = None
@@ -50,15 +52,18 @@ class Prompt(Input):
     # --------------------------------------------------------------------------------------------- history
 
     def action_older(self) -> None:
-        """Show the line before."""
-        self._show(self.history.previous(self.value))
+        """Show the line before: of those held back, else of the history."""
+        self._show(
+            self.history.previous(self.value) if self.held.is_empty else self.held.step(-1, self.value)
+        )
 
     def action_newer(self) -> None:
         """Show the line after."""
-        self._show(self.history.next())
+        self._show(self.history.next() if self.held.is_empty else self.held.step(1, self.value))
 
     def action_clear(self) -> None:
-        """Empty the line."""
+        """Empty the line; lines held back are given up."""
+        self.held.take()
         self.value = ""
         self.history.forget_place()
 
@@ -135,10 +140,10 @@ class Prompt(Input):
     def _enter(self) -> None:
         line, self.value = self.value, ""
         self.history.forget_place()
-        self._entered([line])
+        self._entered([line] if self.held.is_empty else self.held.take(line))
 
     def _on_paste(self, event: events.Paste) -> None:
-        """Carry out several pasted lines one after the other.
+        """Carry out several pasted lines one after the other, as far as they succeed.
 
         A last one without its end stays to be edited.
         """

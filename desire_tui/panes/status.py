@@ -1,24 +1,38 @@
-"""The bottom row: keys when nothing runs; run, time, speed, rule and step while one does."""
+"""The bottom row: keys on the left, the run on the right. A click on a key presses it."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from rich.segment import Segment
 from rich.style import Style
+from textual.message import Message
 from textual.reactive import reactive
 from textual.strip import Strip
 from textual.widget import Widget
 
-from desire_tui.engine.session import State, Status
+from desire_tui.panes.runtext import run_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-BAR_CELLS = 10
-KEYS_KEPT = 32
-"""Cells that the keys keep beside the run."""
-_EIGHTHS = " ▏▎▍▌▋▊▉█"
+    from textual import events
+
+    from desire_tui.engine.session import Status
+
+KEYS_KEPT, KEYS_PART = 32, 0.45
+"""Cells, or part of the row, that the keys keep beside the run."""
+RUN_KEPT = 10
+REPORT = "run.report"
+"""What a click on the run does."""
+
+
+class KeyHint(NamedTuple):
+    """A key as shown, a word for what it does, and the action."""
+
+    key: str
+    title: str
+    command_id: str
 
 
 class StatusBar(Widget):
@@ -31,64 +45,66 @@ class StatusBar(Widget):
     hint: reactive[str] = reactive("")
     """Says what a paused or waiting program expects; replaces the keys."""
 
-    def __init__(self, keys: Sequence[tuple[str, str]]) -> None:
+    class Clicked(Message):
+        """An action was clicked."""
+
+        def __init__(self, command_id: str) -> None:
+            super().__init__()
+            self.command_id = command_id
+
+    def __init__(self, keys: Sequence[KeyHint]) -> None:
         super().__init__(id="status")
         self.keys = keys
+
+    @property
+    def text(self) -> str:
+        """What the right side says of the run."""
+        width = self.size.width - (len(self.hint) + 3 if self.hint else 0)
+        keys = 0 if self.hint else max(KEYS_KEPT, int(width * KEYS_PART))
+        return run_text(self.status, min(width, max(width - keys, RUN_KEPT)))
+
+    def _shown_keys(self, room: int) -> list[tuple[KeyHint, int]]:
+        """Keys that fit, with the cell where each begins."""
+        shown, used = [], 0
+        for hint in self.keys:
+            width = len(hint.key) + len(hint.title) + 3
+            if used + width > room:
+                break
+            shown.append((hint, used))
+            used += width
+        return shown
 
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
         del y
         base = self.rich_style
         theme = self.app.current_theme
-        wanted = len(self.hint) + 3 if self.hint else 0
-        right = self._run_text(self.size.width - wanted)
+        right = self.text
         room = self.size.width - len(right) - 1
         key = Style(color=str(theme.primary), bold=True)
         left: list[Segment] = []
         if self.hint:
             left = [Segment(f" {self.hint}"[:room], base + Style(color=str(theme.accent), bold=True))]
         else:
-            used = 0
-            for name, title in self.keys:
-                width = len(name) + len(title) + 3
-                if used + width > room:
-                    break
-                left += [Segment(f" {name}", base + key), Segment(f" {title} ", base)]
-                used += width
+            for hint, _ in self._shown_keys(room):
+                left += [Segment(f" {hint.key}", base + key), Segment(f" {hint.title} ", base)]
         strip = Strip(left).adjust_cell_length(max(room, 0), base)
         return Strip.join([strip, Strip([Segment(right + " ", base)], len(right) + 1)]).crop(
             0, self.size.width
         )
 
-    def _run_text(self, room: int) -> str:
-        """Return what is known of the run, as much as fits; the least important goes first."""
-        status = self.status
-        if status is None or (status.state is State.IDLE and not status.run):
-            return ""
-        going = status.state in (State.RUNNING, State.PAUSED)
-        parts = [f"{status.state.value} {status.run}" if going else f"run {status.run}"]
-        if going:
-            parts.append(f"{_bar(status.progress)} t {status.t:.4g}/{status.t0 + status.t_max:.4g}")
-        elif status.state is State.IDLE:
-            parts.append(f"t {status.t:.4g}")
-        else:
-            parts.insert(0, status.state.value)
-        parts += [f"{speed(status.steps_per_second)} steps/s", f"rule {status.rule}", f"DT {status.dt:.3g}"]
-        while len(parts) > 1 and len(" · ".join(parts)) > min(room, max(room - KEYS_KEPT, BAR_CELLS)):
-            parts.pop()
-        return " · ".join(parts)[: max(room, 0)]
-
-
-def _bar(progress: float) -> str:
-    eighths = round(progress * BAR_CELLS * 8)
-    full, part = divmod(eighths, 8)
-    return ("█" * full + (_EIGHTHS[part] if full < BAR_CELLS else "")).ljust(BAR_CELLS, "·")
-
-
-def speed(per_second: float) -> str:
-    """Return a number with its thousands as k, M, G."""
-    for unit in ("", "k", "M"):
-        if abs(per_second) < 1000:
-            return f"{per_second:.3g} {unit}".rstrip()
-        per_second /= 1000
-    return f"{per_second:.3g} G"
+    def on_click(self, event: events.Click) -> None:
+        """Press the key under the mouse; on the run: what it did."""
+        right = self.text
+        room = self.size.width - len(right) - 1
+        if event.x >= room:
+            if right:
+                self.post_message(self.Clicked(REPORT))
+            return
+        if self.hint:
+            return
+        for hint, start in reversed(self._shown_keys(room)):
+            if event.x >= start:
+                if event.x < start + len(hint.key) + len(hint.title) + 2:
+                    self.post_message(self.Clicked(hint.command_id))
+                return

@@ -15,7 +15,7 @@ from desire_tui.editor import recovery
 from desire_tui.editor.recovery import SavedTab
 from desire_tui.panes.history import History
 from desire_tui.panes.keynames import key_names
-from desire_tui.panes.status import speed
+from desire_tui.panes.runtext import speed
 
 from .conftest import OSCILLATOR, desktop
 
@@ -152,32 +152,6 @@ async def test_history_keys(program):
         await desk.press("enter")
         await desk.idle()
         assert desk.output.count("> a = 1") == 2
-
-
-@pytest.mark.parametrize("size", [(20, 5), (40, 10), (80, 24), (100, 30), (160, 50)])
-async def test_every_size_can_be_used(program, size: tuple[int, int]):
-    async with desktop(program(OSCILLATOR), size=size) as desk:
-        await desk.press("f5")
-        await desk.idle()
-        desk.app.graph.tick()
-        await desk.pilot.pause()
-        assert desk.app.desk.has_class("-small") == (size == (20, 5))
-        await desk.pilot.resize_terminal(100, 30)
-        desk.app.graph.tick()
-        await desk.pilot.pause()
-        assert not desk.app.desk.has_class("-small")
-        assert desk.app.graph.canvas.columns > 40
-
-
-async def test_resizing_while_a_run_goes_on(program):
-    async with desktop(program(OSCILLATOR.replace("TMAX = 6", "TMAX = 1E6"))) as desk:
-        await desk.press("f5")
-        await desk.until(lambda: desk.app.session.runs)
-        for size in ((60, 20), (20, 5), (150, 45)):
-            await desk.pilot.resize_terminal(*size)
-            desk.app.graph.tick()
-            await desk.pilot.pause()
-        assert desk.app.is_running
 
 
 def contrast(one: str, other: str) -> float:

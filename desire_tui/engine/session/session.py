@@ -128,6 +128,7 @@ class Session:
             steps_per_second=world.simulator.pace(steps, record), dt=cells[DT],
             rule=record.rule if record and memory is not None else world.rule,
             program=self._desk.source.name if self.program else "", edited=self._script.edited,
+            record=record,
         )  # fmt: skip
 
     # ------------------------------------------------------------------ the program

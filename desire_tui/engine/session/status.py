@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from desire_tui.engine.runtime.record import RunRecord
 
 
 class State(Enum):
@@ -44,6 +48,8 @@ class Status:
     """Name of the active program's source, empty without one."""
     edited: bool = False
     """The program in memory changed since the script stopped: `go` is refused."""
+    record: RunRecord | None = None
+    """The run that goes on, or the last one: its counters, and why and when it ended."""
 
     @property
     def progress(self) -> float:

@@ -1,0 +1,54 @@
+"""Which panes are shown at a terminal's size, and how they stand to each other. No widget: only the rules."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Pane = Literal["editor", "command", "graph", "side"]
+Order = Literal["columns", "rows", "one"]
+
+SMALLEST = (16, 3)
+"""Columns and rows below which nothing useful can be shown."""
+ONE_BELOW = (30, 10)
+"""Below, one pane fills the screen: the one that has the keys."""
+FEW_BELOW = (60, 16)
+"""Below, the command line stands under the graph; editor and side pane are shown alone."""
+TALL_BELOW, TALL_FROM = 72, 30
+"""Narrower than the one and at least as high as the other: graph below the editor, not beside it."""
+SIDE_FROM = (120, 40)
+"""From this size on the side pane is shown without being asked for."""
+EVERYTHING: frozenset[Pane] = frozenset(("editor", "command", "graph", "side"))
+
+
+@dataclass(frozen=True, slots=True)
+class Arrangement:
+    """What is shown, and in which order: two columns, one column, or a pane alone."""
+
+    panes: frozenset[Pane]
+    order: Order = "columns"
+    too_small: bool = False
+
+
+def arrange(
+    width: int, height: int, *, keys: Pane, alone: Pane | None = None, side: bool | None = None
+) -> Arrangement:
+    """Return the arrangement for a terminal of `width` × `height`.
+
+    `keys`: the pane that has the keys. `alone`: a pane the user maximized. `side`: whether he opened or
+    closed the side pane, None if he did neither.
+    """
+    if width < SMALLEST[0] or height < SMALLEST[1]:
+        return Arrangement(frozenset(), "one", too_small=True)
+    if alone is not None:
+        return Arrangement(frozenset((alone,)), "one")
+    if width < ONE_BELOW[0] or height < ONE_BELOW[1]:
+        return Arrangement(frozenset((keys,)), "one")
+    if width < FEW_BELOW[0] or height < FEW_BELOW[1]:
+        if keys in ("editor", "side"):
+            return Arrangement(frozenset((keys,)), "one")
+        return Arrangement(frozenset(("graph", "command")), "rows")
+    wanted = width >= SIDE_FROM[0] and height >= SIDE_FROM[1] if side is None else side
+    panes = EVERYTHING if wanted else EVERYTHING - {"side"}
+    tall = width < TALL_BELOW and height >= TALL_FROM
+    return Arrangement(panes, "rows" if tall else "columns")

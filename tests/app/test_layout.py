@@ -1,0 +1,164 @@
+"""Which panes are shown where: at every size, by default, asked for, maximized, while a run goes on."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from desire_tui.arrangement import EVERYTHING, SMALLEST, arrange
+from desire_tui.desk import PANES
+from desire_tui.panes.side import SidePane, SideTabs
+
+from .conftest import LONG, OSCILLATOR, Desktop, desktop
+
+SIZES = [(16, 3), (20, 5), (40, 10), (40, 12), (60, 50), (80, 24), (100, 30), (120, 40), (160, 50), (250, 70)]
+panes = st.sampled_from(PANES)
+
+
+@given(st.integers(1, 300), st.integers(1, 100), panes, st.none() | panes, st.none() | st.booleans())
+def test_the_pane_with_the_keys_is_always_seen(width: int, height: int, keys, alone, side):
+    if keys == "side" and side is not True:
+        side = True  # a hidden pane never has the keys
+    now = arrange(width, height, keys=keys, alone=None if alone is None else keys, side=side)
+    assert now.too_small == (width < SMALLEST[0] or height < SMALLEST[1])
+    assert now.too_small or keys in now.panes
+    assert now.panes <= EVERYTHING
+    assert (now.order == "one") == (len(now.panes) <= 1)
+
+
+@pytest.mark.parametrize(
+    ("size", "shown", "order"),
+    [
+        ((250, 70), {"editor", "command", "graph", "side"}, "columns"),
+        ((120, 40), {"editor", "command", "graph", "side"}, "columns"),
+        ((119, 40), {"editor", "command", "graph"}, "columns"),
+        ((120, 39), {"editor", "command", "graph"}, "columns"),
+        ((80, 24), {"editor", "command", "graph"}, "columns"),
+        ((60, 50), {"editor", "command", "graph"}, "rows"),
+        ((40, 12), {"command", "graph"}, "rows"),
+        ((20, 5), {"command"}, "one"),
+        ((15, 5), set(), "one"),
+    ],
+)
+def test_what_is_shown_by_default(size: tuple[int, int], shown: set[str], order: str):
+    now = arrange(*size, keys="command")
+    assert (now.panes, now.order) == (shown, order)
+
+
+def fills_the_screen(desk: Desktop) -> None:
+    """Every cell belongs to exactly one pane, or to the status row."""
+    width, height = desk.app.size
+    regions = [desk.app.desk.query_one(f"#{name}").region for name in desk.app.desk.shown]
+    regions.append(desk.app.desk.query_one("#status").region)
+    assert sum(region.area for region in regions) == width * height
+    for region in regions:
+        assert 0 <= region.x < region.right <= width
+        assert 0 <= region.y < region.bottom <= height
+    assert not any(a.overlaps(b) for n, a in enumerate(regions) for b in regions[:n])
+
+
+@pytest.mark.parametrize("size", SIZES)
+async def test_every_size_is_used_whole_and_can_be_worked_in(program, size: tuple[int, int]):
+    async with desktop(program(OSCILLATOR), size=size) as desk:
+        fills_the_screen(desk)
+        assert desk.app.focused is desk.app.command.prompt
+        await desk.press("z", "z", "enter")
+        await desk.idle()
+        assert "x = " in desk.output
+        seen = set(desk.app.desk.shown)
+        for _ in range(4):
+            await desk.press("f6")
+            await desk.pilot.pause()
+            assert desk.app.desk.pane_of(desk.app.focused) in desk.app.desk.shown
+            assert desk.app.focused.region.area
+            seen |= desk.app.desk.shown
+            fills_the_screen(desk)
+        assert {"editor", "command", "graph"} <= seen
+        await desk.press("alt+q")
+        await desk.pilot.pause()
+        assert "side" in desk.app.desk.shown
+        fills_the_screen(desk)
+        await desk.press("f7")
+        await desk.pilot.pause()
+        assert desk.app.desk.shown == {"graph"}
+        desk.app.graph.tick()
+        assert desk.app.graph.canvas.patterns.any()
+        await desk.press("f7")
+        await desk.pilot.pause()
+        fills_the_screen(desk)
+
+
+async def test_a_terminal_of_no_use_says_so(program):
+    async with desktop(program(OSCILLATOR), size=(15, 5)) as desk:
+        assert desk.app.desk.query_one("#too-small").display
+        await desk.pilot.resize_terminal(100, 30)
+        await desk.pilot.pause()
+        assert not desk.app.desk.query_one("#too-small").display
+        fills_the_screen(desk)
+
+
+async def test_resizing_while_a_run_goes_on(program):
+    async with desktop(program(LONG)) as desk:
+        await desk.press("f5")
+        await desk.until(lambda: desk.app.session.runs and desk.app.session.runs[0].count > 10)
+        for size in [(60, 20), (15, 2), *reversed(SIZES), (20, 5), (150, 45)]:
+            await desk.pilot.resize_terminal(*size)
+            await desk.pilot.pause()
+            desk.app.graph.tick()
+            if size != (15, 2):
+                fills_the_screen(desk)
+        assert desk.app.session.runs[0].ended == "running"
+        assert desk.app.graph.canvas.columns > 60
+        assert desk.app.graph.canvas.patterns[:, 0].any()
+
+
+async def test_the_side_pane_follows_the_size_until_the_user_decides(program):
+    async with desktop(program(OSCILLATOR), size=(80, 24)) as desk:
+        assert desk.app.desk.side is None
+        await desk.pilot.resize_terminal(120, 40)
+        assert desk.app.desk.side == "quantities"
+        await desk.press("alt+h")
+        assert desk.app.desk.side is None
+        await desk.pilot.resize_terminal(160, 50)
+        assert desk.app.desk.side is None
+        await desk.press("alt+q")
+        await desk.pilot.resize_terminal(80, 24)
+        assert desk.app.desk.side == "quantities"
+
+
+async def test_the_side_panes_key_moves_there_first_and_hides_it_then(program):
+    async with desktop(program(OSCILLATOR), size=(120, 40)) as desk:
+        assert desk.app.focused is desk.app.command.prompt
+        await desk.press("alt+q")
+        assert desk.app.focused is desk.app.quantities.table
+        await desk.press("alt+q")
+        assert desk.app.desk.side is None
+        assert desk.app.focused is desk.app.command.prompt
+
+
+async def test_the_tabs_of_the_side_pane(program):
+    async with desktop(program(OSCILLATOR.replace("-x", "-xx")), size=(120, 40)) as desk:
+        tabs = desk.app.desk.query_one(SideTabs)
+        await desk.until(lambda: tabs.problems == 1)
+        text = tabs.render_line(0).text
+        assert text.startswith("─ Quantities │ Problems 1 │ Help ──")
+        for name in ("Problems", "Help", "Quantities"):
+            await desk.pilot.click(SideTabs, offset=(text.index(name) + 1, 0))
+            await desk.pilot.pause()
+            assert desk.app.desk.side == name.lower()
+            assert desk.app.desk.query_one(SidePane) in desk.app.focused.ancestors
+        await desk.pilot.click(SideTabs, offset=(len(text) - 1, 0))
+        assert desk.app.desk.side == "quantities"
+
+
+async def test_maximizing_any_pane_and_moving_on(program):
+    async with desktop(program(OSCILLATOR), size=(100, 30)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        await desk.press("alt+e", "f4")
+        assert desk.app.desk.shown == {"editor"}
+        await desk.press("f6")
+        assert desk.app.desk.shown == {"command"}
+        await desk.press("f4")
+        assert desk.app.desk.shown == {"editor", "command", "graph"}
