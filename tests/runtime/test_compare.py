@@ -301,8 +301,10 @@ def test_ending_it_puts_everything_back(inside):
     if inside == "command":
         worker.join()
         worker = Worker(command, session)
-    worker.wait_for(lambda: session._world.simulator.memory is not None and session._world.start is not None)
-    worker.wait_for(lambda: session._world.simulator.memory is not None and session.values.cells[0] > 0)
+    worker.wait_for(
+        lambda: session._world.runs.simulator.memory is not None and session._world.runs.start is not None
+    )
+    worker.wait_for(lambda: session._world.runs.simulator.memory is not None and session.values.cells[0] > 0)
     assert session.status.state is State.RUNNING
     session.end()
     worker.join()

@@ -69,9 +69,9 @@ def compare_runs(session: Session, world: World, desk: Desk, change: Change) -> 
     if not last.columns or not last.count:
         raise DesireError(Diagnostic("compare-nothing"))
     program, _ = desk.runnable()
-    if world.run_of != (program.source.text, desk.values.generation):
+    if world.runs.run_of != (program.source.text, desk.values.generation):
         raise DesireError(Diagnostic("compare-changed"))
-    with world.restored():
+    with world.runs.restored():
         other = _repeat(world, desk, last, change)
     page = session.graphs.compare((last, other))
     if page is not None:
@@ -81,8 +81,8 @@ def compare_runs(session: Session, world: World, desk: Desk, change: Change) -> 
 
 def _repeat(world: World, desk: Desk, last: RunRecord, change: Change) -> RunRecord:
     """Run from where the last run began."""
-    is_exact = world.start is not None
-    world.go_back()
+    is_exact = world.runs.start is not None
+    world.runs.go_back()
     rule = last.rule if change.rule is None else change.rule
     program, script = desk.runnable()
     segment = desk.segments.lowered(program, script, last.segment, rule)
@@ -94,7 +94,7 @@ def _repeat(world: World, desk: Desk, last: RunRecord, change: Change) -> RunRec
     for slot, value in ((DT, change.dt), (ERMAX, change.error_max)):
         if value is not None:
             desk.values.assign(slot, value)
-    plan = world.simulator.defaults.plan(segment, rule, desk.source, None)
+    plan = world.runs.simulator.defaults.plan(segment, rule, desk.source, None)
     record = RunRecord(
         number=0, segment=last.segment, line=0, requests=segment.requests, columns=segment.columns,
         overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn,
@@ -103,7 +103,7 @@ def _repeat(world: World, desk: Desk, last: RunRecord, change: Change) -> RunRec
     if not is_exact:
         record.message = "compared with the quantities as they are now: of so large a model no copy is kept"
     try:
-        finished = world.simulator.run(
+        finished = world.runs.simulator.run(
             desk.segments.model(segment, plan.rule), segment, plan, record, _Deaf()
         )
     except DesireError as error:

@@ -47,7 +47,7 @@ class Script:
         tracing = self._interpreter is not None and self._interpreter.stepping
         self.forget()
         self._desk.values.assign(SCALE, scale)
-        self._world.forget_runs()
+        self._world.runs.forget()
         self._desk.journal.program(program.source)
         with self._working(program.source):
             interpreter = self._ready()

@@ -78,7 +78,7 @@ class Session:
     @property
     def runs(self) -> list[RunRecord]:
         """The runs since the program started, oldest first; old ones go when they fill the memory allowed."""
-        return self._world.runs
+        return self._world.runs.kept
 
     @property
     def graph(self) -> Graph | None:
@@ -114,8 +114,9 @@ class Session:
     def status(self) -> Status:
         """What is going on now."""
         world, cells = self._world, self.values.cells
-        record = next(reversed(world.runs), None)  # the list may be emptied meanwhile
-        memory = world.simulator.memory
+        runs = world.runs
+        record = next(reversed(runs.kept), None)  # the list may be emptied meanwhile
+        memory = runs.simulator.memory
         state = world.state
         if self._control.paused and state in (State.RUNNING, State.SCRIPT):
             state = State.PAUSED
@@ -123,9 +124,9 @@ class Session:
             state = State.STOPPED
         steps = int(memory.steps) if memory is not None else record.steps if record else 0
         return Status(
-            state=state, run=world.runs_made, segment=record.segment if record else None, t=cells[T],
+            state=state, run=runs.count, segment=record.segment if record else None, t=cells[T],
             t0=record.t0 if record else 0.0, t_max=record.t_max if record else cells[TMAX], steps=steps,
-            steps_per_second=world.simulator.pace(steps, record), dt=cells[DT],
+            steps_per_second=runs.simulator.pace(steps, record), dt=cells[DT],
             rule=record.rule if record and memory is not None else world.rule,
             program=self._desk.source.name if self.program else "", edited=self._script.edited,
             record=record,

@@ -1,0 +1,164 @@
+"""A session's runs: how one is made, their records, and where the last one began."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.runtime.record import RunRecord
+from desire_tui.engine.runtime.run import Simulator
+from desire_tui.engine.runtime.stash import write_stash
+from desire_tui.engine.session.starting import NUMBERS_MOST, Situation
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from desire_tui.engine.graph import GraphBook
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.runtime.backend import Model
+    from desire_tui.engine.runtime.control import Control
+    from desire_tui.engine.session.desk import Desk
+    from desire_tui.engine.session.listener import Listener
+    from desire_tui.engine.session.lister import Lister
+    from desire_tui.engine.values import Values
+
+RUNS_BYTES_MAX = 1 << 30
+"""Samples of all runs kept; the oldest go first."""
+THINNED_ROWS = 10_000
+"""Samples left of those, for the graphs that show them."""
+
+
+class Runs:
+    """Makes runs and keeps their records. Lives on the session's thread."""
+
+    def __init__(self, desk: Desk, listener: Listener, control: Control, graphs: GraphBook) -> None:
+        self._desk = desk
+        self._listener = listener
+        self._graphs = graphs
+        self._values: Values = desk.values
+        self.simulator = Simulator(desk.values, control)
+        self.kept: list[RunRecord] = []
+        """Records since the program started, oldest first."""
+        self.count = 0
+        """Runs made since then."""
+        self._bytes = 0  # of all samples kept but the newest run's
+        self.start: Situation | None = None
+        """Where the last run began, unless the model is large."""
+        self.run_of: tuple[str, int] | None = None
+        """The last run's program text, and `Values.generation` then."""
+
+    def make(
+        self,
+        label: str | None,
+        placed: Placed,
+        rule: int,
+        *,
+        star: bool,
+        on_start: Callable[[RunRecord], Lister],
+    ) -> None:
+        """Make one run of a segment, to its end; `star`: its stash is not written.
+
+        `on_start` is called once the model is compiled; it returns what lists the run's `type` lines.
+        """
+        desk, began = self._desk, perf_counter()
+        program, structure = desk.runnable()
+        try:
+            segment = desk.segments.lowered(program, structure, label, rule)
+        except DesireError as error:
+            raise _placed_at(error, desk, placed) from None
+        if segment.recover:
+            segment = desk.segments.recovering(segment, desk.stash_path)
+        start = self._situation()
+        plan = self.simulator.defaults.plan(segment, rule, desk.source_of(placed), placed.span())
+        model = desk.segments.model(segment, plan.rule)
+        self._advise(model)
+        self.start, self.run_of = start, (program.source.text, self._values.generation)
+        self.count += 1
+        record = RunRecord(
+            number=self.count, segment=label, line=desk.line_of(placed), requests=segment.requests,
+            columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule,
+            scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
+            compile_seconds=perf_counter() - began,
+        )  # fmt: skip
+        self._keep(record)
+        graph = self._graphs.begin_run(record, segment.pictures)
+        lister = on_start(record)
+        self._listener.run_started(record)
+        if graph is not None:
+            self._listener.graph_changed(graph)
+        try:
+            finished = self.simulator.run(model, segment, plan, record, lister)
+        except DesireError as error:
+            record.ended = "failed"
+            record.message = record.message or error.diagnostics[0].message
+            raise _placed_at(error, desk, placed) from None
+        finally:
+            desk.journal.run_ended(record, desk.overrides)
+            self._listener.run_ended(record)
+        if not finished:
+            raise Interrupted
+        if segment.stash and not star:
+            self._stash(segment, record)
+
+    def _situation(self) -> Situation | None:
+        values = self._values
+        return Situation.now(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
+
+    def _advise(self, model: Model) -> None:
+        """Show what a model has to say before its first run (rules 9 … 16)."""
+        advice = getattr(model, "advice", None)
+        problems = advice() if advice is not None else ()
+        if problems:
+            self._listener.problems(problems)
+
+    def _stash(self, segment: Segment, record: RunRecord) -> None:
+        first = 1 + len(record.columns) - len(segment.stash)
+        write_stash(self._desk.stash_path, record.rows[: record.count, first:])
+
+    def _keep(self, record: RunRecord) -> None:
+        if self.kept:
+            self._bytes += self.kept[-1].rows.nbytes
+        self.kept.append(record)
+        while self._bytes > RUNS_BYTES_MAX:
+            oldest = self.kept.pop(0)
+            self._bytes -= oldest.rows.nbytes
+            oldest.thin(THINNED_ROWS)  # pages may show it still
+
+    def forget(self) -> None:
+        """Begin a program: its runs count from 1."""
+        self.kept.clear()
+        self.start = self.run_of = None
+        self.count = self._bytes = 0
+
+    @contextmanager
+    def restored(self) -> Iterator[None]:
+        """Put everything that a run could change back afterwards."""
+        before = Situation.now(self._values, self.simulator)
+        try:
+            yield
+        finally:
+            before.put_back(self._values, self.simulator)
+
+    def go_back(self) -> None:
+        """Go to where the last run began: everything as it was, or (large models) t, DT and states only."""
+        if self.start is not None:
+            self.start.put_back(self._values, self.simulator)
+        else:
+            self.simulator.reset()
+
+
+def _placed_at(error: DesireError, desk: Desk, placed: Placed) -> DesireError:
+    """Place problems that have no place of their own at the drun."""
+    source = desk.source_of(placed)
+    return DesireError(
+        *(
+            d
+            if d.span is not None
+            else Diagnostic(d.key, placed.span(), d.facts, source, d.severity, d.related)
+            for d in error.diagnostics
+        )
+    )
