@@ -43,8 +43,6 @@ COMMANDS = (
     Command("run.live", "Live mode", "Give a parameter a slider; moving it re-runs the program", "alt+l",
             ("live",), "name"),
     Command("run.live_overlay", "Live overlay", "Live runs overlay their curves instead of replacing them"),
-    Command("run.report", "Run report", "Print what the last run did: steps, calls, DT, why it ended",
-            "alt+d"),
     # -------------------------------------------------------------------------------------------------- files
     Command("file.new", "New tab", "Open an empty editor tab", "ctrl+n", ("tab",)),
     Command("file.clear", "New program", "Clear the program: empty tab, no names, scale 1, irule 1",
@@ -97,6 +95,8 @@ COMMANDS = (
     Command("graph.newer", "Newer graph", "Page forward through the last graphs", "alt+pagedown"),
     Command("graph.snapshot", "Snapshot", "Save the graph as PNG, SVG or PDF", "alt+s",
             ("snapshot",), "'file'"),
+    Command("graph.picture", "Show picture", "Show the graph as a picture, as snapshot saves it", "alt+i",
+            ("picture",)),
     Command("graph.export", "Export samples", "Save the samples of the last run as CSV",
             words=("export",), argument="'file'"),
     Command("graph.overlay", "Overlay", "Lay an older graph over the one shown, or take it away", "alt+o",

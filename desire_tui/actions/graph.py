@@ -16,7 +16,7 @@ class GraphActions(Controller):
     def full(self, argument: str = "") -> None:
         """Show the graph alone, or all panes."""
         del argument
-        self.app.toggle_maximized("graph")
+        self.app.toggle_maximized(self.app.graph)
 
     def zoom_in(self, argument: str = "") -> None:
         """Magnify."""
@@ -106,6 +106,18 @@ class GraphActions(Controller):
                 app.call_from_thread(app.snapshot_written, written)
 
         app.in_background(write)
+
+    async def picture(self, argument: str = "") -> None:
+        """Show the graph as a picture; `s` there saves it."""
+        del argument
+        app = self.app
+        if app.graph.page is None:
+            app.notify("No graph yet: press F5.", timeout=2)
+            return
+        from desire_tui.panes.picture import PictureScreen
+
+        if await app.push_screen_wait(PictureScreen(app)):
+            await self.snapshot()
 
     async def export(self, argument: str = "") -> None:
         """Save the samples of the last run as CSV."""

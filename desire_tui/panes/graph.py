@@ -49,6 +49,7 @@ class GraphPane(Container, can_focus=True):
         Binding("k", "app.do('graph.legend')", show=False),
         Binding("s", "app.do('graph.snapshot')", show=False),
         Binding("o", "app.do('graph.overlay')", show=False),
+        Binding("p", "app.do('graph.picture')", show=False),
         Binding("f", "app.do('graph.full')", show=False),
         Binding("pageup", "app.do('graph.older')", show=False),
         Binding("pagedown", "app.do('graph.newer')", show=False),

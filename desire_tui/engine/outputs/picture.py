@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from io import BytesIO
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,6 +29,7 @@ _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
 _SPINE = 2 * 72 / _DOTS_PER_INCH  # two dots: crisp
 _COLUMNS = 4000  # finer than any printer shows at this size
 _FONT = 11
+_drawing = Lock()  # the settings are matplotlib's own, and two threads may want pictures
 
 
 def write_picture(graph: Graph, path: Path) -> None:
@@ -34,27 +37,41 @@ def write_picture(graph: Graph, path: Path) -> None:
     kind = path.suffix.lower()
     if kind not in KINDS:
         raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
+    try:
+        _write(graph, path, kind[1:], _INCHES, _DOTS_PER_INCH)
+    except OSError as reason:
+        facts = {"path": path, "reason": reason.strerror or reason}
+        raise DesireError(Diagnostic("file-unwritable", facts=facts)) from None
+
+
+def png_of(graph: Graph, width: int, height: int) -> bytes:
+    """Return a graph as a PNG of `width` × `height` dots."""
+    wide = _INCHES[0]
+    buffer = BytesIO()
+    _write(graph, buffer, "png", (wide, wide * height / width), width / wide)
+    return buffer.getvalue()
+
+
+def _write(
+    graph: Graph, target: Path | BytesIO, kind: str, inches: tuple[float, float], dots_per_inch: float
+) -> None:
     import logging
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its font cache is nobody's business here
     from matplotlib import rc_context
 
-    with rc_context({"svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000}):
-        figure = draw(graph)
-        try:
-            figure.savefig(path, format=kind[1:], dpi=_DOTS_PER_INCH, facecolor=figure.get_facecolor())
-        except OSError as reason:
-            facts = {"path": path, "reason": reason.strerror or reason}
-            raise DesireError(Diagnostic("file-unwritable", facts=facts)) from None
+    with _drawing, rc_context({"svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000}):
+        figure = draw(graph, inches)
+        figure.savefig(target, format=kind, dpi=dots_per_inch, facecolor=figure.get_facecolor())
 
 
-def draw(graph: Graph) -> Figure:
+def draw(graph: Graph, inches: tuple[float, float] = _INCHES) -> Figure:
     """Return a graph as a figure: same window, colours, caption, keys and thickness as on the screen."""
     from matplotlib.figure import Figure
 
     ground = _tint(WHITE if graph.white else BLACK, graph)
     ink = _tint(BLACK if graph.white else 7, graph)
-    figure = Figure(figsize=_INCHES, facecolor=ground, layout="constrained")
+    figure = Figure(figsize=inches, facecolor=ground, layout="constrained")
     if graph.frame.kind == "picture":
         _draw_pictures(figure, graph, ink)
         return figure
