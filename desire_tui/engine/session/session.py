@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph import GraphBook
 from desire_tui.engine.runtime.control import Control
+from desire_tui.engine.session.checker import Checker
 from desire_tui.engine.session.commands import Commands
 from desire_tui.engine.session.desk import Desk
 from desire_tui.engine.session.journal import Journal
@@ -61,7 +62,7 @@ class Session:
         self._commands = Commands(self, self._desk, self._world, self._listener)
         self._world.carry_out = self._commands.carry_out
         self._script = Script(self._desk, self._world, self._control, self._listener)
-        self._checked: tuple[Source | None, bool, tuple[Diagnostic, ...]] = (None, False, ())
+        self._checker = Checker()
 
     # ------------------------------------------------------------------ what there is
 
@@ -163,20 +164,7 @@ class Session:
         Parser, structure, static check; for a text without errors also JACOBIAN segments that disagree with
         the model (warnings 462). `quick` leaves those out, which may take some 20 ms.
         """
-        from desire_tui.engine.analysis import check
-        from desire_tui.engine.session.rehearsal import wrong_jacobians
-        from desire_tui.engine.syntax import parse
-
-        known, whole, problems = self._checked  # one reference: read and written as a whole
-        if known == source and (whole or quick):
-            return problems
-        program = parse(source)
-        problems = check(program)
-        if not quick and not any(d.severity == "error" for d in problems):
-            problems = tuple(sorted((*problems, *wrong_jacobians(program)), key=lambda d: d.span or (0, 0)))
-        problems = tuple(d.within(source) for d in problems)
-        self._checked = (source, not quick, problems)
-        return problems
+        return self._checker.check(source, quick=quick)
 
     def override(self, settings: Mapping[str, float]) -> None:
         """Give scalars values that the script's own assignments do not change, from the next `accept` on."""
