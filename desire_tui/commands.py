@@ -43,6 +43,8 @@ COMMANDS = (
     Command("run.live", "Live mode", "Give a parameter a slider; moving it re-runs the program", "alt+l",
             ("live",), "name"),
     Command("run.live_overlay", "Live overlay", "Live runs overlay their curves instead of replacing them"),
+    Command("run.report", "Run report", "Print what the last run did: steps, calls, DT, why it ended",
+            "alt+d"),
     # -------------------------------------------------------------------------------------------------- files
     Command("file.new", "New tab", "Open an empty editor tab", "ctrl+n", ("tab",)),
     Command("file.clear", "New program", "Clear the program: empty tab, no names, scale 1, irule 1",

@@ -16,7 +16,7 @@ class GraphActions(Controller):
     def full(self, argument: str = "") -> None:
         """Show the graph alone, or all panes."""
         del argument
-        self.app.toggle_maximized(self.app.graph)
+        self.app.toggle_maximized("graph")
 
     def zoom_in(self, argument: str = "") -> None:
         """Magnify."""
