@@ -166,10 +166,10 @@ def test_memory_of_ended_runs_is_given_back():
 
 
 def test_many_long_runs_do_not_fill_the_memory(monkeypatch):
-    from desire_tui.engine.session import world
+    from desire_tui.engine.session import runs
 
-    monkeypatch.setattr(world, "RUNS_BYTES_MAX", 1_000_000)
-    monkeypatch.setattr(world, "THINNED_ROWS", 100)
+    monkeypatch.setattr(runs, "RUNS_BYTES_MAX", 1_000_000)
+    monkeypatch.setattr(runs, "THINNED_ROWS", 100)
     session = running.session_for(
         "TMAX = 1 | NN = 10001 | DT = 0.0001\ndisplay 2\nfor k = 1 to 12\nx = k | drunr\nnext\n"
         "DYNAMIC\nd/dt x = 1\ndispt x\n"
