@@ -242,7 +242,7 @@ class DesireApp(Shell):
 
     @on(EditorPane.Wanted)
     def _wanted(self, event: EditorPane.Wanted) -> None:
-        self.do(event.command_id)
+        self.do(event.command_id, event.argument)
 
     @on(EditorPane.CheckWanted)
     def _check_wanted(self, event: EditorPane.CheckWanted) -> None:

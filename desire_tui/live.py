@@ -45,12 +45,13 @@ class Live:
         self._wanted, self._running = None, True
         app = self._app
         area = app.editor.active or app.editor.front
-        app.editor.active = area
+        app.editor.accept(area)
         source = source_of(area)
 
         def rerun() -> None:
             began = perf_counter()
             session = app.session
+            app.send_breakpoints()
             session.override(values)
             try:
                 session.erun(source)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import singledispatchmethod
 from typing import TYPE_CHECKING
 
@@ -111,6 +112,8 @@ class EngineNews(Controller):
             mark = mark_of(diagnostic)
             if area is None or mark is None:
                 continue
+            if area is app.editor.active:  # edited meanwhile, perhaps
+                mark = replace(mark, row=_row_now(area, mark.row))
             marks = area.marks.problems.setdefault(mark.row, [])
             if mark not in marks:
                 marks.insert(0, mark)
@@ -145,10 +148,11 @@ class EngineNews(Controller):
         app = self.app
         area = app.editor.active
         if area is not None:
-            area.marks.traced = row
+            area.marks.traced = _row_now(area, row)
             area.marks_changed()
-            app.editor.show(area)
-            area.go_to(row)
+            view = app.editor.front if app.editor.front.tab is area else area
+            app.editor.show(view)
+            view.go_to(area.marks.traced)
         line = place.source.line(row + 1).strip()
         app.command.console.add(
             f"{'next' if place.tracing else 'stopped'} at line {row + 1}: {line}", "notice"
@@ -206,3 +210,9 @@ class EngineNews(Controller):
     def flush(self) -> None:
         """Show output that waits, so that what comes next stands below it."""
         self.app.command.console.write(self.app.listener.take_text())
+
+
+def _row_now(area: CodeArea, row: int) -> int:
+    """Return where a row of the accepted text is now; the nearest there is if it was deleted."""
+    now = area.marks.row_now(row)
+    return now if now is not None else min(row, area.document.line_count - 1)

@@ -191,4 +191,5 @@ class Shell(App[None]):
     def send_breakpoints(self) -> None:
         """Tell the engine the breakpoints of the active program."""
         area = self.editor.active or self.editor.front
-        self.session.set_breakpoints({row + 1 for row in area.marks.breakpoints})
+        rows = (area.marks.row_then(row) for row in area.marks.breakpoints)
+        self.session.set_breakpoints({row + 1 for row in rows if row is not None})

@@ -243,11 +243,29 @@ class FileActions(Controller):
         del argument
         self.app.editor.step(-1)
 
-    def split(self, argument: str = "") -> None:
+    def move_left(self, argument: str = "") -> None:
+        """Move the front tab one place to the left."""
+        del argument
+        self._move(-1)
+
+    def move_right(self, argument: str = "") -> None:
+        """Move the front tab one place to the right."""
+        del argument
+        self._move(1)
+
+    def _move(self, by: int) -> None:
+        editor = self.app.editor
+        editor.move_tab(editor.front, editor.areas.index(editor.front.tab) + by)
+
+    async def split(self, argument: str = "") -> None:
         """Show two tabs side by side, or one."""
         del argument
-        if not self.app.editor.split():
-            self.app.notify("Open a second tab first.", timeout=2)
+        await self.app.editor.split()
+
+    async def twice(self, argument: str = "") -> None:
+        """Show the front tab twice, or once."""
+        del argument
+        await self.app.editor.show_twice()
 
     async def quit(self, argument: str = "") -> None:
         """Leave; asks about each tab with unsaved work."""
@@ -289,7 +307,7 @@ class FileActions(Controller):
         if (area := next(known, None)) is not None:
             editor.show(area)
             return
-        blank = editor.front if not editor.front.text and editor.front.buffer.path is None else None
+        blank = editor.front.tab if not editor.front.text and editor.front.buffer.path is None else None
         await editor.add(Buffer(label=path.name, saved_text=text))
         if blank is not None and blank is not editor.active:
             await editor.close_tab(blank)

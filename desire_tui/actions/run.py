@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
+from desire_tui.editor.checking import CHECKED_MAX
 from desire_tui.engine.session import State
 from desire_tui.engine.source import Source
 
@@ -24,37 +25,36 @@ class RunActions(Controller):
         """`zz`: accept the front tab and run it; a run that goes on is ended first."""
         del argument
         app = self.app
-        self._accept_front()
-        source = source_of(app.editor.front)
+        source = self._accept_front()
         app.listener.front = source
-        app.send_breakpoints()
         self.end_now()
         app.drawing.hold()
-        app.engine.submit(lambda: app.session.erun(source))
+
+        def run() -> None:
+            app.send_breakpoints()  # not before: the program that just ends has others
+            app.session.erun(source)
+
+        app.engine.submit(run)
 
     def accept(self, argument: str = "") -> None:
         """OK: the front tab becomes the active program."""
         del argument
         app = self.app
-        self._accept_front()
-        source = source_of(app.editor.front)
+        source = self._accept_front()
         name = app.editor.front.buffer.name
-        app.send_breakpoints()
 
         def accept() -> None:
+            app.send_breakpoints()
             problems = app.session.accept(source)
             if not problems:
                 app.call_from_thread(app.notify, f"{name} is the active program.", timeout=2, markup=False)
 
         app.engine.submit(accept)
 
-    def _accept_front(self) -> None:
+    def _accept_front(self) -> Source:
         editor = self.app.editor
-        front = editor.active = editor.front
-        if front.marks.traced is not None:
-            front.marks.traced = None
-            front.marks_changed()
-        editor.refresh_tabs()
+        editor.accept(editor.front)
+        return source_of(editor.front)
 
     def again(self, argument: str = "") -> None:
         """`run`: the active program from the top."""
@@ -137,19 +137,29 @@ class RunActions(Controller):
         app.engine.submit(lambda: app.session.execute("trace"))
 
     def breakpoint(self, argument: str = "") -> None:
-        """Set or remove a breakpoint on the cursor's row."""
-        del argument
+        """Set or remove a breakpoint on the cursor's row, or on the numbered one."""
         area = self.app.editor.front
-        row = area.cursor_location[0]
-        area.marks.breakpoints ^= {row}
+        row = int(argument) - 1 if argument.isdecimal() else area.cursor_location[0]
+        setting = row not in area.marks.breakpoints
+        if setting and not self._can_stop(area, row):
+            sentence = f"No statement of the script begins in line {row + 1}: it cannot stop there."
+            self.app.notify(sentence, severity="warning", timeout=4)
+            return
+        area.marks.breakpoints = area.marks.breakpoints ^ {row}
         area.marks_changed()
         self.app.send_breakpoints()
+
+    def _can_stop(self, area: CodeArea, row: int) -> bool:
+        app = self.app
+        if not app.engine.is_up or len(area.text) > CHECKED_MAX:
+            return True
+        return row + 1 in app.session.script_lines(source_of(area))
 
     def clear_breakpoints(self, argument: str = "") -> None:
         """Remove all breakpoints."""
         del argument
         for area in self.app.editor.areas:
-            area.marks.breakpoints.clear()
+            area.marks.breakpoints = set()
             area.marks_changed()
         self.app.send_breakpoints()
 

@@ -1,49 +1,24 @@
-"""The text of one tab: Textual's TextArea, with the language's own colours, problem marks and habits.
-
-TextArea's internals are overridden in few places, each named here: `_build_highlight_map` (colours without
-tree-sitter), `_set_document` (no wrapping tables), `edit` / `_undo_batch` / `_redo_batch` (marks move with
-the text), `render_line` (gutter marks), `_refresh_size` (the width is not measured anew at each key).
-"""
+"""The text of one tab, or a second view of it: what keys and commands do to a program."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from rich.segment import Segment
-from rich.style import Style
 from textual.binding import Binding, BindingType
-from textual.document._document import Document
-from textual.document._document_navigator import DocumentNavigator
-from textual.geometry import Size
-from textual.strip import Strip
-from textual.widgets import TextArea
+from textual.message import Message
 from textual.widgets.text_area import Selection
 
 from desire_tui.editor import indent
 from desire_tui.editor.aid import TypingAid
-from desire_tui.editor.highlighting import LineHighlights
-from desire_tui.editor.marks import Marks
-from desire_tui.editor.unwrapped import UnwrappedDocument
+from desire_tui.editor.view import ProgramView
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from textual import events
-    from textual.document._document import EditResult
-    from textual.document._edit import Edit
-    from textual.geometry import Region
 
     from desire_tui.editor.buffer import Buffer
 
-GUTTER_SIGNS = {
-    "error": ("✖", "#f4737b"),
-    "warning": ("▲", "#e5c07b"),
-    "break": ("●", "#f4737b"),
-    "trace": ("▶", "#7fc97f"),
-}
 
-
-class CodeArea(TextArea):
+class CodeArea(ProgramView):
     """Edits one program."""
 
     DEFAULT_CSS = """
@@ -59,133 +34,30 @@ class CodeArea(TextArea):
         Binding("alt+shift+down", "move_line(1)", "Move line down", show=False),
     ]
 
-    def __init__(self, buffer: Buffer, text: str) -> None:
+    class GutterClicked(Message):
+        """The mouse was pressed beside a row."""
+
+        def __init__(self, area: CodeArea, row: int) -> None:
+            super().__init__()
+            self.area = area
+            self.row = row
+
+    def __init__(self, buffer: Buffer, text: str, twin: CodeArea | None = None) -> None:
         self.buffer = buffer
-        self.marks = Marks()
-        self.aid = TypingAid()
-        self._width_most = 0
-        self._text: str | None = None
-        super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
-        self._highlights = LineHighlights()
-        self.indent_width = indent.WIDTH
-        self._set_document(text, None)
+        self.aid: TypingAid = twin.aid if twin else TypingAid()
+        super().__init__(text, twin)
 
-    def on_mount(self) -> None:
-        """Take the colours of the app's theme."""
-        self.follow_theme()
-
-    def follow_theme(self) -> None:
-        """Take over the colours of the app's current theme."""
-        from desire_tui.themes import editor_theme
-
-        theme = editor_theme(self.app.current_theme)
-        self.register_theme(theme)
-        self.theme = theme.name
+    @property
+    def tab(self) -> CodeArea:
+        """The first view of this text, which stands for the tab."""
+        first = self.views[0] if self.views else self
+        assert isinstance(first, CodeArea)
+        return first
 
     @property
     def is_dirty(self) -> bool:
         """Whether there is unsaved work."""
         return self.text != self.buffer.saved_text
-
-    # ------------------------------------------------------------------------------------- colours and marks
-
-    @property
-    def text(self) -> str:
-        """The whole text, joined once an edit: TextArea asks for it at every line it draws."""
-        if self._text is None:
-            self._text = self.document.text
-        return self._text
-
-    @text.setter
-    def text(self, value: str) -> None:
-        self.load_text(value)
-
-    def _build_highlight_map(self) -> None:
-        self._text = None
-        self._line_cache.clear()
-        highlights = self._highlights
-        highlights.clear()
-        if isinstance(
-            highlights, LineHighlights
-        ):  # TextArea's own constructor comes here before ours is in place
-            highlights.document = self.document
-            highlights.marks = self.marks.problems
-
-    def _set_document(self, text: str, language: str | None) -> None:
-        del language
-        self._highlight_query = None
-        self._width_most = 0
-        self.document = Document(text)
-        self.wrapped_document = UnwrappedDocument(self.document, tab_width=self.indent_width)
-        self.navigator = DocumentNavigator(self.wrapped_document)
-        self._build_highlight_map()
-        self.move_cursor((0, 0))
-        self._rewrap_and_refresh_virtual_size()
-
-    def marks_changed(self) -> None:
-        """Draw again after `marks` changed."""
-        self._build_highlight_map()
-        self.refresh()
-
-    def edit(self, edit: Edit) -> EditResult:
-        """Carry out an edit; marks below move with the text."""
-        before = self.document.line_count
-        self.marks.problems.pop(edit.top[0], None)
-        result = super().edit(edit)
-        self._moved(edit.top[0], before)
-        return result
-
-    def _undo_batch(self, edits: Sequence[Edit]) -> None:
-        before = self.document.line_count
-        super()._undo_batch(edits)
-        self._moved(min((edit.top[0] for edit in edits), default=0), before)
-
-    def _redo_batch(self, edits: Sequence[Edit]) -> None:
-        before = self.document.line_count
-        super()._redo_batch(edits)
-        self._moved(min((edit.top[0] for edit in edits), default=0), before)
-
-    def _moved(self, row: int, lines_before: int) -> None:
-        lines = self.document.line_count - lines_before
-        if lines:
-            self.marks.shift(row, lines)
-            self._build_highlight_map()
-
-    def _refresh_size(self) -> None:
-        row = self.cursor_location[0]
-        if not self._width_most:
-            self._width_most = max((len(line) for line in self.document.lines), default=0)
-        self._width_most = max(self._width_most, len(self.document.get_line(row)))
-        width = self._width_most + self.gutter_width + 1
-        self.virtual_size = Size(width, self.document.line_count)
-        self._refresh_scrollbars()
-
-    def render_lines(self, crop: Region) -> list[Strip]:
-        """Draw rows; blank ones before the style sheet was applied (a tab opened as a dialog closes)."""
-        if not self._component_styles:
-            return [Strip.blank(crop.width)] * crop.height
-        return super().render_lines(crop)
-
-    def render_line(self, y: int) -> Strip:
-        """Draw a row, with its mark in the gutter."""
-        strip = super().render_line(y)
-        row = y + self.scroll_offset.y
-        sign = self._sign(row)
-        if sign is None:
-            return strip
-        character, colour = GUTTER_SIGNS[sign]
-        width = self.gutter_width
-        left, right = strip.crop(0, width - 1), strip.crop(width)
-        style = next(iter(left), Segment("")).style or Style()
-        mark = Strip([Segment(character, style + Style(color=colour, bold=True))], 1)
-        return Strip.join([left, mark, right])
-
-    def _sign(self, row: int) -> str | None:
-        if row == self.marks.traced:
-            return "trace"
-        if problems := self.marks.problems.get(row):
-            return "error" if any(mark.style == "error" for mark in problems) else "warning"
-        return "break" if row in self.marks.breakpoints else None
 
     # ----------------------------------------------------------------------------------------------- typing
 
@@ -209,6 +81,14 @@ class CodeArea(TextArea):
         await super()._on_key(event)
         if event.is_printable:
             self.aid.typed(self)
+
+    async def _on_mouse_down(self, event: events.MouseDown) -> None:
+        if event.x < self.gutter_width:
+            event.stop()
+            event.prevent_default()
+            row = event.y + self.scroll_offset.y
+            if row < self.document.line_count:
+                self.post_message(self.GutterClicked(self, row))
 
     def on_blur(self) -> None:
         """Close the completions."""
@@ -268,10 +148,12 @@ class CodeArea(TextArea):
         if not 0 <= (top if step < 0 else bottom) + step < self.document.line_count:
             return
         lines = self.document.lines
-        if step < 0:
-            self.rewrite_rows(top - 1, bottom, [*lines[top : bottom + 1], lines[top - 1]])
-        else:
-            self.rewrite_rows(top, bottom + 1, [lines[bottom + 1], *lines[top : bottom + 1]])
+        first, last = (top - 1, bottom) if step < 0 else (top, bottom + 1)
+        moved = lines[first : last + 1]
+        moved = [*moved[1:], moved[0]] if step < 0 else [moved[-1], *moved[:-1]]
+        self.rewrite_rows(first, last, moved)
+        self.marks.rotated(first, last, step)
+        self.marks_changed()
         self.selection = Selection(
             (top + step, 0), (bottom + step, len(self.document.get_line(bottom + step)))
         )

@@ -42,7 +42,7 @@ class Keeper:
         return SavedTab(
             str(buffer.path) if buffer.path else None, buffer.label or buffer.name,
             area.text if text else None,
-            row, column, area is self._editor.front,
+            row, column, area is self._editor.front.tab,
         )  # fmt: skip
 
     def leave(self) -> None:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from textual.document._document import Location
+
     from desire_tui.engine.diagnostics import Diagnostic
 
 
@@ -30,6 +32,43 @@ class Mark:
         return f"{self.style} {self.code}: {self.message}{hint}"
 
 
+@dataclass(frozen=True, slots=True)
+class Move:
+    """A replacement in a text, and what becomes of its rows."""
+
+    top: Location
+    bottom: Location
+    end: Location
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether every row stays where it was."""
+        return self.top[0] == self.bottom[0] == self.end[0]
+
+    @property
+    def below(self) -> int:
+        """By how many rows the text behind the replacement moves."""
+        return self.end[0] - self.bottom[0]
+
+    def new(self, row: int) -> int | None:
+        """Return where a row is afterwards; None if it was deleted."""
+        (first, left), (last, right) = self.top, self.bottom
+        if row < first:
+            return row
+        if row > last or (row == last and right == 0 and (last > first or left == 0)):
+            return row + self.below
+        if row == last:
+            return row if last == first else min(row, self.end[0])
+        if row == first and left > 0:
+            return row
+        rewritten = self.end[0] if right == 0 else self.end[0] + 1  # line by line
+        return row if row < rewritten else None
+
+    def old(self, row: int) -> int | None:
+        """Return where a row was before; None if it is new."""
+        return next((at for at in (row, row - self.below) if at >= 0 and self.new(at) == row), None)
+
+
 @dataclass
 class Marks:
     """All marks of one editor."""
@@ -37,6 +76,7 @@ class Marks:
     problems: dict[int, list[Mark]] = field(default_factory=dict)
     breakpoints: set[int] = field(default_factory=set)
     traced: int | None = None
+    _moves: list[Move] = field(default_factory=list)
 
     def set_problems(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Replace the problems."""
@@ -46,18 +86,49 @@ class Marks:
             if mark is not None:
                 self.problems.setdefault(mark.row, []).append(mark)
 
-    def shift(self, row: int, lines: int) -> None:
-        """Lines were inserted (or, `lines` < 0, deleted) after `row`: move what stands below."""
-        if not lines:
+    # ------------------------------------------------------------------------------- following the text
+
+    def replaced(self, top: Location, bottom: Location, end: Location) -> None:
+        """Follow a replacement of what stood from `top` to `bottom`, up to `end`: marks stay with lines."""
+        move = Move(top, bottom, end)
+        if move.is_idle:
             return
-
-        def moved(at: int) -> int:
-            return at if at <= row else max(row, at + lines)
-
-        self.breakpoints = {moved(at) for at in self.breakpoints}
-        self.problems = {moved(at): marks for at, marks in self.problems.items()}
+        self.breakpoints = {row for at in self.breakpoints if (row := move.new(at)) is not None}
+        self.problems = {
+            row: marks for at, marks in self.problems.items() if (row := move.new(at)) is not None
+        }
         if self.traced is not None:
-            self.traced = moved(self.traced)
+            self.traced = move.new(self.traced)
+        self._moves.append(move)
+
+    def rotated(self, first: int, last: int, step: int) -> None:
+        """Follow rows that moved up (-1) or down (1) by one; the row they passed went to the other end."""
+        rows = last - first + 1
+        self.breakpoints = {
+            first + (at - first + step) % rows if first <= at <= last else at for at in self.breakpoints
+        }
+
+    def accepted(self) -> None:
+        """From now on rows are told with respect to the text as it is."""
+        self._moves.clear()
+
+    def row_now(self, row: int) -> int | None:
+        """Return where a row of the accepted text is now; None if it is gone."""
+        for move in self._moves:
+            at = move.new(row)
+            if at is None:
+                return None
+            row = at
+        return row
+
+    def row_then(self, row: int) -> int | None:
+        """Return which row of the accepted text stands in a row now; None if it is a new one."""
+        for move in reversed(self._moves):
+            at = move.old(row)
+            if at is None:
+                return None
+            row = at
+        return row
 
     def next_problem(self, row: int, step: int) -> Mark | None:
         """Return the first problem below `row` (step 1) or above it (step -1), going round at the end."""

@@ -45,9 +45,10 @@ class EditorPane(Vertical):
     class Wanted(Message):
         """The pane wants an action carried out (`id` of the command table)."""
 
-        def __init__(self, command_id: str) -> None:
+        def __init__(self, command_id: str, argument: str = "") -> None:
             super().__init__()
             self.command_id = command_id
+            self.argument = argument
 
     class CheckWanted(Message):
         """A text came to rest and should be checked."""
@@ -59,9 +60,13 @@ class EditorPane(Vertical):
     def __init__(self) -> None:
         super().__init__(id="editor")
         self.areas: list[CodeArea] = []
-        self._second: CodeArea | None = None
+        """One for each tab."""
         self._front: CodeArea | None = None
-        self.active: CodeArea | None = None
+        self._second: CodeArea | None = None
+        """What is shown beside the front: another tab, or the twin."""
+        self._twin: CodeArea | None = None
+        """A second view of one of the tabs."""
+        self._active: CodeArea | None = None
         self.versions: dict[int, int] = {}
         self._check_timer: Timer | None = None
         self.aid = TypingAid()
@@ -81,9 +86,27 @@ class EditorPane(Vertical):
 
     @property
     def front(self) -> CodeArea:
-        """The text the user works on."""
+        """The text the user works on, perhaps in its second view (`front.tab` is the tab's own)."""
         assert self._front is not None
         return self._front
+
+    @property
+    def active(self) -> CodeArea | None:
+        """The tab that holds the active program."""
+        return self._active
+
+    @active.setter
+    def active(self, area: CodeArea | None) -> None:
+        self._active = area.tab if area is not None else None
+
+    def accept(self, area: CodeArea) -> None:
+        """Note that a tab's text, as it is now, becomes the active program."""
+        self.active = area
+        area.marks.accepted()
+        if area.marks.traced is not None:
+            area.marks.traced = None
+            area.marks_changed()
+        self.refresh_tabs()
 
     async def add(self, buffer: Buffer, text: str | None = None, *, front: bool = True) -> CodeArea:
         """Open a tab; an untouched empty one is replaced."""
@@ -91,9 +114,9 @@ class EditorPane(Vertical):
             buffer.label = free_label(buffer.label, {area.buffer.name for area in self.areas})
         area = CodeArea(buffer, buffer.saved_text if text is None else text)
         area.aid = self.aid
-        blank = (
-            self._front if self._front and not self._front.text and self._front.buffer.path is None else None
-        )
+        blank = self._front
+        if blank is not None and (blank.text or blank.buffer.path is not None):
+            blank = None
         self.areas.append(area)
         await self.query_one("#areas", Horizontal).mount(area)
         if front or self._front is None:
@@ -107,24 +130,32 @@ class EditorPane(Vertical):
         return area
 
     def show(self, area: CodeArea, *, focus: bool = False) -> None:
-        """Bring a tab to the front."""
+        """Bring a tab, or the second view of one, to the front."""
         if area is self._second:
             self._second = self._front
         self._front = area
-        if self._second is area or self._second not in self.areas:
+        views = self._views
+        if self._second is area or self._second not in views:
             self._second = None
-        for other in self.areas:
+        for other in views:
             other.display = other in (area, self._second)
         self.query_one("#areas").set_class(self._second is not None, "-split")
         if focus:
-            area.focus()
+            self.screen.set_focus(area)  # at once: letters typed next belong there
         self.refresh_tabs()
         self._tell_place()
 
+    @property
+    def _views(self) -> list[CodeArea]:
+        return [*self.areas, self._twin] if self._twin is not None else self.areas
+
     async def close_tab(self, area: CodeArea) -> None:
         """Close a tab without asking; the last one leaves an empty one."""
+        area = area.tab
+        had_focus = self.front.has_focus
+        if self._twin is not None and self._twin.tab is area:
+            await self._drop_twin()
         at = self.areas.index(area)
-        had_focus = area.has_focus
         self.areas.remove(area)
         if area is self._second:
             self._second = None
@@ -140,20 +171,69 @@ class EditorPane(Vertical):
 
     def step(self, by: int) -> None:
         """Show the next tab or the one before."""
-        at = self.areas.index(self.front)
+        at = self.areas.index(self.front.tab)
         self.show(self.areas[(at + by) % len(self.areas)], focus=True)
 
-    def split(self) -> bool:
-        """Show two tabs side by side, or one again. Returns False if there is no second tab."""
-        if self._second is not None:
-            self._second = None
-        elif len(self.areas) > 1:
-            at = self.areas.index(self.front)
-            self._second = self.areas[(at + 1) % len(self.areas)]
+    def move_tab(self, area: CodeArea, to: int) -> None:
+        """Give a tab another place in the row."""
+        area, to = area.tab, min(max(to, 0), len(self.areas) - 1)
+        at = self.areas.index(area)
+        if at == to:
+            return
+        holder, neighbour = self.query_one("#areas", Horizontal), self.areas[to]
+        if to > at:
+            holder.move_child(area, after=neighbour)
         else:
-            return False
-        self.show(self.front, focus=True)
-        return True
+            holder.move_child(area, before=neighbour)
+        self.areas.insert(to, self.areas.pop(at))
+        if self._twin is not None:
+            holder.move_child(self._twin, after=self._twin.tab)
+        self.refresh_tabs()
+
+    # ------------------------------------------------------------------------------------------- side by side
+
+    async def split(self) -> None:
+        """Show two tabs side by side (a single one twice), or one again."""
+        if self._second is not None:
+            await self._one_view()
+        elif len(self.areas) > 1:
+            at = self.areas.index(self.front.tab)
+            self._second = self.areas[(at + 1) % len(self.areas)]
+            self.show(self.front, focus=True)
+        else:
+            await self.show_twice()
+
+    async def show_twice(self) -> None:
+        """Show the front tab a second time beside itself, or once again."""
+        tab = self.front.tab
+        if self._twin is not None and self._twin.tab is tab and self._second is not None:
+            await self._one_view()
+            return
+        await self._drop_twin()
+        self._twin = twin = CodeArea(tab.buffer, "", twin=tab)
+        await self.query_one("#areas", Horizontal).mount(twin, after=tab)
+        twin.go_to(*tab.cursor_location)
+        self._second = twin
+        self.show(tab, focus=True)
+
+    async def _one_view(self) -> None:
+        place, front = self.front.cursor_location, self.front.tab
+        if self.front is not front:
+            front.go_to(*place)
+        self._second = None
+        await self._drop_twin()
+        self.show(front, focus=True)
+
+    async def _drop_twin(self) -> None:
+        twin, self._twin = self._twin, None
+        if twin is None:
+            return
+        if self._front is twin:
+            self._front = twin.tab
+        if self._second is twin or self._second is self._front:
+            self._second = None
+        twin.part()
+        await twin.remove()
 
     def find(self, number: int) -> CodeArea | None:
         """Return the tab with that buffer number."""
@@ -161,7 +241,7 @@ class EditorPane(Vertical):
 
     def follow_theme(self) -> None:
         """Take over the colours of the app's current theme."""
-        for area in self.areas:
+        for area in self._views:
             area.follow_theme()
 
     def refresh_tabs(self) -> None:
@@ -180,9 +260,16 @@ class EditorPane(Vertical):
         if event.key == NEW:
             self.post_message(self.Wanted("file.new"))
         elif area is not None:
-            self.show(area, focus=True)
+            self.show(self.front if area is self.front.tab else area, focus=True)
             if event.close:
                 self.post_message(self.Wanted("file.close"))
+
+    @on(TabStrip.Dragged)
+    def _tab_dragged(self, event: TabStrip.Dragged) -> None:
+        event.stop()
+        area, over = self.find(event.key), self.find(event.over)
+        if area is not None and over is not None:
+            self.move_tab(area, self.areas.index(over))
 
     # --------------------------------------------------------------------------------------------- problems
 
@@ -240,10 +327,16 @@ class EditorPane(Vertical):
         if widget is not None and widget.id == "ok":
             self.post_message(self.Wanted("run.accept"))
 
+    @on(CodeArea.GutterClicked)
+    def _gutter_clicked(self, event: CodeArea.GutterClicked) -> None:
+        event.stop()
+        self.show(event.area, focus=True)
+        self.post_message(self.Wanted("run.breakpoint", str(event.row + 1)))
+
     def on_descendant_focus(self) -> None:
         """Bring the text that got the focus to the front."""
         focused = self.screen.focused
-        if isinstance(focused, CodeArea) and focused is not self._front and focused in self.areas:
+        if isinstance(focused, CodeArea) and focused is not self._front and focused in self._views:
             self.show(focused)
 
     @on(FindBar.Closed)

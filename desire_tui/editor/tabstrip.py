@@ -47,6 +47,18 @@ class TabStrip(Widget):
             self.key = key
             self.close = close
 
+    class Dragged(Message):
+        """A tab (`key`) was dragged to the place of another (`over`)."""
+
+        def __init__(self, key: int, over: int) -> None:
+            super().__init__()
+            self.key = key
+            self.over = over
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._held: int | None = None
+
     def _pieces(self) -> list[tuple[int, str]]:
         """Tab keys with their texts, as many as fit, the front one among them."""
         texts = [(t.key, f" {'▸' if t.active else ''}{t.name}{' ●' if t.dirty else ''} ") for t in self.tabs]
@@ -86,17 +98,48 @@ class TabStrip(Widget):
         width = sum(len(segment.text) for segment in segments)
         return Strip(segments, width).adjust_cell_length(self.size.width, base)
 
+    def _at(self, x: int) -> tuple[int, int, int] | None:
+        """Return the tab (or sign) at a column, with the columns it begins and ends at."""
+        left = 0
+        for key, text in self._pieces():
+            if left <= x < left + len(text):
+                return key, left, left + len(text)
+            left += len(text) + 1
+        return None
+
     def on_click(self, event: events.Click) -> None:
         """Choose the tab under the mouse; the middle button closes it."""
-        x = 0
+        found = self._at(event.x)
+        if found is None:
+            return
+        key, keys = found[0], [tab.key for tab in self.tabs]
+        shown = [k for k, _ in self._pieces() if k >= 0]
+        if key == LEFT:
+            key = keys[keys.index(shown[0]) - 1]
+        elif key == RIGHT:
+            key = keys[keys.index(shown[-1]) + 1]
+        self.post_message(self.Chosen(key, close=event.button == 2 and key >= 0))
+
+    def on_mouse_down(self, event: events.MouseDown) -> None:
+        """Take hold of a tab."""
+        found = self._at(event.x)
+        if event.button == 1 and found is not None and found[0] >= 0:
+            self._held = found[0]
+            self.capture_mouse()
+
+    def on_mouse_move(self, event: events.MouseMove) -> None:
+        """Drag the tab that is held past others, so that it stays under the mouse."""
+        over = self._at(event.x) if self._held is not None else None
+        if over is None or self._held is None or over[0] < 0 or over[0] == self._held:
+            return
         keys = [tab.key for tab in self.tabs]
-        for key, text in self._pieces():
-            if x <= event.x < x + len(text):
-                shown = [k for k, _ in self._pieces() if k >= 0]
-                if key == LEFT:
-                    key = keys[keys.index(shown[0]) - 1]  # noqa: PLW2901 - the tab the sign stands for
-                elif key == RIGHT:
-                    key = keys[keys.index(shown[-1]) + 1]  # noqa: PLW2901 - as above
-                self.post_message(self.Chosen(key, close=event.button == 2 and key >= 0))
-                return
-            x += len(text) + 1
+        width = next((len(text) for key, text in self._pieces() if key == self._held), 0)
+        key, left, right = over
+        rightward = keys.index(key) > keys.index(self._held)
+        if event.x >= right - width if rightward else event.x < left + width:
+            self.post_message(self.Dragged(self._held, key))
+
+    def on_mouse_up(self) -> None:
+        """Let go."""
+        self._held = None
+        self.release_mouse()

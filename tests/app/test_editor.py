@@ -13,7 +13,6 @@ from desire_tui.dialogs import Choice
 from desire_tui.editor import indent
 from desire_tui.editor.completion import offers, prefix_of
 from desire_tui.editor.highlighting import LineHighlights
-from desire_tui.editor.marks import Marks
 
 from .conftest import OSCILLATOR, desktop
 
@@ -45,15 +44,6 @@ def test_commenting_twice_gives_the_lines_back(lines: list[str]):
     ):
         assert all(indent.COMMENT.match(line) for line in once if line.strip())
         assert indent.toggle_comment(once) == lines
-
-
-@given(st.sets(st.integers(0, 50)), st.integers(0, 50), st.integers(1, 10))
-def test_marks_below_an_insertion_move_and_come_back(rows: set[int], at: int, lines: int):
-    marks = Marks(breakpoints=set(rows))
-    marks.shift(at, lines)
-    assert marks.breakpoints == {row if row <= at else row + lines for row in rows}
-    marks.shift(at, -lines)
-    assert marks.breakpoints == rows
 
 
 def test_numbered_lines():
@@ -260,19 +250,6 @@ async def test_binary_and_missing_files_are_refused_with_a_reason(program, tmp_p
         await desk.line("load 'nowhere.src'")
         await desk.until(lambda: "error 38" in desk.output)
         assert len(desk.app.editor.areas) == 1
-
-
-async def test_two_tabs_side_by_side(program):
-    async with desktop(program("x = 1\n", "a.src"), program("y = 1\n", "b.src")) as desk:
-        editor = desk.app.editor
-        assert [area.display for area in editor.areas] == [True, False]
-        await desk.press("ctrl+backslash")
-        assert [area.display for area in editor.areas] == [True, True]
-        editor.areas[1].focus()
-        await desk.until(lambda: editor.front is editor.areas[1])
-        assert all(area.display for area in editor.areas)
-        await desk.press("ctrl+backslash")
-        assert [area.display for area in editor.areas] == [False, True]
 
 
 async def test_a_key_in_a_thousand_lines_is_cheap(program, monkeypatch):

@@ -177,6 +177,13 @@ class Session:
         """
         self._script.set_breakpoints(frozenset(lines))
 
+    @staticmethod
+    def script_lines(source: Source) -> frozenset[int]:
+        """Return the lines (from 1) of a text in which a statement of the script begins."""
+        from desire_tui.engine.syntax import parse
+
+        return frozenset(source.position(placed.at).row for placed in parse(source).script)
+
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
         self._desk.program = self._desk.structure = None
