@@ -26,12 +26,14 @@ def run(program: str | PathLike[str], **settings: Any) -> Result:
     """Run a program without a screen and return everything it produced, as NumPy arrays.
 
     `program` is a file name, or the text of a program (a string with a line end or a `|`). Settings, all
-    optional: `set` (mapping of names to numbers that override the script's own), `input` (lines a script's
-    `input` reads), `go` (True answers every STOP), `timeout` (seconds), `backend` (`native` or `reference`),
-    `allow_shell`, `allow_write`, `quiet` (False passes console text to standard output).
+    optional: `set` (mapping of names to numbers, lists or arrays that override the script's own; `"a[2]"`
+    names one element), `input` (lines a script's `input` reads), `go` (True answers every STOP), `timeout`
+    (seconds), `backend` (`native` or `reference`), `allow_shell`, `allow_write`, `quiet` (False passes
+    console text to standard output).
 
     Nothing is raised for a program's own mistakes: `result.status` is `failed` and `result.problems` say why.
-    DesireError 38: the file cannot be read. TypeError: an unknown setting.
+    DesireError 38: the file cannot be read. TypeError: an unknown setting. ValueError: `set` holds what
+    is no quantity's name or no number.
     """
     from desire_tui.batch.api import run_program
 

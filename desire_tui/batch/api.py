@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from desire_tui.batch.listener import BatchListener
+from desire_tui.batch.settings import from_mapping
 from desire_tui.batch.work import Orders, Work
 from desire_tui.engine.files import read_source
 from desire_tui.engine.source import Source
@@ -26,7 +27,7 @@ def _ignore(_: object) -> None:
 def run_program(
     program: str | PathLike[str],
     *,
-    set: Mapping[str, float] | None = None,  # noqa: A002 - the command line's word
+    set: Mapping[str, Any] | None = None,  # noqa: A002 - the command line's word
     input: Iterable[str] = (),  # noqa: A002 - the command line's word
     go: bool = False,
     timeout: float | None = None,
@@ -41,8 +42,8 @@ def run_program(
     show: Callable[[str], object] = _ignore if quiet else sys.stdout.write
     listener = BatchListener(show, iter(input), _ignore)
     orders = Orders(
-        settings=set or {}, answer_stops=go, timeout=timeout, backend=backend, allow_shell=allow_shell,
-        allow_write=allow_write,
+        settings=from_mapping(set or {}), answer_stops=go, timeout=timeout, backend=backend,
+        allow_shell=allow_shell, allow_write=allow_write,
     )  # fmt: skip
     work = Work(source, orders, listener)
     work.run()

@@ -29,12 +29,13 @@ class Wanted:
     pdf: str | None = None
     csv: str | None = None
     json: str | None = None
+    npz: str | None = None
     plot: bool = False
 
     @property
     def takes_stdout(self) -> bool:
         """Whether standard output belongs to a file, so that console text has to go elsewhere."""
-        return STANDARD_OUTPUT in (self.png, self.svg, self.pdf, self.csv, self.json)
+        return STANDARD_OUTPUT in (self.png, self.svg, self.pdf, self.csv, self.json, self.npz)
 
     def write(self, session: Session, result: Callable[[], Result]) -> None:
         """Write everything. DesireError 106: something cannot be written; 471: no graph for a picture."""
@@ -50,6 +51,8 @@ class Wanted:
             from desire_tui.engine.outputs.tables import as_json
 
             _text(self.json, lambda file: file.write(as_json(result())))
+        if self.npz is not None:
+            _archive(self.npz, result())
         if self.plot:
             _plot(session)
 
@@ -62,6 +65,17 @@ def _text(name: str, write) -> None:  # type: ignore[no-untyped-def]  # noqa: AN
         sys.stdout.flush()
     else:
         write_file(Path(name), write)
+
+
+def _archive(name: str, result: Result) -> None:
+    from desire_tui.engine.files import write_bytes
+    from desire_tui.engine.outputs.tables import write_npz
+
+    if name == STANDARD_OUTPUT:
+        write_npz(result, sys.stdout.buffer)
+        sys.stdout.buffer.flush()
+    else:
+        write_bytes(Path(name), lambda file: write_npz(result, file))
 
 
 def _pages(session: Session) -> list[Graph]:

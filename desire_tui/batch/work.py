@@ -106,6 +106,7 @@ class Work:
     def _script(self) -> None:
         session = self.session
         try:
+            self._look_at_settings()
             session.erun(self._source)
             while session.stopped_at is not None and self._orders.answer_stops:
                 session.go()
@@ -117,6 +118,19 @@ class Work:
             self.status = "limit" if ended or self.status == "limit" else "failed"
         except BaseException as error:  # noqa: BLE001 - raised again on the main thread
             self._crash = error
+
+    def _look_at_settings(self) -> None:
+        """DesireError 409: settings of what the program does not know."""
+        if not self._orders.settings:
+            return
+        from desire_tui.engine.analysis import structure
+        from desire_tui.engine.session.overrides import problems_of
+        from desire_tui.engine.syntax import parse
+
+        program = parse(self._source)
+        problems = problems_of(program, structure(program), self._orders.settings)
+        if problems:
+            raise DesireError(*problems)
 
     def result(self) -> Result:
         """Return everything the program produced so far."""

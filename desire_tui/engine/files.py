@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from pathlib import Path
     from typing import IO
 
@@ -43,9 +44,20 @@ def decoded(data: bytes, name: str) -> str:
 
 def write_file(path: Path, write: Callable[[IO[str]], None]) -> None:
     """Write a text file. DesireError 106 where that fails (a full disk too)."""
+    with _writing(path), path.open("w", encoding="utf-8", newline="\n") as file:
+        write(file)
+
+
+def write_bytes(path: Path, write: Callable[[IO[bytes]], None]) -> None:
+    """Write a binary file. DesireError 106 where that fails."""
+    with _writing(path), path.open("wb") as file:
+        write(file)
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
     try:
-        with path.open("w", encoding="utf-8", newline="\n") as file:
-            write(file)
+        yield
     except OSError as reason:
         facts = {"path": path, "reason": reason.strerror or reason}
         raise DesireError(Diagnostic("file-unwritable", facts=facts)) from None

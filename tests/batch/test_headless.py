@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from time import monotonic, sleep
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -63,7 +64,7 @@ def test_problems_to_stderr_and_status_1(tmp_path):
 def test_all_files_at_once(decay, tmp_path):
     status, _, _ = desire(
         "run", decay, "--png", tmp_path / "g.png", "--svg", tmp_path / "g.svg", "--pdf", tmp_path / "g.pdf",
-        "--csv", tmp_path / "g.csv", "--json", tmp_path / "g.json",
+        "--csv", tmp_path / "g.csv", "--json", tmp_path / "g.json", "--npz", tmp_path / "g.npz",
     )  # fmt: skip
     assert status == 0
     assert (tmp_path / "g.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
@@ -76,6 +77,10 @@ def test_all_files_at_once(decay, tmp_path):
     last = rows[11].split(",")
     assert float(last[1]) == pytest.approx(1.0)
     assert float(last[2]) == pytest.approx(0.3685409848, abs=1e-9)  # rule 1, ten steps: models.md 1.2.5
+    with np.load(tmp_path / "g.npz") as archive:
+        assert set(archive) >= {"1/t", "1/x", "final/x", "final/a", "final/DT"}
+        assert archive["1/x"][-1] == float(last[2]) == archive["final/x"]
+        assert archive["1/t"].tolist() == [float(row.split(",")[1]) for row in rows[1:12]]
 
 
 def test_json_layout(decay, tmp_path):
@@ -184,11 +189,124 @@ def test_set_overrides_the_script(decay):
     assert out == "done, x = 2.5\n"
 
 
-@pytest.mark.parametrize("setting", ["a", "a=b", "=3", "3=4", "a[1]=2"])
+@pytest.mark.parametrize(
+    "setting", ["a", "a=b", "=3", "3=4", "a[x]=2", "a[]=1", "a[1]=2,3", "a=1,,2", "a=1,2;"]
+)
 def test_wrong_settings_are_wrong_usage(decay, setting):
     status, out, err = desire("run", decay, "--set", setting)
     assert (status, out) == (2, "")
     assert "NAME=NUMBER" in err
+
+
+ARRAYS = """n = 3
+ARRAY v[n], A[2,n], p[2] + q[2] = pq
+STATE x[n]
+INTEGER k
+k = 5 | c = 2
+data 1, 2, 3 | read v
+MATRIX A = 1
+for i = 1 to n | x[i] = 10*i | next
+data 4, 5, 6, 7 | read pq
+PROCEDURE double(a; b) | b = 2*a | end
+call double(c; d)
+write k, c, d
+write v[1], v[2], v[3]
+write A[1,2], A[2,3]
+write x[1], x[2], x[3]
+write p[1], p[2], q[1], q[2]
+"""
+
+
+@pytest.mark.parametrize(
+    ("settings", "line", "expected"),
+    [
+        ([], 0, "5 2 4"),
+        (["k=7.6"], 0, "8 2 4"),
+        (["c=3"], 0, "5 3 6"),
+        (["d=9"], 0, "5 2 9"),
+        (["v[2]=-1e-3"], 1, "1 -0.001 3"),
+        (["v=7, 8, 9"], 1, "7 8 9"),
+        (["v=7,8,9", "v[1]=0"], 1, "0 8 9"),
+        (["v=7,8"], 1, "7 8 3"),
+        (["n=4", "v[3]=0"], 1, "1 2 0"),
+        (["A[2,3]=0.5"], 2, "0 0.5"),
+        (["A=1,2,3;4,5,6"], 2, "2 6"),
+        (["x[3]=5"], 3, "10 20 5"),
+        (["x=4,5,6"], 3, "4 5 6"),
+        (["q[1]=0"], 4, "4 5 0 7"),
+        (["pq=9,8"], 4, "9 8 6 7"),
+    ],
+)
+def test_set_reaches_whatever_the_script_assigns(tmp_path, settings, line, expected):
+    """By assignment, declaration, data, MATRIX, a loop, a PROCEDURE's result; overlays share memory."""
+    import desire_tui
+    from desire_tui.batch.settings import from_texts
+
+    text = ARRAYS.replace("data 1, 2, 3 |", "data 1, 2, 3, 0 |") if "n=4" in settings else ARRAYS
+    if "n=4" in settings:
+        text = text.replace("MATRIX A = 1\n", "")
+    result = desire_tui.run(text, set=from_texts(settings))
+    assert result.problems == ()
+    assert result.console.split("\n")[line].split() == expected.split()
+
+
+def test_set_arrays_from_the_command_line_and_from_python(tmp_path):
+    import desire_tui
+
+    path = tmp_path / "p.src"
+    path.write_text("ARRAY A[2,2], v[2]\nMATRIX A = 0\nwrite A[1,1], A[1,2], A[2,2], v[2]\n")
+    assert desire("run", path, "--set", "A=1,2;3,4", "--set", "v[2]=6") == (0, "1\t2\t4\t6\n", "")
+    result = desire_tui.run(path, set={"A": np.array([[1, 2], [3, 4]]), "v": [5, 6], "v[1]": 0})
+    assert result.console == "1\t2\t4\t6\n"
+    assert result["v"].tolist() == [0, 6]
+    for wrong in ({"3": 1}, {"a b": 1}, {"v[1]": [1, 2]}, {"v": "many"}):
+        with pytest.raises(ValueError):
+            desire_tui.run(path, set=wrong)
+
+
+def test_set_does_not_reach_dummies_and_submodels(tmp_path):
+    """A PROCEDURE's dummy and a SUBMODEL's own line bear the name of what is set; they mean something else."""
+    path = tmp_path / "p.src"
+    path.write_text(
+        "PROCEDURE p(a; b)\na = a + 1\nb = a\nend\nSUBMODEL s(q$)\ng = 2*q$\nend\na = 5 | g = 0\n"
+        "call p(10; r)\nq = 1 | NN = 2\ndrun\nwrite a, r, g\nDYNAMIC\ninvoke s(q)\ntype g\n"
+    )
+    status, out, _ = desire("run", path, "--set", "a=7", "--set", "g=9")
+    assert (status, out.split("\n")[-2]) == (0, "7\t11\t2")
+
+
+def test_what_is_set_is_not_asked_for(tmp_path):
+    path = tmp_path / "p.src"
+    path.write_text("input x\ninput y, z\nwrite x, y, z\n")
+    status, out, _ = desire("run", path, "--set", "x=1", "--set", "y=2", text_in="8\n9\n")
+    assert status == 0
+    assert out == "y ? 8\nz ? 9\n1\t2\t9\n"
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("alpa=1", ["no 'alpa'", "did you mean 'alpha'?"]),
+        ("v=1", ["'v'", "is an array"]),
+        ("alpha[1]=1", ["'alpha' is no array"]),
+    ],
+)
+def test_a_setting_the_program_has_no_use_for(tmp_path, setting, words):
+    path = tmp_path / "p.src"
+    path.write_text("alpha = 1\nARRAY v[2]\nwrite alpha\n")
+    status, out, err = desire("run", path, "--set", setting)
+    assert (status, out) == (1, "")
+    assert "error 409" in err
+    assert all(word in err for word in words)
+    assert desire("run", path, "--set", "DT=0.1")[0] == 0  # the system's own names are always known
+
+
+def test_a_subscript_beyond_the_array_is_told_at_its_declaration(tmp_path):
+    path = tmp_path / "p.src"
+    path.write_text("ARRAY v[2]\n")
+    status, _, err = desire("run", path, "--set", "v[3]=1")
+    assert status == 1
+    assert f"{path}:1:1: error 2" in err
 
 
 def test_stop_ends_unless_go(tmp_path):
@@ -357,3 +475,10 @@ def test_headless_runs_load_neither_textual_nor_matplotlib(decay):
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
+
+
+def test_the_quick_way_into_the_desktop_knows_all_commands():
+    """`desire FILE` does without the command line's library; a file must not be taken for a command."""
+    from desire_tui import __main__, cli
+
+    assert set(cli.main.commands) == __main__.COMMANDS

@@ -56,13 +56,3 @@ def test_both_back_ends_agree():
     native = desire_tui.run(DECAY)
     reference = desire_tui.run(DECAY, backend="reference")
     assert native.runs[0]["x"] == pytest.approx(reference.runs[0]["x"], rel=1e-13)
-
-
-def test_saved_samples_are_read_by_numpy(tmp_path):
-    from desire_tui.engine.outputs.tables import save_npy
-
-    run = desire_tui.run(DECAY).runs[0]
-    save_npy(run, tmp_path / "run.npy")
-    table = np.load(tmp_path / "run.npy")
-    assert table.dtype.names == ("t", "x", "z")
-    assert table["x"].tolist() == run["x"].tolist()

@@ -1,4 +1,4 @@
-"""Results as files: JSON, CSV, NPY."""
+"""Results as files: JSON, CSV, NPZ."""
 
 from __future__ import annotations
 
@@ -10,9 +10,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    from desire_tui.engine.outputs.results import Result, RunData
+    from desire_tui.engine.outputs.results import Result
 
 _CSV_ROWS = 10_000  # rows turned to text at a time
 
@@ -55,13 +53,13 @@ def write_csv(result: Result, file: IO[str]) -> None:
                 file.write(f"{number},{','.join(cells)}\n")
 
 
-def save_npy(run: RunData, path: Path) -> None:
-    """Save a run's samples as a structured NPY array with the fields `t` and the variables' names."""
-    names = ["t", *(curve.name for curve in run.curves)]
-    table = np.empty(len(run.t), dtype=[(name, np.float64) for name in names])
-    for name in names:
-        table[name] = run[name]
-    np.save(path, table, allow_pickle=False)
+def write_npz(result: Result, file: IO[bytes]) -> None:
+    """Write an archive for `numpy.load`: `1/t`, `1/x` … are samples of run 1, `final/x` … final values."""
+    arrays = {f"final/{name}": np.asarray(value) for name, value in result.quantities.items()}
+    for number, run in enumerate(result.runs, 1):
+        arrays[f"{number}/t"] = run.t
+        arrays |= {f"{number}/{curve.name}": curve.values for curve in run.curves}
+    np.savez(file, **arrays)  # type: ignore[arg-type]  # its stub takes the first name for allow_pickle
 
 
 def _texts(values: Any) -> list[str]:

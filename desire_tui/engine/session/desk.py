@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,6 +31,7 @@ class Desk:
         self.command: Source | None = None
         """The command line being carried out, None while the script runs."""
         self.overrides: dict[str, float] = {}
+        """See `overrides`: by names such as `a` and `A[1,3]`."""
         self.breakpoints: frozenset[int] = frozenset()
         """Lines of the script (from 1) before which it stops as at a STOP."""
         self.parse_seconds = 0.0
@@ -77,22 +77,3 @@ class Desk:
     def line_of(self, placed: Placed) -> int:
         """Return a statement's line in the program; 0 for a command."""
         return 0 if self.command is not None else self.source.position(placed.at).row
-
-    def overridden(self, program: Program) -> Program:
-        """Return the program with the script's own assignments of overridden names replaced."""
-        if not self.overrides:
-            return program
-        from desire_tui.engine.nodes import Assign, Name, Number
-
-        script = []
-        for placed in program.script:
-            node = placed.node
-            if (
-                isinstance(node, Assign)
-                and isinstance(node.target, Name)
-                and node.target.name in self.overrides
-            ):
-                value = Number(self.overrides[node.target.name], node.value.start, node.value.end)
-                placed = placed._replace(node=Assign(node.target, value, node.start, node.end))  # noqa: PLW2901
-            script.append(placed)
-        return replace(program, script=tuple(script))

@@ -93,8 +93,11 @@ class Script:
         if desk.program is not None:
             for name in state_order(desk.program):
                 values.scalar(name, is_state=True)
-        for name, value in desk.overrides.items():
-            values.assign(values.scalar(name).slot, value)
+            if desk.overrides:
+                from desire_tui.engine.session.overrides import initial
+
+                for name, value in initial(desk.program, desk.overrides).items():
+                    values.assign(values.scalar(name).slot, value)
         self._listener.quantities_cleared()
 
     def _drop(self) -> None:

@@ -148,8 +148,13 @@ class Session:
         self._desk.parse_seconds = perf_counter() - began
         if self._script.stopped is not None and source.text != self._desk.source.text:
             self._script.edited = True
-        self._desk.program = self._desk.overridden(program)
-        self._desk.structure = structure(self._desk.program)
+        active, script = program, structure(program)
+        if self._desk.overrides:
+            from desire_tui.engine.session.overrides import overridden
+
+            active = overridden(program, script, self._desk.overrides)
+            script = structure(active)
+        self._desk.program, self._desk.structure = active, script
         self._journal.program(source)
         if self._listener.wants_check:
             problems = self.check(source, quick=True)  # the run itself compares the JACOBIAN it uses
@@ -167,7 +172,15 @@ class Session:
         return self._checker.check(source, quick=quick)
 
     def override(self, settings: Mapping[str, float]) -> None:
-        """Give scalars values that the script's own assignments do not change, from the next `accept` on."""
+        """Give quantities values that the script does not change, from the next `accept` on.
+
+        Names are those of scalars, `a`, or of elements, `a[2]`, `A[1,3]`; ValueError for others. Segments and
+        commands change them as ever.
+        """
+        from desire_tui.engine.session.overrides import parts
+
+        for name in settings:
+            parts(name)
         self._desk.overrides = dict(settings)
 
     def set_breakpoints(self, lines: Iterable[int]) -> None:

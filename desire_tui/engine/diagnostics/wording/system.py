@@ -54,6 +54,15 @@ MESSAGES: dict[str, Wording] = {
     "compare-failed": Wording(
         408, "with {setting} the run does not come to its end: {reason}", "the run before stays as it was"
     ),
+    "set-unknown": Wording(
+        409, "'{setting}' is set from outside, but the program has no '{name}'", "look for a slip in the name"
+    ),
+    "set-array": Wording(
+        409, "'{name}' is set from outside like a scalar, but is an array", "set elements, for instance {name}[1]"
+    ),
+    "set-no-array": Wording(
+        409, "'{setting}' is set from outside, but '{name}' is no array", "set it without subscripts"
+    ),
     "shell-refused": Wording(
         450,
         "the program wants to run the shell command `{command}`, which is not allowed",

@@ -1,0 +1,168 @@
+"""Values that a front end sets in place of the script's own: `--set`, sliders of live mode.
+
+A setting's name is that of a scalar, `a`, or of an array's element, `a[2]`, `A[1,3]`. The program is changed:
+assignments of such a scalar give it the setting's value, and behind each other script statement that could
+give it or its array a value (ARRAY, read, input, MATRIX, call …) stands an assignment of the setting.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from desire_tui.engine import nodes
+from desire_tui.engine.diagnostics import Diagnostic, closest
+from desire_tui.engine.nodes import Assign, Element, Name, Number, Placed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from desire_tui.engine.analysis import Structure
+    from desire_tui.engine.nodes import Program, Statement
+
+_FORM = re.compile(r"\s*([A-Za-z][\w$]*)\s*(?:\[\s*(\d+(?:\s*,\s*\d+)*)\s*\])?\s*", re.ASCII)
+_WORD = re.compile(r"[A-Za-z][\w$]*")
+
+
+def parts(setting: str) -> tuple[str, tuple[int, ...]]:
+    """Return name and subscripts of `a` or `A[1,3]`. ValueError: it is neither."""
+    found = _FORM.fullmatch(setting)
+    if found is None:
+        raise ValueError(setting)
+    subscripts = found[2]
+    return found[1], tuple(int(s) for s in subscripts.split(",")) if subscripts else ()
+
+
+def initial(program: Program, overrides: Mapping[str, float]) -> dict[str, float]:
+    """Return the scalars that have a value before the script begins: all that it does not declare."""
+    declared = {
+        name for p in program.script if isinstance(p.node, nodes.Declare) for name in _written(p.node)
+    }
+    return {name: value for name, value in _scalars(overrides).items() if name not in declared}
+
+
+def overridden(program: Program, structure: Structure, overrides: Mapping[str, float]) -> Program:
+    """Return the program with the settings in place of the script's own values."""
+    if not overrides:
+        return program
+    changer = _Changer(program, overrides)
+    changer.leave_bodies(program, structure)
+    script = [new for placed in program.script for new in changer.statement(placed)]
+    return replace(program, script=tuple(script))
+
+
+def problems_of(program: Program, structure: Structure, overrides: Mapping[str, float]) -> list[Diagnostic]:
+    """Return errors 409: settings of names that the program does not know, or that are no such thing."""
+    from desire_tui.engine.analysis.declared import Survey
+    from desire_tui.engine.syntax.words import KEYWORDS
+    from desire_tui.engine.values import SYSTEM_VARIABLES
+
+    survey = Survey(program, structure)
+    words = set(_WORD.findall(program.source.text)) - KEYWORDS.keys()
+    known = {*survey.everything, *SYSTEM_VARIABLES, *words}
+    problems = []
+    for setting in overrides:
+        name, subscripts = parts(setting)
+        facts = {"name": name, "setting": setting, "close": None}
+        if name not in known:
+            facts["close"] = closest(name, known)
+            problems.append(Diagnostic("set-unknown", None, facts, program.source))
+        elif (name in survey.array_names) != bool(subscripts):
+            key = "set-no-array" if subscripts else "set-array"
+            problems.append(Diagnostic(key, None, facts, program.source))
+    return problems
+
+
+def _scalars(overrides: Mapping[str, float]) -> dict[str, float]:
+    return {name: value for name, value in overrides.items() if "[" not in name}
+
+
+class _Changer:
+    def __init__(self, program: Program, overrides: Mapping[str, float]) -> None:
+        self._scalars = _scalars(overrides)
+        self._settings: dict[str, list[tuple[tuple[int, ...], float]]] = {}
+        for setting, value in overrides.items():
+            name, subscripts = parts(setting)
+            self._settings.setdefault(name, []).append((subscripts, value))
+        self._same = _overlays(program)
+        self._hidden: dict[int, frozenset[str]] = {}
+
+    def leave_bodies(self, program: Program, structure: Structure) -> None:
+        """Note where names mean something else: dummies of PROCEDUREs; bodies of SUBMODELs are no script."""
+        every = frozenset(self._settings)
+        for submodel in structure.submodels.values():
+            self._hidden.update((id(placed), every) for placed in submodel.body)
+        for procedure in structure.procedures.values():
+            dummies = frozenset((*procedure.node.values, *procedure.node.references))
+            body = program.script[procedure.opens : procedure.closes + 1]
+            self._hidden.update((id(placed), dummies) for placed in body)
+
+    def statement(self, placed: Placed) -> Iterator[Placed]:
+        """Yield the statements that stand in place of one."""
+        hidden = self._hidden.get(id(placed), frozenset())
+        node = placed.node
+        if isinstance(node, Assign) and isinstance(node.target, Name):
+            value = None if node.target.name in hidden else self._scalars.get(node.target.name)
+            if value is not None:
+                number = Number(value, node.value.start, node.value.end)
+                placed = placed._replace(node=Assign(node.target, number, node.start, node.end))
+            yield placed
+            return
+        names = [name for name in self._written(node) if name in self._settings and name not in hidden]
+        if not self._only_asks_for(node, names):
+            yield placed
+        for name in names:
+            for subscripts, value in self._settings[name]:
+                yield Placed(_assignment(node, name, subscripts, value), placed.at)
+
+    def _written(self, node: Statement) -> list[str]:
+        """Return the names that a statement could give a value, with all that share memory with them."""
+        found: dict[str, None] = {}
+        for name in _written(node):
+            found.update(dict.fromkeys(self._same.get(name, (name,))))
+        return list(found)
+
+    def _only_asks_for(self, node: Statement, names: list[str]) -> bool:
+        """Whether an `input` asks for nothing but what is set anyway."""
+        return (
+            isinstance(node, nodes.Input)
+            and node.channel is None
+            and all(isinstance(t, Name) and t.name in self._scalars and t.name in names for t in node.targets)
+        )
+
+
+def _assignment(node: Statement, name: str, subscripts: tuple[int, ...], value: float) -> Assign:
+    start, end = node.start, node.end
+    target: Name | Element = Name(name, start, end)
+    if subscripts:
+        target = Element(name, tuple(Number(float(s), start, end) for s in subscripts), start, end)
+    return Assign(target, Number(value, start, end), start, end)
+
+
+def _written(node: Statement) -> Iterator[str]:
+    if isinstance(node, nodes.Declare):
+        for group in node.groups:
+            yield from (part.name for part in group.parts)
+            if group.whole is not None:
+                yield group.whole
+    elif isinstance(node, Assign | nodes.Dot):
+        yield node.target.name
+    elif isinstance(node, nodes.Read | nodes.Input):
+        yield from (target.name for target in node.targets)
+    elif isinstance(node, nodes.MatrixAssign | nodes.VectorAssign):
+        yield node.name
+    elif isinstance(node, nodes.CallProcedure):
+        yield from (r.name for r in node.references if isinstance(r, Name | Element))
+
+
+def _overlays(program: Program) -> dict[str, list[str]]:
+    """Return for each name of an overlay all names that share its memory."""
+    found: dict[str, list[str]] = {}
+    for placed in program.script:
+        if isinstance(placed.node, nodes.Declare):
+            for group in placed.node.groups:
+                if group.whole is not None:
+                    names = [group.whole, *(part.name for part in group.parts)]
+                    found.update(dict.fromkeys(names, names))
+    return found
