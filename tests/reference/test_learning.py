@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.session import Session
+from desire_tui.engine.source import Source
 from tests.reference.runs import array, run
 
 BACKENDS = ("reference", "native")
@@ -37,15 +40,23 @@ def test_conscience_wakes_idle_templates(backend):
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_vigilance_takes_free_templates_until_none_is_left(backend):
-    session = run(
-        "NN = 4 | ARRAY W[2,2], v[2], x[2], P[4,2]\ndata 1,0; 1.1,0; 0,1; 5,5\nread P\niRow = 1\ndrun\nDYNAMIC\n"
-        "iRow = t\nVector x = P#\nCLEARN v = W(x) 0.5, 0.3\ntype v[1], v[2]",
-        backend=backend,
+    """The fourth input is near none of two templates: the sample stays, the run ends there with error 232."""
+    session = Session(backend=backend)
+    text = (
+        "NN = 6 | ARRAY W[2,2], v[2], x[2], P[6,2]\ndata 1,0; 1.1,0; 0,1; 5,5; 1,0; 1,0\nread P\niRow = 1\ndrun\n"
+        "DYNAMIC\niRow = t\nVector x = P#\nCLEARN v = W(x) 0.5, 0.3\ntype v[1], v[2]"
     )
+    with pytest.raises(DesireError) as caught:
+        session.erun(Source(text, "t"))
+    assert [d.code for d in caught.value.diagnostics] == [232]
+    assert text[slice(*caught.value.diagnostics[0].span)] == "CLEARN v = W(x) 0.5, 0.3"
     record = session.runs[0]
     shown = np.array([record.values("v[1]"), record.values("v[2]")]).T
     assert shown.tolist() == [[1, 0], [1, 0], [0, 1], [0, 0]]
     assert array(session, "W") == pytest.approx(np.array([[1.05, 0], [0, 1]]))
+    session.execute("for i = 1 to 6 | P[i,1] = 1 | P[i,2] = 0 | next")
+    session.execute("t = 1 | drun")
+    assert len(session.runs[1].values("v[1]")) == 6, "the next run begins anew"
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import reduce
+from math import exp
 from random import Random
 from time import process_time
 
@@ -174,10 +175,13 @@ term 0{plus}-501
 def test_rules_that_differentiate_take_long_sums(tmp_path) -> None:
     """x' = -(x + x + …)/800 has the solution exp(-t)."""
     text = (
-        "x = 1 | TMAX = 1 | NN = 11 | ERMAX = 1e-9 | irule 14\ndrun\n--? x = 0.367879441171 +- 1e-7\n"
+        "x = 1 | TMAX = 1 | NN = 11 | ERMAX = 1e-9 | irule 14\ndrun\n"
         f"DYNAMIC\nd/dt x = -(x{'+x' * 799})/800\n"
     )
-    assert not faults_of_program(text, tmp_path)
+    for backend in BACKENDS:
+        outcome = execute(text, backend, tmp_path)
+        assert outcome.error is None
+        assert outcome.quantities["x"] == pytest.approx(exp(-1), abs=1e-7)
 
 
 def test_true_nesting_is_told(tmp_path) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetVec, Vec
+from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetVec, Terminate, Vec
 
 if TYPE_CHECKING:
     from desire_tui.engine.analysis.context import Context
@@ -55,6 +55,7 @@ class Builder:
     once_only: dict[str, Span] = field(default_factory=dict)
     derivative_paths: dict[tuple[int, int], list[Path]] = field(default_factory=dict)
     names: dict[int, str] = field(default_factory=dict)
+    exhausted: list[Terminate] = field(default_factory=list)
     _derivative_arrays: dict[tuple[int, int], list[tuple[int, int, Path, str]]] = field(default_factory=dict)
     _held: dict[tuple[int, int], tuple[int, Where]] = field(default_factory=dict)
 
@@ -62,6 +63,10 @@ class Builder:
         """Return the number of a new history position."""
         self.counters += 1
         return self.counters - 1
+
+    def watch(self, slot: int, where: Where) -> None:
+        """End the run with error 232 when this number is 1."""
+        self.exhausted.append(Terminate(Load(slot), 0, where))
 
     # ------------------------------------------------------------------------------------------ guards
 
@@ -101,9 +106,15 @@ class Builder:
         return True
 
     def finish(self) -> tuple[Action, ...]:
-        """Close what is open and return the body; derivatives held under guards come last."""
+        """Close what is open and return the body; derivatives held under guards come last.
+
+        Whether a CLEARN has run out of templates is tested at every step, like a `term`.
+        """
         while self.guards:
             self._close()
+        for number, watched in enumerate(self.exhausted, self.terms):
+            watched.number = number  # type: ignore[misc]  # frozen for the type checker only
+        self.body += self.exhausted
         for (slot, count), (held, where) in self._held.items():
             number = self.states.number(slot)
             if number is not None:

@@ -8,7 +8,7 @@ from desire_tui.engine.analysis.expressions import lower
 from desire_tui.engine.analysis.products import array, nonconformable
 from desire_tui.engine.analysis.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.analysis.targets import mark_array
-from desire_tui.engine.lowered import Learn
+from desire_tui.engine.lowered import Const, Learn
 from desire_tui.engine.nodes import Name
 
 if TYPE_CHECKING:
@@ -38,13 +38,16 @@ def learn(builder: Builder, node: nodes.Learn) -> None:
             return
     rows = weights.shape[0]
     counts = context.scope.hidden(rows) if node.conscience and rows != UNKNOWN else None
+    full = context.scope.hidden(1) if criterion is not None and criterion != Const(0.0) else None
+    if full is not None:
+        builder.watch(full, context.where(node))
     for quantity in (given, weights, out):
         if UNKNOWN not in quantity.shape and quantity is not out:
             context.flow.read_range(quantity.slot, size_of(quantity))
     builder.body.append(
         Learn(
             node.kind, out.slot, out.shape[0], weights.slot, given.slot, given.shape[0],
-            rate, criterion, counts, context.where(node),
+            rate, criterion, counts, context.where(node), full,
         )
     )  # fmt: skip
     mark_array(context, out.slot, out.shape[0])

@@ -29,7 +29,9 @@ def write_learning(statements: Statements, action: Learn) -> None:
         wins = "null" if action.count_slot is None else statements.at(action.count_slot)
         text.needs.add(_compete())
         arrays = f"ptr {out}, ptr {weights}, ptr {x}"
-        text.do(f"call void @compete({arrays}, {sizes}, double {criterion}, ptr {wins})")
+        found = text.op(f"call double @compete({arrays}, {sizes}, double {criterion}, ptr {wins})")
+        if action.full_slot is not None:
+            text.do(f"store double {found}, ptr {statements.at(action.full_slot)}")
         return
     text.needs.add(products.matrix_times_vector())
     text.do(f"call void @matvec(ptr {weights}, ptr {x}, ptr {out}, i64 {rows}, i64 {cols})")
@@ -86,7 +88,10 @@ def _sanger() -> str:
 
 @functools.cache
 def _compete() -> str:
-    """Return the winner-takes-all step; a row of zeros is free, and `wins` may be null."""
+    """Return the winner-takes-all step; a row of zeros is free, and `wins` may be null.
+
+    The function returns 1 where no row is near enough and none is free, else 0.
+    """
     text = Text()
     e = Lanes(text)
     best, best_raw = text.alloca("double"), text.alloca("double")
@@ -139,7 +144,9 @@ def _compete() -> str:
     text.branch(far, "far", "move")
     text.begin("far")
     free = text.op(f"load i64, ptr {free_row}")
-    text.branch(text.op(f"icmp slt i64 {free}, 0"), "over", "take")
+    text.branch(text.op(f"icmp slt i64 {free}, 0"), "full", "take")
+    text.begin("full")
+    text.do(f"ret double {e.const(1.0)}")
     text.begin("take")
     text.do(f"store i64 {free}, ptr {winner}")
     taken = _row(text, free)
@@ -162,6 +169,6 @@ def _compete() -> str:
     put(e, "%wins", won, e.add(fetch(e, "%wins", won), e.const(1.0)))
     text.jump("over")
     text.begin("over")
-    text.do("ret void")
+    text.do(f"ret double {e.const(0.0)}")
     parameters = "ptr %out, ptr %w, ptr %x, i64 %rows, i64 %cols, double %rate, double %criterion, ptr %wins"
-    return f"define internal void @compete({parameters}) #0 {{\n{text.body()}\n}}"
+    return f"define internal double @compete({parameters}) #0 {{\n{text.body()}\n}}"

@@ -3,12 +3,16 @@
 LAPACK inverts a large matrix in one call that nothing can break off. It lets other threads run meanwhile, so
 it gets a thread of its own, and the interpreter waits for that, looking around (`check`) twenty times a
 second. What is broken off goes on unseen until LAPACK is done, and its result is dropped; the next long
-operation waits for that, so that there is never more than one. (An elimination in blocks with looks between
-them really ends, but takes two to five times as long.)
+operation waits for that, so that there is never more than one. A process that ends meanwhile must not wait
+for LAPACK, nor run the clearing up of Python and BLAS beside it (that may hang): it is left at once. (An
+elimination in blocks with looks between them really ends, but takes two to five times as long.)
 """
 
 from __future__ import annotations
 
+import os
+import sys
+from contextlib import suppress
 from threading import Lock, Thread
 from typing import TYPE_CHECKING, TypeVar
 
@@ -24,6 +28,15 @@ LONG_WORK = 50_000_000
 LOOK_SECONDS = 0.05
 
 _one = Lock()
+
+
+def leave_at_once(status: int) -> None:
+    """End the process here and now if a broken-off operation still goes on; else do nothing."""
+    if _one.locked():
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(OSError, ValueError):
+                stream.flush()
+        os._exit(status)
 
 
 def patiently(work: int, operation: Callable[[], Result], check: Callable[[], None]) -> Result:

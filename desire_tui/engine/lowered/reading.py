@@ -161,7 +161,9 @@ def writes(action: Action) -> tuple[Piece, ...]:
                 (action.weights_slot, action.out_count * action.in_count),
                 (action.out_slot, action.out_count),
             )
-            return own if action.count_slot is None else (*own, (action.count_slot, action.out_count))
+            counts = () if action.count_slot is None else ((action.count_slot, action.out_count),)
+            full = () if action.full_slot is None else ((action.full_slot, 1),)
+            return (*own, *counts, *full)
     return ()
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from desire_tui.engine.nodes.record import node
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered.statements import Action, Where
+    from desire_tui.engine.lowered.statements import Action, Terminate, Where
     from desire_tui.engine.lowered.values import Value
     from desire_tui.engine.source import Source
 
@@ -77,7 +77,7 @@ class Segment:
     """Everything a back end needs. `requests` holds at most one display request and one `type`.
 
     `scalars` lists the slots of scalars that the segment sets; `counters` says how many history positions
-    it has.
+    it has. `exhausted` lists the tests among `body` that end the run where a CLEARN has no template left.
     """
 
     label: str | None
@@ -91,6 +91,7 @@ class Segment:
     jacobian: Jacobian | None = None
     counters: int = 0
     scalars: tuple[int, ...] = ()
+    exhausted: tuple[Terminate, ...] = ()
     names: dict[int, str] = field(default_factory=dict)
 
     @property

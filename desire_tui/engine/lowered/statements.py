@@ -167,7 +167,10 @@ class Terminate:
 
 @node
 class Learn:
-    """CLEARN, PLEARN, INTP (docs/neural.md): vectors and matrices by slot."""
+    """CLEARN, PLEARN, INTP (docs/neural.md): vectors and matrices by slot.
+
+    `full_slot` ← 1 where CLEARN finds no template for its input (error 232), else 0.
+    """
 
     kind: Literal["CLEARN", "PLEARN", "INTP"]
     out_slot: int
@@ -179,6 +182,7 @@ class Learn:
     criterion: Value | None
     count_slot: int | None
     where: Where
+    full_slot: int | None = None
 
 
 @node

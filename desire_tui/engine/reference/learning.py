@@ -27,16 +27,18 @@ def learn(action: Learn, data: Array, rate: float, criterion: float | None) -> N
     else:
         slot = action.count_slot
         wins = None if slot is None else data[slot : slot + rows]
-        _compete(out, weights, x, rate, 0.0 if criterion is None else criterion, wins)
+        found = _compete(out, weights, x, rate, 0.0 if criterion is None else criterion, wins)
+        if action.full_slot is not None:
+            data[action.full_slot] = 0.0 if found else 1.0
 
 
-def _compete(out: Array, weights: Array, x: Array, rate: float, criterion: float, wins: Array | None) -> None:
+def _compete(out: Array, weights: Array, x: Array, rate: float, criterion: float, wins: Array | None) -> bool:
     """Winner takes all: the nearest row wins and moves towards x (Kohonen).
 
     `wins` counts each row's victories: distances are weighted by 1 + wins (frequency-sensitive learning,
     Ahalt et al. 1990). With `criterion` > 0 a winner further away than that gives way to the first free row,
     which becomes x (as in Carpenter and Grossberg's ART); a row of zeros is free. No free row: v is 0
-    everywhere.
+    everywhere, and the result is False.
     """
     distances = ((x - weights) ** 2).sum(axis=1)
     free = ~weights.any(axis=1)
@@ -47,7 +49,7 @@ def _compete(out: Array, weights: Array, x: Array, rate: float, criterion: float
     winner = int(np.argmin(weighted))
     if criterion > 0.0 and not distances[winner] <= criterion * criterion:
         if not free.any():
-            return
+            return False
         winner = int(np.argmax(free))
         weights[winner] = x
     else:
@@ -55,6 +57,7 @@ def _compete(out: Array, weights: Array, x: Array, rate: float, criterion: float
     out[winner] = 1.0
     if wins is not None:
         wins[winner] += 1.0
+    return True
 
 
 def _sanger(out: Array, weights: Array, x: Array, rate: float) -> None:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.runtime.memory import Ended
+from desire_tui.engine.runtime.plan import DUMMY
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
@@ -64,6 +65,21 @@ def fault(ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values:
         name, value = column.name, cells[column.slot]
         where = _defining(segment, column.slot) or column.where
     return _placed("not-finite", {"name": name, "what": _what(value), "t": t}, segment, where)
+
+
+def exhausted(
+    ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values: Values
+) -> DesireError | None:
+    """Return error 232 for a run that ended because a CLEARN had no template left, else None."""
+    if ended is not Ended.TERM:
+        return None
+    for watched in segment.exhausted:
+        if watched.number == memory.which:
+            assert isinstance(watched.value, Load)
+            values.cells[watched.value.slot] = 0.0  # the next run begins without it
+            t = values.cells[T] - (plan.comint if plan.rule == DUMMY else 0.0)  # rule 0 has moved t on
+            return _placed("no-template-left", {"t": t}, segment, watched.where)
+    return None
 
 
 def state_name(segment: Segment, number: int) -> tuple[str, Where | None]:

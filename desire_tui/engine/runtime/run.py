@@ -9,7 +9,7 @@ import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.runtime.delays import Delays
-from desire_tui.engine.runtime.faults import fault
+from desire_tui.engine.runtime.faults import exhausted, fault
 from desire_tui.engine.runtime.history import History
 from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
 from desire_tui.engine.runtime.plan import DUMMY, Defaults
@@ -93,11 +93,12 @@ class Simulator:
             self._settle(segment, plan, memory, positions, record)
             record.seconds = perf_counter() - began
             self._began = 0.0
-        if ended in _WORDS:
+        full = exhausted(ended, segment, plan, memory, self._values)
+        if ended in _WORDS and full is None:
             record.ended = _WORDS[ended]
             return ended is not Ended.STOPPED
         record.ended = "failed"
-        error = fault(ended, segment, plan, memory, self._values)
+        error = full or fault(ended, segment, plan, memory, self._values)
         record.message = error.diagnostics[0].message
         raise error
 

@@ -68,6 +68,11 @@ MESSAGES: dict[str, Wording] = {
         "the samples before are kept; a smaller DT or another rule may help",
         _FAULT_PAGE,
     ),
+    "no-template-left": Wording(
+        232,
+        "no template is left at t = {t:.6g}: the input is near none, and no row is free",
+        "give the matrix more rows of zeros, or use a larger criterion",
+    ),
     "stopped-by-user": Wording(301, "stopped by the user"),
     "delay-too-long": Wording(
         105,
