@@ -74,5 +74,5 @@ MESSAGES: dict[str, Wording] = {
         "the program wants to {mode} {path}, outside its folder {folder}, which is not allowed",
         "if you trust it: desire run --allow-write (for reading, too)",
     ),
-    "time-limit": Wording(490, "stopped after {seconds:g} seconds, the limit given"),
+    "time-limit": Wording(490, "stopped after {seconds:g} second(s), the limit given"),
 }
