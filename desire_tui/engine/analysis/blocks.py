@@ -190,7 +190,11 @@ class Survey:
 
     def _new_name(self, place: int, placed: n.Placed, name: str) -> None:
         node = placed.node
-        dummies = [*node.values, *node.references] if isinstance(node, n.Procedure) else list(node.dummies)  # type: ignore[attr-defined]
+        if isinstance(node, n.Procedure):
+            dummies = [*node.values, *node.references]
+        else:
+            assert isinstance(node, n.Function | n.Submodel)
+            dummies = list(node.dummies)
         twice = next((d for d in dummies if dummies.count(d) > 1), None)
         if twice is not None:
             self.report("dummy-twice", placed, name=twice)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.analysis.intervals import Intervals
 from desire_tui.engine.analysis.scope import SYSTEM_SLOTS
-from desire_tui.engine.lowered import Load, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered import Guard, Load, Set, SetDot, SetMat, SetVec
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Action
@@ -92,8 +92,7 @@ def walk(actions: tuple[Action, ...] | list[Action]) -> list[Action]:
     found: list[Action] = []
     for action in actions:
         found.append(action)
-        body = getattr(action, "body", None)
-        if body is not None:
-            found.extend(walk(body))
-            found.extend(walk(action.orelse))  # type: ignore[union-attr]
+        if isinstance(action, Guard):
+            found.extend(walk(action.body))
+            found.extend(walk(action.orelse))
     return found

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.source import Source
 
 _BLOCK_WORDS = frozenset(
-    "if else proceed for next while repeat until end PROCEDURE SUBMODEL".split()  # noqa: SIM905
+    "if else proceed for next while repeat until end PROCEDURE SUBMODEL".split()  # noqa: SIM905 - a list of words reads better than a wall of quotes
 ) | {"end if", "end while"}
 
 

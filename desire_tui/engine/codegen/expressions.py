@@ -29,7 +29,7 @@ class Expressions:
         """Write what computes `node`, left to right; return its name."""
         kind = type(node)
         if kind is Const:
-            return self.lanes.const(node.value)  # type: ignore[union-attr]
+            return self.lanes.const(node.value)  # type: ignore[union-attr]  # mypy does not follow `kind`
         known = self._known.get(id(node))
         if known is None:
             known = self._known[id(node)] = self._write(node)

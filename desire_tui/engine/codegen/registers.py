@@ -90,7 +90,7 @@ class RegisterStorage:
         """States ← saved states + dt·Σ row·k."""
         factor = scaled(self.lanes, row, dt)
         for number, slot in enumerate(self.states):
-            total = weighted(self.lanes, row, lambda stage, n=number: self._k(stage, n))  # type: ignore[misc]
+            total = weighted(self.lanes, row, lambda stage, n=number: self._k(stage, n))  # type: ignore[misc]  # n=: bound now
             self.cells.store(slot, self.lanes.add(self._x0(number), self.lanes.mul(factor, total)))
 
     def restore(self) -> None:
@@ -106,7 +106,7 @@ class RegisterStorage:
         relative = text.op(f"icmp eq i64 {checked}, 0")
         most, where = lanes.const(0.0), "0"
         for number in range(len(self.states)):
-            total = weighted(lanes, row, lambda stage, n=number: self._k(stage, n))  # type: ignore[misc]
+            total = weighted(lanes, row, lambda stage, n=number: self._k(stage, n))  # type: ignore[misc]  # n=: bound now
             absolute = lanes.mul(factor, lanes.intrinsic("fabs", total))
             size = lanes.add(lanes.intrinsic("fabs", self._x0(number)), lanes.const(1.0))
             mine = text.op(f"icmp eq i64 {checked}, {number + 1}")

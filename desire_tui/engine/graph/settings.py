@@ -32,9 +32,9 @@ class DisplaySettings:
         """Carry out `display 0/1/2`, `Q R Y`, `N n`, `C n`. Other letters set nothing here."""
         match mode:
             case "0" | "1" | "2":
-                self.mode = int(mode)  # type: ignore[assignment]
+                self.mode = int(mode)  # type: ignore[assignment]  # 0, 1 or 2: matched above
             case "Q" | "R" | "Y":
-                self.thickness = {"Q": 1, "R": 2, "Y": 3}[mode]  # type: ignore[assignment]
+                self.thickness = {"Q": 1, "R": 2, "Y": 3}[mode]  # type: ignore[assignment]  # as above
             case "N" if args:
                 self.first = int(args[0])
                 self.white = self.first < 0 or (self.white and self.net == 17)

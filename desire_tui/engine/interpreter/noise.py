@@ -20,7 +20,7 @@ class Noise:
     """Draws from `state[0]`, the 48-bit state that `Values.random` holds."""
 
     def __init__(self, state: NDArray[np.uint64]) -> None:
-        self.uniform, self.normal = _drawers(memoryview(state))  # type: ignore[arg-type]
+        self.uniform, self.normal = _drawers(memoryview(state))  # type: ignore[arg-type]  # integers, as numpy does not say
 
 
 def _drawers(state: memoryview[int]) -> tuple[Callable[[], float], Callable[[], float]]:

@@ -187,9 +187,11 @@ class Learn:
 
 @node
 class Guard:
-    """Statements that run only: `step` where STEP, `out` where COMM, `sample` at every m-th communication
-    point (`every` ≥ 1), `if` while `condition` > 0 (else `orelse`).
-    """  # noqa: D205
+    """Statements that run only at some passes.
+
+    `step` where STEP, `out` where COMM, `sample` at every m-th communication point (`every` ≥ 1), `if` while
+    `condition` > 0 (else `orelse`).
+    """
 
     kind: Literal["step", "out", "sample", "if"]
     body: tuple[Action, ...]

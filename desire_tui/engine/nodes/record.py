@@ -48,7 +48,7 @@ def _first_init(self: Any, *args: object, **kwargs: object) -> None:
 
 def _equal(self: Any, other: Any) -> bool:
     if type(self) is not type(other):
-        return NotImplemented  # type: ignore[no-any-return]
+        return NotImplemented  # type: ignore[no-any-return]  # the protocol of ==, no bool
     return all(getattr(self, name) == getattr(other, name) for name in self.__slots__ if name not in _PLACE)
 
 

@@ -118,7 +118,7 @@ def scalar_function(name: str) -> Callable[..., float]:
 
     def checked(*args: float) -> float:
         try:
-            return plain(*args)  # type: ignore[return-value]
+            return plain(*args)  # type: ignore[return-value]  # complex is for scripts only
         except (ArithmeticError, ValueError):
             with np.errstate(all="ignore"):
                 return float(array(*(np.float64(a) for a in args)))

@@ -136,7 +136,7 @@ class _Expression:
         if isinstance(value, Table1):
             table = self.text.statements.cells[value.slot : value.slot + 2 * value.count]
             x = self._written(value.x, depth + 1)[0]
-            return f"func1({x}, {self.text._name('a', table)})", _ATOM  # noqa: SLF001
+            return f"func1({x}, {self.text._name('a', table)})", _ATOM  # noqa: SLF001 - as above
         if not isinstance(value, Op) or value.name in {"ran", "gauss"}:
             raise CannotWriteError
         name = value.name

@@ -36,7 +36,7 @@ STAND_ALONE = frozenset(
     """
     exit STOP go reset clear time trace next repeat end write drun drunr irule restore dump note erun run
     bye new NEW reload list ed edit
-    """.split()  # noqa: SIM905
+    """.split()  # noqa: SIM905 - as above
 ) | {"list+", "end while"}
 """Words that can be a whole statement: behind a `then`, `else` and `proceed` may follow them directly."""
 
