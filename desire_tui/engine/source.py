@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from pathlib import Path
 
+_LONE_RETURN = re.compile(r"\r(?!\n)")
+
 
 class Span(NamedTuple):
     """The characters `start` … `end - 1` of a source text."""
@@ -31,11 +33,19 @@ class Position(NamedTuple):
 
 @dataclass(frozen=True)
 class Source:
-    """A text with the name it is shown under (a path, `<command>`, `<untitled>`)."""
+    """A text with the name it is shown under (a path, `<command>`, `<untitled>`).
+
+    A carriage return alone ends a line, as on old Macintoshes; it becomes a line feed.
+    """
 
     text: str
     name: str = "<text>"
     path: Path | None = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        """Give all lines ends that are looked for elsewhere; no offset changes."""
+        if "\r" in self.text:
+            object.__setattr__(self, "text", _LONE_RETURN.sub("\n", self.text))
 
     @cached_property
     def line_starts(self) -> list[int]:

@@ -128,6 +128,15 @@ def _for(s: _Stuck) -> str:
     return ""
 
 
+def _matrix_function(s: _Stuck) -> str:
+    """`$Foo(x)`, `$In A`: only `$In(A)` and `$Tr(A)` begin like this in an expression."""
+    if s.kind != "$" or not s.wants_operand or s.chunk.kinds[s.at + 1 : s.at + 2] != [NAME]:
+        return ""
+    s.facts["matrix"] = shown(s.texts[s.at + 1])
+    s.place(s.at, s.at + 1)
+    return "matrix-function"
+
+
 def _first_words(s: _Stuck) -> str:
     """Statements that do not begin as any does."""
     if s.texts[:3] == ["d", "/", "dt"] or (
@@ -185,7 +194,7 @@ def _expressions(s: _Stuck) -> str:
 
 
 _RULES: tuple[Callable[[_Stuck], str], ...] = (
-    _relation_spelling, _brackets, _own_form, _first_words, _assignments, _expressions,
+    _relation_spelling, _brackets, _matrix_function, _own_form, _first_words, _assignments, _expressions,
 )  # fmt: skip
 
 

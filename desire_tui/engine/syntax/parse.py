@@ -56,7 +56,13 @@ def parse(source: Source) -> Program:
             segments.append(SegmentText(opened[0], tuple(first), tuple(jacobian), opened[1]))
 
     main: list[Placed] | None = None
+    alone: list[Span] = []
+    is_numbered = False
     for entry, at, number in _logical_lines(source.text):
+        if number is not None:
+            is_numbered = is_numbered or bool(entry[0])
+            if not entry[0] and body is not None:
+                alone.append(_number_before(source.text, at))
         for item, offset in entry[0]:
             if isinstance(item, Fault):
                 if body is not None:
@@ -85,6 +91,9 @@ def parse(source: Source) -> Program:
             else:
                 body.append(placed)
     close()
+    if alone and not is_numbered:
+        problems += [Diagnostic("expression-alone", span, {}, source) for span in alone]
+        problems.sort(key=lambda problem: problem.span or (0, 0))
     return Program(source, tuple(script), tuple(segments), tuple(problems))
 
 
@@ -106,6 +115,14 @@ def forget_lines() -> None:
     global _kept  # noqa: PLW0603 - as in _parse_line
     _lines.clear()
     _kept = 0
+
+
+def _number_before(text: str, end: int) -> Span:
+    """Place of a number that makes up a line: an empty one where others are numbered too, else a mistake."""
+    start = end
+    while start > 0 and text[start - 1].isdigit():
+        start -= 1
+    return Span(start, end)
 
 
 def _swallowed(line: str, whole: Entry, parts: list[str]) -> bool:
@@ -180,7 +197,7 @@ def _logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry,
                 next_at = at + len(line) + 1
             else:
                 entry = whole
-        if entry[0]:
+        if entry[0] or number is not None:
             yield entry, at, number
         at = next_at
 

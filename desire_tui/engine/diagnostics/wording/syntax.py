@@ -65,6 +65,9 @@ _SENTENCES: dict[str, Wording] = {
         61, "FFT is not written like this", "write: FFT F, n, x, y (or I, C; R with x, y, u, v)"
     ),
     "only-comment": Wording(62, "only a comment may follow '{first}'", "separate statements by |"),
+    "matrix-function": Wording(
+        200, "there is no function '${matrix}' of this form", "$In(A) inverts a matrix, $Tr(A) transposes it"
+    ),
     "go-where": Wording(62, "only a comment may follow 'go'", "a jump is written: go to {text}"),
     "label-expected": Wording(79, "a label is missing behind '{word}'", "write: {word} name"),
     "show-form": Wording(112, "SHOW is not written like this", "write: SHOW A, or: SHOW A, columns"),
