@@ -20,6 +20,19 @@ points, states first, then columns; the row is not written. The test difference 
 to |x| + 1 at the step's start; a difference that is nan counts as small, and the states' nan ends the run.
 """
 
+from desire_tui.engine.lowered.expressions import (
+    Const,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    Shifted,
+    Table1,
+    Table2,
+    Value,
+    Vec,
+)
 from desire_tui.engine.lowered.segment import Column, Entry, Jacobian, Picture, Request, Segment, StateRange
 from desire_tui.engine.lowered.statements import (
     Action,
@@ -38,19 +51,6 @@ from desire_tui.engine.lowered.statements import (
     Terminate,
     TrackHold,
     Where,
-)
-from desire_tui.engine.lowered.values import (
-    Const,
-    Load,
-    MatVec,
-    Op,
-    Outer,
-    RowOf,
-    Shifted,
-    Table1,
-    Table2,
-    Value,
-    Vec,
 )
 
 __all__ = [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.lowered.expressions import Load, MatVec, Op, Outer, RowOf, Shifted, Table1, Table2, Vec
 from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
@@ -19,14 +20,13 @@ from desire_tui.engine.lowered.statements import (
     Terminate,
     TrackHold,
 )
-from desire_tui.engine.lowered.values import Load, MatVec, Op, Outer, RowOf, Shifted, Table1, Table2, Vec
 from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action
-    from desire_tui.engine.lowered.values import Value
 
 Piece = tuple[int, int]
 """A stretch of memory: its first slot, its length."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 from desire_tui.engine.nodes.record import node
 
 if TYPE_CHECKING:
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action, Terminate, Where
-    from desire_tui.engine.lowered.values import Value
     from desire_tui.engine.source import Source
 
 

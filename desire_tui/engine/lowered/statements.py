@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from desire_tui.engine.nodes.record import node
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered.values import MatVec, Value, Vec
+    from desire_tui.engine.lowered.expressions import MatVec, Value, Vec
     from desire_tui.engine.source import Span
 
 
