@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from time import monotonic
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from textual.await_complete import AwaitComplete
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.screen import ModalScreen
@@ -15,6 +17,12 @@ if TYPE_CHECKING:
     from textual import events
     from textual.app import ComposeResult
 
+Answer = TypeVar("Answer")
+GRACE_SECONDS = 0.8
+"""A question that comes up by itself takes no answer for so long.
+
+What is then typed was meant for something else.
+"""
 _CSS = """
     align: center middle;
     background: $background 60%;
@@ -25,10 +33,23 @@ _BOX = """
 """
 
 
-class Choice(ModalScreen[str | None]):
+class Question(ModalScreen[Answer]):
+    """Anything that is answered once: keys typed before it is gone are not a second answer."""
+
+    answered = False
+
+    def dismiss(self, result: Answer | None = None) -> AwaitComplete:
+        """Answer, the first time."""
+        if self.answered:
+            return AwaitComplete()
+        self.answered = True
+        return super().dismiss(result)
+
+
+class Choice(Question["str | None"]):
     """A sentence and buttons; each answers to its first letter, too.
 
-    Dismissed with the button's word, Esc: None.
+    Dismissed with the button's word, Esc: None. `unasked`: it comes up while the user does something else.
     """
 
     DEFAULT_CSS = f"""
@@ -41,14 +62,15 @@ class Choice(ModalScreen[str | None]):
                           text-style: bold !important; }}
     """
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("escape", "dismiss(None)", "Cancel"),
+        Binding("escape", "cancel", "Cancel"),
         Binding("left", "app.focus_previous", show=False),
         Binding("right", "app.focus_next", show=False),
     ]
 
-    def __init__(self, title: str, sentence: str, choices: Sequence[str]) -> None:
+    def __init__(self, title: str, sentence: str, choices: Sequence[str], *, unasked: bool = False) -> None:
         super().__init__()
         self._title, self._sentence, self._choices = title, sentence, choices
+        self._since = monotonic() if unasked else float("-inf")
 
     def compose(self) -> ComposeResult:
         """Put the sentence above its answers."""
@@ -60,20 +82,28 @@ class Choice(ModalScreen[str | None]):
                 for number, choice in enumerate(self._choices):
                     yield Button(choice, id=f"choice-{number}", compact=True)
 
+    def _answer(self, choice: str | None) -> None:
+        if monotonic() - self._since >= GRACE_SECONDS:
+            self.dismiss(choice)
+
+    def action_cancel(self) -> None:
+        """Answer no."""
+        self._answer(None)
+
     def on_button_pressed(self, event: Button.Pressed) -> None:
         """Answer."""
-        self.dismiss(self._choices[int((event.button.id or "-0").rpartition("-")[2])])
+        self._answer(self._choices[int((event.button.id or "-0").rpartition("-")[2])])
 
     def on_key(self, event: events.Key) -> None:
         """Answer by first letter."""
         for choice in self._choices:
             if event.character and choice[0].lower() == event.character.lower():
                 event.stop()
-                self.dismiss(choice)
+                self._answer(choice)
                 return
 
 
-class Line(ModalScreen[str]):
+class Line(Question[str]):
     """Asks for a line of text; Esc gives an empty one."""
 
     DEFAULT_CSS = f"""

@@ -61,7 +61,7 @@ class EngineNews(Controller):
             message.answer.give(choice == "Allow")
 
         sentence = f"The program wants to {message.request.sentence}."
-        self.app.push_screen(Choice("Permission", sentence, ("Allow", "Refuse")), answered)
+        self.app.push_screen(Choice("Permission", sentence, ("Allow", "Refuse"), unasked=True), answered)
 
     @handle.register
     def _accepted(self, message: messages.ProgramAccepted) -> None:

@@ -66,7 +66,10 @@ async def _offer_recovery(app: DesireApp) -> None:
         names = ", ".join(tab.label for tab in leftover.tabs)
         choice = await app.push_screen_wait(
             Choice(
-                "Unsaved work found", f"Desire ended without saving {names}.", ("Restore", "Later", "Discard")
+                "Unsaved work found",
+                f"Desire ended without saving {names}.",
+                ("Restore", "Later", "Discard"),
+                unasked=True,
             )
         )
         if choice == "Restore":

@@ -55,9 +55,10 @@ class FileActions(Controller):
 
     async def open(self, argument: str = "") -> None:
         """Open a file, asking which if none is named."""
+        from_prompt = self.app.command.prompt.has_focus
         path = self._resolve(argument) if argument else await self._pick()
         if path is not None:
-            await self.open_path(path)
+            await self.open_path(path, focus=not from_prompt)
 
     async def _pick(self) -> Path | None:
         from textual_fspicker import FileOpen

@@ -9,10 +9,10 @@ from textual import on
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.message import Message
-from textual.screen import ModalScreen
 from textual.widgets import Input, OptionList, Static
 from textual.widgets.option_list import Option
 
+from desire_tui.dialogs import Question
 from desire_tui.help.examples import Example, examples, search
 from desire_tui.panes.thumbnail import Thumbnail
 from desire_tui.places import examples_folder
@@ -37,7 +37,7 @@ class Chosen(NamedTuple):
     run: bool
 
 
-class ExamplesScreen(ModalScreen[Chosen | None]):
+class ExamplesScreen(Question["Chosen | None"]):
     """Dismissed with the program chosen, or None."""
 
     DEFAULT_CSS = """

@@ -16,11 +16,11 @@ from textual import on
 from textual.binding import Binding, BindingType
 from textual.containers import Container
 from textual.message import Message
-from textual.screen import ModalScreen
 from textual.strip import Strip
 from textual.widget import Widget
 from textual.widgets import Label
 
+from desire_tui.dialogs import Question
 from desire_tui.terminal import Graphics, graphics
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ class Blocks(Widget):
         )
 
 
-class PictureScreen(ModalScreen[bool]):
+class PictureScreen(Question[bool]):
     """Shows the graph pane's page. Dismissed with whether it is to be saved."""
 
     DEFAULT_CSS = """

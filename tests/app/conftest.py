@@ -38,6 +38,7 @@ def own_places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("TMUX", "NO_COLOR", "VISUAL", "EDITOR"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("desire_tui.dialogs.GRACE_SECONDS", 0.0)
 
 
 async def until(pilot: Pilot[None], condition: Callable[[], object], *, tries: int = 1500) -> None:

@@ -240,3 +240,15 @@ async def test_keys_of_the_status_row_can_be_clicked(program):
         text = row.render_line(0).text
         await desk.pilot.click(StatusBar, offset=(text.index("F1") + 4, 0))
         assert desk.app.desk.side == "help"
+
+
+async def test_after_load_the_keys_stay_in_the_command_line(program):
+    """`load 'f'` and then `zz`: the second word must not land in the program."""
+    program("write 6*7\n", "second.src")
+    async with desktop(program(OSCILLATOR)) as desk:
+        await desk.line("load 'second.src'")
+        await desk.until(lambda: desk.app.editor.front.buffer.name == "second.src")
+        await desk.press("z", "z", "enter")
+        await desk.idle()
+        assert desk.output.rstrip().endswith("42")
+        assert not desk.app.editor.front.is_dirty
