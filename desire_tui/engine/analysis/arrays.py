@@ -15,15 +15,16 @@ from desire_tui.engine.nodes import Binary, Name, Number, Unary
 if TYPE_CHECKING:
     from desire_tui.engine import nodes
     from desire_tui.engine.analysis.builder import Builder
+    from desire_tui.engine.analysis.context import Context
     from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.values import Quantity
 
 
 def vector_assign(builder: Builder, node: nodes.VectorAssign) -> None:
     """`Vector y = v`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
     context = builder.context
-    quantity = vector(context, node, node.name)
+    quantity = _target(context, node)
     if quantity is None:
-        lower(context, node.value, (UNKNOWN,))
         return
     count = quantity.shape[0]
     mask = _mask(builder, node, node.mask, (count,))
@@ -42,9 +43,8 @@ def vector_assign(builder: Builder, node: nodes.VectorAssign) -> None:
 def vector_derivative(builder: Builder, node: nodes.VectorDerivative) -> None:
     """`Vectr d/dt x = v`. Error 101 for a second one."""
     context = builder.context
-    quantity = vector(context, node, node.name)
+    quantity = _target(context, node)
     if quantity is None:
-        lower(context, node.value, (UNKNOWN,))
         return
     count = quantity.shape[0]
     value = lower(context, node.value, (count,))
@@ -54,6 +54,14 @@ def vector_derivative(builder: Builder, node: nodes.VectorDerivative) -> None:
         elif other := builder.overlaid(quantity.slot, count, quantity):
             context.report("state-twice-overlaid", node, name=quantity.name, other=other)
     builder.derivative(quantity.slot, count, value, context.where(node), array=True)
+
+
+def _target(context: Context, node: nodes.VectorAssign | nodes.VectorDerivative) -> Quantity | None:
+    """Return the vector that a statement assigns; None: there is none, but its right side has been checked."""
+    quantity = vector(context, node, node.name)
+    if quantity is None:
+        lower(context, node.value, (UNKNOWN,))
+    return quantity
 
 
 def matrix_assign(builder: Builder, node: nodes.MatrixAssign) -> None:

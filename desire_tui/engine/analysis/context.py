@@ -183,11 +183,6 @@ class Context:
             self.report("used-before-set", node, name=name, line=line)
         return BAD
 
-    def is_known_scalar(self, name: str) -> bool:
-        """Whether a name of the text is a number, not an array."""
-        found = self.quantity(name)
-        return found is not None and not found.shape
-
     def known_function(self, name: str) -> bool:
         """Whether `name` can be called in a segment."""
         return name in self.functions or (name in LIBRARY and "D" in LIBRARY[name].where)

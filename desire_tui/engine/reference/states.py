@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+Range = tuple[int, int, int]
+"""Consecutive states: the slot of the first, its number, how many."""
 FEW = 24
+"""States up to which sums written out are faster than NumPy's."""
 
 
 class States(Protocol):
@@ -51,12 +54,7 @@ class Many:
     """States as NumPy arrays."""
 
     def __init__(
-        self,
-        ranges: list[tuple[int, int, int]],
-        order: int,
-        rows: Sequence[Row],
-        values: Values,
-        first: Array,
+        self, ranges: list[Range], order: int, rows: Sequence[Row], values: Values, first: Array
     ) -> None:
         self.ranges, self.order, self.rows = ranges, order, rows
         self.data = values.data
@@ -83,12 +81,7 @@ class Few(Many):
     """States as a tuple of floats, sums as text."""
 
     def __init__(
-        self,
-        ranges: list[tuple[int, int, int]],
-        order: int,
-        rows: Sequence[Row],
-        values: Values,
-        first: Array,
+        self, ranges: list[Range], order: int, rows: Sequence[Row], values: Values, first: Array
     ) -> None:
         super().__init__(ranges, order, rows, values, first)
         slots = [slot + i for slot, _, count in ranges for i in range(count)]
@@ -129,9 +122,9 @@ def weighted(row: Row, k: Sequence[Array]) -> Array:
     return np.zeros_like(k[0]) if total is None else total
 
 
-def joined(ranges: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
+def joined(ranges: list[Range]) -> list[Range]:
     """Join neighbours: (slot, first state, count)."""
-    found: list[tuple[int, int, int]] = []
+    found: list[Range] = []
     for slot, first, count in ranges:
         if found and found[-1][0] + found[-1][2] == slot:
             found[-1] = (found[-1][0], found[-1][1], found[-1][2] + count)
