@@ -57,7 +57,7 @@ def vector_derivative(builder: Builder, node: nodes.VectorDerivative) -> None:
 
 
 def _target(context: Context, node: nodes.VectorAssign | nodes.VectorDerivative) -> Quantity | None:
-    """Return the vector that a statement assigns; None: there is none, but its right side has been checked."""
+    """Return the vector that a statement assigns; None: there is none, its right side has been checked."""
     quantity = vector(context, node, node.name)
     if quantity is None:
         lower(context, node.value, (UNKNOWN,))
