@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 from desire_tui.engine.source import Source
 
 POINTS = 11
-TOLERANCES = tuple(10.0**-k for k in range(6, 13))
+TOLERANCES = tuple(10.0**-k for k in range(4, 13))
 GOAL = 1e-6
 DENSE_SECONDS = 90.0
 

@@ -72,14 +72,6 @@ class Outcome:
 ERMAX = 1e-5
 LIMITS = {1: 0.05, 2: 1e-3, 4: 1e-4}
 """What the fixed-step rules must reach with the problem's DT, by their order."""
-LOOSE = {
-    ("linear stiff", 9),
-    ("linear stiff", 13),
-    *(("Van der Pol 1000", rule) for rule in STIFF),
-    *(("orbit e=0.9", rule) for rule in STIFF),
-}
-"""Local errors of ERMAX add up to more than 10·ERMAX here: functional iteration at its limit of stability,
-the time of a relaxation oscillator's jump, the pass of an eccentric orbit. With ERMAX/1000 they get there."""
 
 
 def limit(rule: int) -> float:

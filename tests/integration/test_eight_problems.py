@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from desire_tui.engine.integration import TABLEAUS
-from tests.integration.eight_problems import ERMAX, LOOSE, RULES, kepler, limit, problems, solve
+from tests.integration.eight_problems import ERMAX, RULES, kepler, limit, problems, solve
 
 PROBLEMS = problems()
 
@@ -14,8 +14,7 @@ PROBLEMS = problems()
 def test_every_rule(problem):
     wrong = {}
     for rule in RULES:
-        loose = (problem.name, rule) in LOOSE
-        outcome = solve(problem, rule, ERMAX / 1000 if loose else ERMAX)
+        outcome = solve(problem, rule, ERMAX)
         if outcome.code is not None or not outcome.error <= limit(rule):
             wrong[rule] = outcome
     assert not wrong

@@ -314,12 +314,11 @@ def test_an_infinite_element_of_jacobian_ends_the_run_with_its_place(backend):
     assert record.values("x")[:10] == pytest.approx([exp(-0.1 * k) for k in range(10)], rel=1e-4)
 
 
-
 @pytest.mark.parametrize("rule", [14, 15])
-def test_a_relay_that_holds_the_solution_on_its_jump_ends_the_run(rule, backend):
+def test_a_relay_that_holds_the_solution_on_its_jump_ends_the_run(rule, backend, monkeypatch):
     """x' = −sgn(x) from 1 is 1 − t; at 0, from t = 1, no step can go on."""
-    if backend == "reference":  # the same rule, but 50,000 steps take long there
-        return
+    if backend == "reference":  # looks fifty times as often: in Python 50,000 steps take 20 s
+        monkeypatch.setattr("desire_tui.engine.reference.stiff.CHATTER_STEPS", 1_000)
     session, problem = failure(SIMPLE.format(rule=rule, ermax="1E-6", x=1, f="-sgn(x)"), backend)
     assert problem.code == 222
     assert "'x'" in problem.message
@@ -331,10 +330,8 @@ def test_a_relay_that_holds_the_solution_on_its_jump_ends_the_run(rule, backend)
 @pytest.mark.parametrize(("rule", "ermax"), [(14, 1e-6), (14, 1e-7), (14, 1e-8), (15, 1e-6), (15, 1e-8)])
 def test_robertson_for_very_long_times(rule, ermax, backend):
     """y1 ≈ 2.08334015E-8 at 1e11, far below ERMAX times its largest value 1, but must never run away."""
-    if backend == "reference":
-        return
     text = ROBERTSON.format(rule=rule, script="", jacobian="").replace("1E-7", str(ermax))
     y1, y2, y3 = numbers(text.replace("TMAX = 40", "TMAX = 1E+11"), backend)
-    assert abs(y1 - 2.08334e-8) < 10 * ermax
-    assert abs(y2 - 8.33336e-14) < 10 * ermax * 3.65e-5
+    assert y1 == pytest.approx(2.08334e-8, rel=0.5)
+    assert y2 == pytest.approx(4e-6 * y1, rel=1e-3)  # it follows the others: 1e4*y2*y3 = 0.04*y1, y3 = 1
     assert abs(y1 + y2 + y3 - 1) < 10 * ermax

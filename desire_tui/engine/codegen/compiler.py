@@ -5,8 +5,10 @@ from __future__ import annotations
 import functools
 import threading
 from dataclasses import dataclass
+from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
+from desire_tui.engine import kept
 from desire_tui.engine.codegen import symbols
 
 if TYPE_CHECKING:
@@ -108,6 +110,13 @@ def _scalar_declaration(name: str) -> str:
 
 def compile_text(text: str, *, level: int, slp: bool = False, vectorize: bool = False) -> Code:
     """Compile a module at level 0 … 3. Level 0 is for quick code: no optimisation passes at all."""
+    engine = _engine(text, level, slp=slp, vectorize=vectorize)
+    engine.finalize_object()
+    return Code(engine)
+
+
+def _engine(text: str, level: int, *, slp: bool, vectorize: bool) -> Any:
+    """Optimise a module and give it to an engine, which makes the code when it is finalized."""
     host = machine()
     llvm = host.llvm
     module = llvm.parse_assembly(text)
@@ -120,6 +129,37 @@ def compile_text(text: str, *, level: int, slp: bool = False, vectorize: bool = 
         tuning.loop_interleaving = vectorize
         builder = llvm.create_pass_builder(options, tuning)
         builder.getModulePassManager().run(module, builder)
-    engine = llvm.create_mcjit_compiler(module, options)
+    return llvm.create_mcjit_compiler(module, options)
+
+
+def kept_code(name: str) -> Code | None:
+    """Return code that `compile_and_keep` stored for a processor like this one; None if there is none."""
+    content = kept.read(_file_of(name))
+    if content is None:
+        return None
+    host = machine()
+    llvm = host.llvm
+    try:
+        file = llvm.ObjectFileRef.from_data(content)
+    except RuntimeError:
+        return None
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), host.options(0))
+    engine.add_object_file(file)
     engine.finalize_object()
     return Code(engine)
+
+
+def compile_and_keep(text: str, name: str, *, level: int, vectorize: bool) -> Code:
+    """Compile as `compile_text` does; later processes find the code under `name`."""
+    engine = _engine(text, level, slp=False, vectorize=vectorize)
+    engine.set_object_cache(lambda _, content: kept.write(_file_of(name), content))
+    engine.finalize_object()
+    return Code(engine)
+
+
+def _file_of(name: str) -> str:
+    import llvmlite
+
+    host = machine()
+    made_for = f"{llvmlite.__version__} {host.triple} {host.cpu} {host.features}"
+    return f"code-{name}-{blake2b(made_for.encode(), digest_size=8).hexdigest()}.o"

@@ -15,12 +15,12 @@ from desire_tui.engine.analysis.slices import acts_at_steps, is_pure, jacobian_p
 from desire_tui.engine.codegen.context import PASSES, Context
 from desire_tui.engine.codegen.model import passes_of
 from desire_tui.engine.codegen.natives import PassFunctions
-from desire_tui.engine.codegen.stiff_library import LARGE, StiffFunctions, stiff_functions
+from desire_tui.engine.codegen.stiff_library import StiffFunctions, fast_functions, first_functions
 from desire_tui.engine.codegen.stiff_loop import stiff_loop
 from desire_tui.engine.codegen.tables import Tables
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
-from desire_tui.engine.integration.plan import kind_of, plan
+from desire_tui.engine.integration.plan import is_own, kind_of, plan
 from desire_tui.engine.integration.system import Functions, Natives, StiffSystem
 from desire_tui.engine.runtime.faults import first_not_finite
 from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
@@ -56,10 +56,12 @@ class StiffModel:
         self._functions = functions = PassFunctions(backend.store, values, segment.order, inner, own)
         addresses = {name: functions.address(name) for name in inner}
         addresses["derivatives"] = addresses.pop("derivative")
+        way = _plan(segment, rule, extra)
+        self._own = is_own(rule, way)
         self._system = partial(
             StiffSystem,
             rule,
-            _plan(segment, rule, extra),
+            way,
             values.address,
             [(s.slot, s.first, s.count) for s in segment.states],
             Functions(**addresses),
@@ -69,7 +71,7 @@ class StiffModel:
         self._tables = Tables(backend.store, passes)
         self._fill_context(segment)
         self._better: StiffFunctions | None = None
-        self._use(stiff_functions(large=segment.order > LARGE))
+        self._use(first_functions(segment.order, own=self._own))
         loop = stiff_loop()  # does little between two intervals: quick code is good enough
         self._loop = backend.store.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
@@ -77,9 +79,9 @@ class StiffModel:
         backend.improver.add(functions)
 
     def _use(self, natives: StiffFunctions) -> None:
-        """Connect CVODE's callbacks and the interval loop."""
-        self.system = self._system(Natives(natives.rhs, natives.weights, natives.jacobian))
-        self.context.interval = natives.interval
+        """Connect the solver's callbacks and the interval loop."""
+        self.system = self._system(Natives(natives.rhs, natives.weights, natives.jacobian, self._own))
+        self.context.interval = natives.own_interval if self._own else natives.interval
         self.context.problem = ctypes.addressof(self.system.problem)
 
     def _fill_context(self, segment: Segment) -> None:
@@ -100,7 +102,7 @@ class StiffModel:
     def improve(self) -> Iterator[None]:
         """Compile fast code (`background.Improvable`)."""
         yield from self._tables.improve()
-        self._better = stiff_functions(large=True)
+        self._better = fast_functions(self._slots.size, own=self._own)
         yield
 
     def advice(self) -> tuple[Diagnostic, ...]:

@@ -34,16 +34,16 @@ class Function:
 
     def get(self, structure: Any, field: str, of: type[ctypes.Structure] = Problem) -> Any:
         """Load a field of the structure at a pointer; addresses come as pointers."""
-        place, kind = self._place(structure, field, of)
+        place, kind = self.field(structure, field, of)
         return self.build.load(place, typ=kind)
 
     def put(self, structure: Any, field: str, value: Any, of: type[ctypes.Structure] = Problem) -> None:
         """Store a field."""
-        self.build.store(value, self._place(structure, field, of)[0])
+        self.build.store(value, self.field(structure, field, of)[0])
 
     def add(self, structure: Any, field: str, value: Any, of: type[ctypes.Structure] = Problem) -> None:
         """Count a whole-numbered field up."""
-        place, kind = self._place(structure, field, of)
+        place, kind = self.field(structure, field, of)
         self.build.store(self.build.add(self.build.load(place, typ=kind), value), place)
 
     def at(self, array: Any, index: Any, kind: Any = REAL) -> Any:
@@ -101,11 +101,13 @@ class Function:
         build.branch(head)
         build.position_at_end(end)
 
-    def _place(self, structure: Any, field: str, of: type[ctypes.Structure]) -> tuple[Any, Any]:
+    def field(self, structure: Any, field: str, of: type[ctypes.Structure]) -> tuple[Any, Any]:
+        """Return a field's place and what is there; arrays and pointers are pointers."""
         offset: int = getattr(of, field).offset
         fields: Any = of._fields_
-        code = next(kind for name, kind in fields if name == field)._type_
-        kind = {"d": REAL, "i": INT32, "l": INT, "q": INT, "L": POINTER, "Q": POINTER}[code]
+        code = getattr(next(kind for name, kind in fields if name == field), "_type_", None)
+        kinds = {"d": REAL, "i": INT32, "l": INT, "q": INT}
+        kind = kinds.get(code, POINTER) if isinstance(code, str) else POINTER
         return self.build.gep(structure, [INT(offset)], source_etype=BYTE), kind
 
 

@@ -31,10 +31,22 @@ rounding breaks conservation laws, which long steps (Robertson's 1e10) do not fo
 
 
 def add_callbacks(module: Any) -> None:
-    """Add `desire_rhs`, `desire_weights` and `desire_jacobian` to a module."""
+    """Add `desire_rhs`, `desire_weights` and `desire_jacobian` for CVODE to a module, and what they call.
+
+    int32 desire_evaluate(Problem*, double t, double* y, double* derivatives)
+    int32 desire_weigh(Problem*, double* y, double* weights)
+    int32 desire_fill(Problem*, double t, double* y, double* derivatives, double* matrix, double*, double*)
+    """
     _add_scatter(module)
-    _add_rhs(module)
-    _add_weights(module)
+    _add_evaluate(module)
+    _add_weigh(module)
+    _add_fill(module)
+    f = Function(module, "desire_rhs", INT32, [REAL, POINTER, POINTER, POINTER])
+    t, y, ydot, problem = f.arguments
+    f.build.ret(f.outside("desire_evaluate", INT32, [problem, t, _numbers(f, y), _numbers(f, ydot)]))
+    f = Function(module, "desire_weights", INT32, [POINTER, POINTER, POINTER])
+    y, w, problem = f.arguments
+    f.build.ret(f.outside("desire_weigh", INT32, [problem, _numbers(f, y), _numbers(f, w)]))
     _add_jacobian(module)
 
 
@@ -66,13 +78,12 @@ def _add_scatter(module: Any) -> None:
     f.build.ret_void()
 
 
-def _add_rhs(module: Any) -> None:
-    """CVRhsFn. A derivative that is not finite makes its state `suspect`, and CVODE try a smaller step."""
-    f = Function(module, "desire_rhs", INT32, [REAL, POINTER, POINTER, POINTER])
-    t, y, ydot, problem = f.arguments
-    k = _numbers(f, ydot)
+def _add_evaluate(module: Any) -> None:
+    """Where a derivative is not finite, name the state `suspect` and ask for a smaller step."""
+    f = Function(module, "desire_evaluate", INT32, [POINTER, REAL, POINTER, POINTER])
+    problem, t, y, k = f.arguments
     f.store(f.get(problem, "values"), INT(T), t)
-    scatter(f, problem, _numbers(f, y))
+    scatter(f, problem, y)
     f.add(problem, "derivative_calls", INT(1))
     f.call(f.get(problem, "derivatives"), INT, [f.get(problem, "memory"), k])
     n = f.get(problem, "n")
@@ -105,10 +116,10 @@ def _all_finite(f: Function, k: Any, n: Any) -> Any:
     return f.build.fcmp_ordered("==", sum_, REAL(0.0))
 
 
-def _add_weights(module: Any) -> None:
-    """CVEwtFn: 1 / (ERMAX·max |y| so far), the maximum taken as 1 while it is 0 (language.md 11)."""
-    f = Function(module, "desire_weights", INT32, [POINTER, POINTER, POINTER])
-    y, w, problem = _numbers(f, f.arguments[0]), _numbers(f, f.arguments[1]), f.arguments[2]
+def _add_weigh(module: Any) -> None:
+    """1 / (ERMAX·max |y| so far), the maximum taken as 1 while it is 0 (language.md 11)."""
+    f = Function(module, "desire_weigh", INT32, [POINTER, POINTER, POINTER])
+    problem, y, w = f.arguments
     largest, tolerance = f.get(problem, "largest"), f.get(problem, "tolerance")
     n, most = f.get(problem, "n"), f.build.alloca(REAL)
     f.build.store(REAL(0.0), most)
@@ -133,13 +144,20 @@ def _add_jacobian(module: Any) -> None:
     """CVLsJacFn; CVODE has cleared the matrix."""
     f = Function(module, "desire_jacobian", INT32, [REAL, *[POINTER] * 7])
     t, y, fy, matrix, problem, spare, spare2, _ = f.arguments
-    y, fy, spare, spare2 = (_numbers(f, v) for v in (y, fy, spare, spare2))
     data = f.call(f.get(problem, "data_of"), POINTER, [matrix])
+    with f.build.if_then(f.build.icmp_signed("!=", f.get(problem, "nonzeros"), INT(0))):
+        _write_pattern(f, problem, matrix)
+    y, fy, spare, spare2 = (_numbers(f, v) for v in (y, fy, spare, spare2))
+    f.build.ret(f.outside("desire_fill", INT32, [problem, t, y, fy, data, spare, spare2]))
+
+
+def _add_fill(module: Any) -> None:
+    """Write the Jacobian's entries to their places in a matrix that has been cleared."""
+    f = Function(module, "desire_fill", INT32, [POINTER, REAL, *[POINTER] * 5])
+    problem, t, y, fy, data, spare, spare2 = f.arguments
     f.add(problem, "jacobian_calls", INT(1))
     f.store(f.get(problem, "values"), INT(T), t)
     scatter(f, problem, y)
-    with f.build.if_then(f.build.icmp_signed("!=", f.get(problem, "nonzeros"), INT(0))):
-        _write_pattern(f, problem, matrix)
     method = f.get(problem, "method")
     with f.build.if_then(f.build.icmp_signed("==", method, INT(Matrix.TANGENT.value))):
         _fill_by_tangent(f, problem, data, spare)

@@ -1,19 +1,20 @@
-"""`desire_interval`: one communication interval under a rule 9 … 16, step by step, without Python.
+"""`…_interval`: one communication interval under a rule 9 … 16, step by step, without Python.
 
-    int32 desire_interval(Problem*, RunMemory*, double t_next, int32 passed)
+    int32 cvode_interval(Problem*, RunMemory*, double t_next, int32 passed)
 
 starts from t and the states in the values and comes back with `Ended.RUNNING` once t is `t_next`; with
 STOPPED where `stop` was set; TERM with the statement's number in `which`; SOLVER with CVODE's flag in
 `which`. `passed` is 1 if the pass at the first step's start has been done (it always is at a communication
 point), 0 to go on inside an interval.
 
-CVODE keeps a history of the solution. It begins anew where the states in the values are not what it left
-there: at a run's start, where difference-equation code changed one, where the user did.
+`own_interval` does the same with the other of the two `steppers`. They keep a history of the solution and
+begin anew where the states in the values are not what they left there: at a run's start, where
+difference-equation code changed one, where the user did.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.codegen.stiff_builder import INT, INT32, POINTER, REAL, VOID, Function
 from desire_tui.engine.codegen.stiff_callbacks import scatter
@@ -25,20 +26,22 @@ from desire_tui.engine.integration.problem import (
     STUCK_FLAG,
     STUCK_MOST,
 )
-from desire_tui.engine.integration.sundials.signatures import ONE_STEP, TSTOP_RETURN
+from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 from desire_tui.engine.values import DT, T
 
-
-def add_interval(module: Any) -> None:
-    """Add `desire_interval` and `desire_sync` to a module that has the callbacks."""
-    _add_gather(module)
-    _add_sync(module)
-    _add_interval(module)
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.steppers import Stepper
 
 
-def _add_gather(module: Any) -> None:
-    """Copy the states' values to CVODE's vector."""
+def add_interval(module: Any, stepper: Stepper) -> None:
+    """Add the interval of a stepper to a module that has the callbacks and `desire_gather`."""
+    _add_sync(module, stepper)
+    _add_interval(module, stepper)
+
+
+def add_gather(module: Any) -> None:
+    """Add `desire_gather`: copy the states' values to the solver's vector."""
     f = Function(module, "desire_gather", VOID, [POINTER])
     (problem,) = f.arguments
     values, ranges, states = (f.get(problem, name) for name in ("values", "ranges", "states"))
@@ -49,9 +52,9 @@ def _add_gather(module: Any) -> None:
     f.build.ret_void()
 
 
-def _add_sync(module: Any) -> None:
-    """Begin anew if t or a state is not what CVODE left; the flag of what it was asked."""
-    f = Function(module, "desire_sync", INT32, [POINTER])
+def _add_sync(module: Any, stepper: Stepper) -> None:
+    """Begin anew if t or a state is not what the solver left."""
+    f = Function(module, f"{stepper.prefix}_sync", VOID, [POINTER])
     (problem,) = f.arguments
     f.outside("desire_gather", VOID, [problem])
     states, last = f.get(problem, "states"), f.get(problem, "last")
@@ -64,42 +67,30 @@ def _add_sync(module: Any) -> None:
         other = f.build.fcmp_unordered("!=", f.load(states, i), f.load(last, i))
         f.build.store(f.build.or_(f.build.load(differ, typ=INT), f.build.zext(other, INT)), differ)
     with f.build.if_then(f.build.icmp_signed("==", f.build.load(differ, typ=INT), INT(0)), likely=True):
-        f.build.ret(INT32(0))
-    solver = f.get(problem, "solver")
-    _count(f, problem)
-    f.outside("CVodeReInit", INT32, [solver, t, f.get(problem, "vector")])
+        f.build.ret_void()
+    f.add(problem, "failed", stepper.failed(f, problem))  # the solver starts to count at 0
     with f.build.if_else(going) as (again, first):
-        with again:  # no step size is left to trust: CVODE looks for one
-            f.outside("CVodeSetInitStep", INT32, [solver, REAL(0.0)])
+        with again:  # no step size is left to trust: the solver looks for one
+            stepper.restart(f, problem, t, REAL(0.0))
             f.add(problem, "restarts", INT(1))
         with first:
-            f.outside("CVodeSetInitStep", INT32, [solver, f.get(problem, "first_step")])
+            stepper.restart(f, problem, t, f.get(problem, "first_step"))
     f.put(problem, "started", INT(1))
     f.put(problem, "t", t)
-    f.build.ret(INT32(0))
+    f.build.ret_void()
 
 
-def _count(f: Function, problem: Any) -> None:
-    """Keep CVODE's counts of failed tries, which start at 0 with each restart."""
-    cell = f.build.alloca(INT)
-    for name in ("CVodeGetNumErrTestFails", "CVodeGetNumNonlinSolvConvFails"):
-        f.build.store(INT(0), cell)
-        f.outside(name, INT32, [f.get(problem, "solver"), cell])
-        f.add(problem, "failed", f.build.load(cell, typ=INT))
-
-
-def _add_interval(module: Any) -> None:
-    f = Function(module, "desire_interval", INT32, [POINTER, POINTER, REAL, INT32])
+def _add_interval(module: Any, stepper: Stepper) -> None:
+    f = Function(module, f"{stepper.prefix}_interval", INT32, [POINTER, POINTER, REAL, INT32])
     problem, memory, t_next, passed = f.arguments
     build = f.build
     values, states, last = (f.get(problem, name) for name in ("values", "states", "last"))
-    solver, vector, step = (f.get(problem, name) for name in ("solver", "vector", "step"))
+    step = f.get(problem, "step")
     bytes_ = build.mul(f.get(problem, "n"), INT(8))
-    reached, size = build.alloca(REAL), build.alloca(REAL)
+    reached = build.alloca(REAL)
     start, again, go = (f.function.append_basic_block(name) for name in ("start", "again", "go"))
 
-    f.outside("desire_sync", INT32, [problem])
-    f.outside("CVodeSetStopTime", INT32, [solver, t_next])
+    f.outside(f"{stepper.prefix}_sync", VOID, [problem])
     build.cbranch(build.icmp_signed("!=", passed, INT32(0)), go, start)
 
     build.position_at_end(start)  # pass(-, STEP) at a step's start
@@ -109,18 +100,17 @@ def _add_interval(module: Any) -> None:
     with build.if_then(build.icmp_signed("!=", fired, INT(0)), likely=False):
         f.put(memory, "which", build.sub(fired, INT(1)), RunMemory)
         build.ret(INT32(Ended.TERM.value))
-    f.outside("desire_sync", INT32, [problem])
-    f.outside("CVodeSetStopTime", INT32, [solver, t_next])
+    f.outside(f"{stepper.prefix}_sync", VOID, [problem])
     build.branch(go)
 
     build.position_at_end(go)
     moving = build.icmp_signed("==", f.get(problem, "stuck"), INT(0))
     f.put(problem, "suspect", build.select(moving, INT(-1), f.get(problem, "suspect")))
-    flag = f.outside("CVode", INT32, [solver, t_next, vector, reached, INT32(ONE_STEP)])
+    flag = stepper.step(f, problem, t_next, reached)
     t = build.load(reached, typ=REAL)
     done = build.or_(build.icmp_signed("==", flag, INT32(TSTOP_RETURN)), build.fcmp_ordered(">=", t, t_next))
     t = build.select(done, t_next, t)
-    flag = _watch_chatter(f, problem, memory, t, _watch_progress(f, problem, t, flag))
+    flag = _watch_chatter(f, stepper, (problem, memory), t, _watch_progress(f, problem, t, flag))
     f.store(values, INT(T), t)
     f.put(problem, "t", t)
     scatter(f, problem, states)
@@ -128,8 +118,7 @@ def _add_interval(module: Any) -> None:
     with build.if_then(build.icmp_signed("<", flag, INT32(0)), likely=False):
         f.put(memory, "which", build.sext(flag, INT), RunMemory)
         build.ret(INT32(Ended.SOLVER.value))
-    f.outside("CVodeGetLastStep", INT32, [solver, size])
-    dt = build.load(size, typ=REAL)
+    dt = stepper.last_step(f, problem)
     f.store(values, INT(DT), dt)
     _record_step(f, memory, dt)
     with build.if_then(done):
@@ -151,19 +140,16 @@ def _watch_progress(f: Function, problem: Any, t: Any, flag: Any) -> Any:
     return f.build.select(hopeless, reason, flag)
 
 
-def _watch_chatter(f: Function, problem: Any, memory: Any, t: Any, flag: Any) -> Any:
+def _watch_chatter(f: Function, stepper: Stepper, run: tuple[Any, Any], t: Any, flag: Any) -> Any:
     """Make a failure of steps that fail about as often as they succeed and get nowhere."""
-    build = f.build
+    build, (problem, memory) = f.build, run
     with build.goto_entry_block():  # this stands in a loop: an alloca here would eat the stack
-        result, tests, tries = build.alloca(INT32), build.alloca(INT), build.alloca(INT)
+        result = build.alloca(INT32)
     build.store(flag, result)
     steps = build.add(f.get(problem, "watch_steps"), INT(1))
     f.put(problem, "watch_steps", steps)
     with build.if_then(build.icmp_signed(">=", steps, INT(CHATTER_STEPS)), likely=False):
-        f.outside("CVodeGetNumErrTestFails", INT32, [f.get(problem, "solver"), tests])
-        f.outside("CVodeGetNumNonlinSolvConvFails", INT32, [f.get(problem, "solver"), tries])
-        failed = build.add(build.load(tries, typ=INT), build.load(tests, typ=INT))
-        failed = build.add(failed, f.get(problem, "failed"))
+        failed = build.add(stepper.failed(f, problem), f.get(problem, "failed"))
         often = build.sub(failed, f.get(problem, "watch_failed"))
         far = build.fmul(f.get(memory, "comint", RunMemory), REAL(CHATTER_PART))
         near = build.fcmp_ordered("<", build.fsub(t, f.get(problem, "watch_t")), far)

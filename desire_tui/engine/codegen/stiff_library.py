@@ -1,50 +1,147 @@
-"""Makes the model-independent native functions of rules 9 … 16, once a process."""
+"""Makes the model-independent native functions of rules 9 … 16, once a process, some once a machine."""
 
 from __future__ import annotations
 
+import re
+from ctypes import sizeof
 from functools import cache
+from hashlib import blake2b
+from importlib.resources import files
 from typing import Any, NamedTuple
 
 from llvmlite import ir
 
-from desire_tui.engine.codegen.compiler import compile_text, machine
+from desire_tui.engine.codegen.compiler import Code, compile_and_keep, compile_text, kept_code, machine
+from desire_tui.engine.codegen.plain_python import PlainPython
+from desire_tui.engine.codegen.steppers import CvodeStepper, OwnStepper
 from desire_tui.engine.codegen.stiff_callbacks import add_callbacks
-from desire_tui.engine.codegen.stiff_interval import add_interval
+from desire_tui.engine.codegen.stiff_interval import add_gather, add_interval
+from desire_tui.engine.integration.bdf import coefficients, newton, step
+from desire_tui.engine.integration.bdf.memory import Bdf
+from desire_tui.engine.integration.problem import Problem
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
+from desire_tui.engine.runtime.memory import RunMemory
+from desire_tui.engine.values import DT, T
 
 _CALLED = (
     "CVode", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
-    "CVodeGetNumErrTestFails", "CVodeGetNumNonlinSolvConvFails",
+    "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
 )  # fmt: skip
+_SOURCES = (
+    "codegen/plain_python.py", "codegen/steppers.py", "codegen/stiff_builder.py",
+    "codegen/stiff_callbacks.py", "codegen/stiff_interval.py", "codegen/stiff_library.py",
+    "integration/bdf/coefficients.py", "integration/bdf/memory.py", "integration/bdf/newton.py",
+    "integration/bdf/step.py", "integration/problem.py", "runtime/memory.py",
+)  # fmt: skip
+"""All that the code depends on: kept code of other texts is not looked at."""
+_BDF = (coefficients, newton, step)
+_TEXTS = {name: (files("desire_tui.engine") / name).read_bytes() for name in _SOURCES}
+"""Read now, when the modules are: files may change under a process that lives for days."""
+
+LARGE = 200
+"""More states than this are worth 0.1 s of optimisation; fewer get quick code after 0.02 s."""
+UNROLLED_MOST = 16
+"""Up to so many states our solver is compiled for just this number, which halves its time."""
 
 
 class StiffFunctions(NamedTuple):
-    """Addresses; `keep` owns the code."""
+    """Addresses, 0 for what is not there; `keep` owns the code."""
 
     rhs: int
     weights: int
     jacobian: int
     interval: int
+    """Of CVODE …"""
+    own_interval: int
+    """… and of `integration.bdf`."""
     keep: Any
 
 
-LARGE = 200
-"""More states than this are worth 0.1 s of optimisation; fewer get quick code after 0.02 s."""
+def first_functions(n: int, *, own: bool) -> StiffFunctions:
+    """Return what a run can start with at once: fast code if there is some, else quick code."""
+    if own:
+        return _kept(_unrolled(n)) or _quick(own=True)
+    return _fast() if n > LARGE else _quick(own=False)
+
+
+def fast_functions(n: int, *, own: bool) -> StiffFunctions:
+    """Compile the fastest code for n states (0.1 s; our solver 0.5 s, once a machine)."""
+    if not own:
+        return _fast()
+    n = _unrolled(n)
+    if _kept(n) is None:
+        code = compile_and_keep(str(_module(own=True, n=n)), _name(n), level=2, vectorize=n > 0)
+        _known[n] = _found(code, own=True)
+    return _known[n]
+
+
+def _unrolled(n: int) -> int:
+    return n if n <= UNROLLED_MOST else 0
 
 
 @cache
-def stiff_functions(*, large: bool) -> StiffFunctions:
-    """Compile callbacks and interval loop. DesireError 460, 461: no SUNDIALS."""
+def _quick(*, own: bool) -> StiffFunctions:
+    return _found(compile_text(str(_module(own=own)), level=0), own=own)
+
+
+@cache
+def _fast() -> StiffFunctions:
+    return _found(compile_text(str(_module(own=False)), level=1), own=False)  # level 2 gains nothing here
+
+
+_known: dict[int, StiffFunctions] = {}
+
+
+def _kept(n: int) -> StiffFunctions | None:
+    """Return our solver's fast code for n states if this process or another one has made it."""
+    if n not in _known:
+        _connect()
+        code = kept_code(_name(n))
+        if code is None:
+            return None
+        _known[n] = _found(code, own=True)
+    return _known[n]
+
+
+@cache
+def _connect() -> None:
+    """Tell LLVM where CVODE's functions are. DesireError 460, 461: no SUNDIALS."""
     cvode = libraries().cvode
     llvm = machine().llvm
     for name in _CALLED:
         llvm.add_symbol(name, address(cvode, name))
+
+
+@cache
+def _name(n: int) -> str:
+    layouts = repr([T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, Problem, RunMemory))])
+    everything = b"".join(_TEXTS.values()) + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
+    return f"bdf-{n}-{blake2b(everything, digest_size=8).hexdigest()}"
+
+
+def _module(*, own: bool, n: int = 0) -> ir.Module:
+    """Write callbacks and interval loops; `own`: with our solver, for n states if n is not 0."""
+    _connect()
     module = ir.Module("stiff")
     add_callbacks(module)
-    add_interval(module)
-    code = compile_text(str(module), level=1 if large else 0)  # level 2 gains nothing here
-    rhs, weights, jacobian, interval = (
-        code.address(f"desire_{name}") for name in ("rhs", "weights", "jacobian", "interval")
+    add_gather(module)
+    add_interval(module, CvodeStepper())
+    if own:
+        natives = {name: module.globals[f"desire_{name}"] for name in ("evaluate", "weigh", "fill")}
+        known = {"n": n} if n else {}
+        sources = {_TEXTS[f"integration/bdf/{m.__name__.rpartition('.')[2]}.py"]: vars(m) for m in _BDF}
+        own_solver = PlainPython(module, sources, Bdf, "bdf_", natives, known)
+        add_interval(module, OwnStepper(own_solver.functions))
+    return module
+
+
+def _found(code: Code, *, own: bool) -> StiffFunctions:
+    return StiffFunctions(
+        rhs=code.address("desire_rhs"),
+        weights=code.address("desire_weights"),
+        jacobian=code.address("desire_jacobian"),
+        interval=code.address("cvode_interval"),
+        own_interval=code.address("own_interval") if own else 0,
+        keep=code,
     )
-    return StiffFunctions(rhs, weights, jacobian, interval, keep=code)

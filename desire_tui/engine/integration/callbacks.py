@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from desire_tui.engine.integration.bdf.memory import Evaluate, Fill, Weigh
 from desire_tui.engine.integration.problem import FLOOR, Matrix
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import JacobianFunction, RhsFunction, WeightFunction
@@ -18,6 +19,7 @@ from desire_tui.engine.integration.system import Natives
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from desire_tui.engine.integration.bdf.memory import Reals
     from desire_tui.engine.integration.system import StiffSystem
 
     Array = NDArray[np.float64]
@@ -54,12 +56,22 @@ class PythonCallbacks:
         self._functions = (
             RhsFunction(self._rhs), WeightFunction(self._weights), JacobianFunction(self._jacobian)
         )  # fmt: skip
-        addresses = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self._functions)
-        self.natives = Natives(*addresses)
+        rhs, weights, jacobian = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self._functions)
+        self.natives = Natives(rhs, weights, jacobian)
+        self.own = (
+            Evaluate(lambda _, t, y, out: self._derive(t, self._states(y), self._states(out))),
+            Weigh(lambda _, y, out: self._weigh(self._states(y), self._states(out))),
+            Fill(lambda _, t, y, fy, matrix, *_spare: self._fill(
+                t, self._states(y), self._states(fy), np.ctypeslib.as_array(matrix, (self._n**2,))
+            )),
+        )  # fmt: skip
+        """For `bdf` in place of CVODE."""
 
     def _rhs(self, t: float, y: int, ydot: int, _user: int) -> int:
-        out = numbers(ydot)
-        if not self._evaluate(t, numbers(y), out):
+        return self._derive(t, numbers(y), numbers(ydot))
+
+    def _derive(self, t: float, y: Array, out: Array) -> int:
+        if not self._evaluate(t, y, out):
             return _GIVE_UP
         finite = np.isfinite(out)
         if finite.all():
@@ -79,27 +91,33 @@ class PythonCallbacks:
         return True
 
     def _weights(self, y: int, weights: int, _user: int) -> int:
+        return self._weigh(numbers(y), numbers(weights))
+
+    def _weigh(self, y: Array, weights: Array) -> int:
         assert self.system is not None
         system = self.system
-        np.maximum(system.largest, np.abs(numbers(y)), out=system.largest)
+        np.maximum(system.largest, np.abs(y), out=system.largest)
         system.problem.floor = FLOOR * float(system.largest.max(initial=0.0))
-        numbers(weights)[:] = 1.0 / (system.problem.tolerance * _scale(system))
+        weights[:] = 1.0 / (system.problem.tolerance * _scale(system))
         return 0
 
     def _jacobian(self, t: float, y: int, fy: int, matrix: int, _user: int, *_spare: int) -> int:
+        assert self.system is not None
+        return self._fill(t, numbers(y), numbers(fy), self._matrix_data(self.system, matrix))
+
+    def _fill(self, t: float, y: Array, fy: Array, data: Array) -> int:
         system = self.system
         assert system is not None
         system.problem.jacobian_calls += 1
-        data = self._matrix_data(system, matrix)
         method = system.plan.method
         try:
             if method is Matrix.PROGRAM:
                 tables = system.plan.tables
                 assert tables is not None
-                data[tables.places] = self._model.jacobian(t, numbers(y))[tables.sources]
+                data[tables.places] = self._model.jacobian(t, y)[tables.sources]
             elif method is Matrix.TANGENT:
-                self._fill_by_tangent(t, numbers(y), data)
-            elif not self._fill_by_differences(t, numbers(y), numbers(fy), data):
+                self._fill_by_tangent(t, y, data)
+            elif not self._fill_by_differences(t, y, fy, data):
                 return _GIVE_UP
         except BaseException as failure:  # noqa: BLE001 - as above
             self.failure = failure
@@ -108,6 +126,14 @@ class PythonCallbacks:
         if not np.isfinite(data[system.plan.tables.places]).all():  # corrections of 0 are not convergence
             return _GIVE_UP if method is Matrix.PROGRAM else _GO_BACK
         return 0
+
+    @property
+    def _n(self) -> int:
+        assert self.system is not None
+        return self.system.n
+
+    def _states(self, place: Reals) -> Array:
+        return np.ctypeslib.as_array(place, (self._n,))
 
     def _fill_by_tangent(self, t: float, y: Array, data: Array) -> None:
         system = self.system

@@ -52,6 +52,11 @@ class Plan:
     tables: Tables | None
 
 
+def is_own(rule: int, plan: Plan) -> bool:
+    """Whether `bdf` can do it in CVODE's place: Newton's iteration for BDF with a dense matrix."""
+    return rule in {14, 15} and plan.linear.kind == "dense" and plan.tables is not None
+
+
 def kind_of(rule: int) -> str:
     """Return what a rule does about the Jacobian: `fixed-point`, `jacobian`, `differences`, `diagonal`."""
     return ("fixed-point", "jacobian", "differences", "diagonal")[(rule - 9) % 4]

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from desire_tui.engine.integration.problem import Matrix, Problem
+from desire_tui.engine.integration.bdf.solver import OwnSolver
+from desire_tui.engine.integration.problem import ERROR_SHARE, Matrix, Problem
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Solver
@@ -49,6 +50,8 @@ class Natives:
     rhs: int
     weights: int
     jacobian: int
+    own: bool = False
+    """Use `bdf` in place of CVODE; native code calls it, and its callbacks, directly."""
 
 
 class StiffSystem:
@@ -89,8 +92,12 @@ class StiffSystem:
         linear = plan.linear
         if plan.method is not Matrix.NONE:
             linear = replace(linear, jacobian=natives.jacobian)
-        callbacks = Callbacks(natives.rhs, natives.weights, ctypes.addressof(problem))
-        self.solver = Solver(rule, n, problem.states, callbacks, linear)
+        self.solver: Solver | OwnSolver
+        if natives.own:
+            self.solver = OwnSolver(n, problem.states, ctypes.addressof(problem))
+        else:
+            callbacks = Callbacks(natives.rhs, natives.weights, ctypes.addressof(problem))
+            self.solver = Solver(rule, n, problem.states, callbacks, linear)
         problem.solver, problem.vector = self.solver.memory, self.solver.vector
 
     def _connect_matrix(self) -> None:
@@ -110,7 +117,7 @@ class StiffSystem:
         """Prepare a run: forget history, counts and largest values; take ERMAX, DTMAX and the first DT."""
         problem = self.problem
         problem.memory = ctypes.addressof(memory)  # type: ignore[arg-type]
-        problem.tolerance = memory.error_max
+        problem.tolerance = memory.error_max * ERROR_SHARE
         problem.first_step = first_step
         problem.started = problem.failed = problem.restarts = problem.stuck = 0
         problem.watch_steps = problem.watch_failed = 0
@@ -122,7 +129,7 @@ class StiffSystem:
 
     def report(self, memory: Memory) -> None:
         """Write what CVODE did so far into the run's memory."""
-        counts = self.solver.counts() if self.problem.started else Counts(0, 0, 0, 0)
+        counts = self.solver.counts() if self.problem.started else Counts(0, 0, 0)
         memory.rejected = self.problem.failed + counts.failed
         memory.derivative_calls = self.problem.derivative_calls
         memory.jacobian_calls = self.problem.jacobian_calls

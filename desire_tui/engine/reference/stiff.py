@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,9 +14,10 @@ from desire_tui.engine.analysis.jacobian import checked_array
 from desire_tui.engine.analysis.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.integration import TABLEAUS
 from desire_tui.engine.integration.advice import Probe, advice
+from desire_tui.engine.integration.bdf.solver import OwnSolver
 from desire_tui.engine.integration.callbacks import PythonCallbacks
 from desire_tui.engine.integration.pattern import Pattern
-from desire_tui.engine.integration.plan import kind_of, plan
+from desire_tui.engine.integration.plan import is_own, kind_of, plan
 from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
     CHATTER_PART,
@@ -57,9 +59,13 @@ class StiffReferenceModel(ReferenceModel):
         self._stage = self._others.compile(derivative_slice(segment))
         self._acts = acts_at_steps(segment)
         self._callbacks = PythonCallbacks(self)
+        way = self._plan(rule)
+        natives = replace(self._callbacks.natives, own=is_own(rule, way))
         self.system = self._callbacks.system = StiffSystem(
-            rule, self._plan(rule), values.address, self.ranges, Functions(), self._callbacks.natives
+            rule, way, values.address, self.ranges, Functions(), natives
         )  # fmt: skip
+        if isinstance(self.system.solver, OwnSolver):
+            self.system.solver.connect(*self._callbacks.own)
 
     def _plan(self, rule: int) -> Plan:
         segment = self._segment

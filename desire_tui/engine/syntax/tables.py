@@ -4,7 +4,7 @@ lark takes 50 ms to import and 250 ms to build the tables; reading them back tak
 `automaton` steps through them. lark stays the only thing that understands the grammar file.
 """
 
-# ruff: noqa: PTH103, PTH105, PTH111, PTH118, PTH120, PTH123 - pathlib would add 5 ms to every start
+# ruff: noqa: PTH118, PTH120, PTH123 - pathlib would add 5 ms to every start
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ import sys
 from functools import cache
 from typing import Any, NamedTuple
 from zlib import crc32
+
+from desire_tui.engine import kept
 
 FORMAT = 2
 """Raised when the stored form below changes."""
@@ -66,48 +68,21 @@ def _unpack(stored: dict[str, Any]) -> Tables:
     )
 
 
-def _cache_file(key: str) -> str:
-    if sys.platform == "linux":  # the same folder as platformdirs names, without its 5 ms
-        folder = os.path.join(
-            os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "desire-tui"
-        )
-    else:
-        from platformdirs import user_cache_dir
-
-        folder = user_cache_dir("desire-tui")
-    return os.path.join(folder, f"grammar-{key}.tables")
-
-
 def _read(key: str) -> dict[str, Any] | None:
-    """Return the stored tables; None if they are absent, unreadable or damaged: it is only a cache."""
+    """Return the stored tables; None if there are none of use."""
+    content = kept.read(f"grammar-{key}.tables")
+    if content is None:
+        return None
     try:
-        with open(_cache_file(key), "rb") as file:
-            check, content = file.read(4), file.read()
-        if check != _check(content):
-            return None
         stored: dict[str, Any] = marshal.loads(content)  # noqa: S302 - this user's own file, whole by its check sum
         _unpack(stored)
-    except (OSError, ValueError, EOFError, KeyError, TypeError):
+    except (ValueError, EOFError, KeyError, TypeError):
         return None
     return stored
 
 
 def _write(key: str, stored: dict[str, Any]) -> None:
-    """Store the tables if the cache can be written; a half-written file never gets the final name."""
-    path = _cache_file(key)
-    temporary = f"{path}.{os.getpid()}"
-    content = marshal.dumps(stored)
-    try:
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(temporary, "wb") as file:
-            file.write(_check(content) + content)
-        os.replace(temporary, path)
-    except OSError:
-        return
-
-
-def _check(content: bytes) -> bytes:
-    return crc32(content).to_bytes(4, "big")
+    kept.write(f"grammar-{key}.tables", marshal.dumps(stored))
 
 
 def _build(grammar: str) -> dict[str, Any]:

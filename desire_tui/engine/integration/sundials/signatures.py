@@ -49,7 +49,7 @@ CVODE: Signatures = {
     "CVodeGetEstLocalErrors": (_I, (_P, _P)),
     "CVodeGetErrWeights": (_I, (_P, _P)),
     "CVodeGetIntegratorStats": (_I, (_P,) * 11),
-    "CVodeGetNumNonlinSolvConvFails": (_I, (_P, _P)),
+    "CVodeGetNumStepSolveFails": (_I, (_P, _P)),
     "CVodeGetNumLinRhsEvals": (_I, (_P, _P)),
     "CVodeGetNumJacEvals": (_I, (_P, _P)),
     "CVDiagGetNumRhsEvals": (_I, (_P, _P)),

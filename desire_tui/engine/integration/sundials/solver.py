@@ -26,7 +26,7 @@ CVODE's 0.1 trusts an estimate of the rate of convergence that a diagonal matrix
 Robertson's problem then comes out wrong by many times ERMAX, and no flag says so.
 """
 
-_MATRIX_CONVERGENCE = 1e-3
+MATRIX_CONVERGENCE = 1e-3
 """The same with a matrix. With 0.1 what the corrector leaves lets a state that decays toward 0 fall below
 it: Robertson's problem at ERMAX = 1e-6 then ran away to -5e7 by t = 1e11, and no flag said so. With 1e-3 the
 iterations cost little and the runs take as long or, the steps being longer, half as long."""
@@ -48,8 +48,6 @@ class Counts:
     steps: int
     failed: int
     """Steps tried again: error tests failed and corrector iterations that did not converge."""
-    derivative_calls: int
-    """Without those for a Jacobian."""
     order: int
 
 
@@ -81,7 +79,7 @@ class Solver:
         if linear.kind == "diagonal":
             self._set("CVodeSetNonlinConvCoef", _DIAGONAL_CONVERGENCE)
         elif linear.kind != "fixed-point" and rule > 12:  # Adams: no gain
-            self._set("CVodeSetNonlinConvCoef", _MATRIX_CONVERGENCE)
+            self._set("CVodeSetNonlinConvCoef", MATRIX_CONVERGENCE)
         parts.attached = Attached(libraries(), context, self.memory, self.vector, n, linear)
         self._reached = ctypes.c_double()
 
@@ -119,8 +117,8 @@ class Solver:
         unused = [ctypes.c_double() for _ in range(4)]
         counted = (steps, rhs, setups, fails, order, next_order)
         self._set("CVodeGetIntegratorStats", *map(ctypes.byref, counted), *map(ctypes.byref, unused))
-        diverged = self._count("CVodeGetNumNonlinSolvConvFails")
-        return Counts(steps.value, fails.value + diverged, rhs.value, order.value)
+        diverged = self._count("CVodeGetNumStepSolveFails")
+        return Counts(steps.value, fails.value + diverged, order.value)
 
     def worst_state(self) -> int:
         """Return the number of the state with the largest weighted error estimate in the last try."""
