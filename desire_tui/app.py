@@ -7,6 +7,7 @@ import inspect
 import signal
 import threading
 import traceback
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -94,6 +95,7 @@ class DesireApp(Shell):
         }  # fmt: skip
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
+        self.stylesheet.set_variables(self.get_css_variables())
         self.desk = Desk(History(places.state_folder() / "history.json"), self.settings.keys)
 
     # ------------------------------------------------------------------------------------- start and end
@@ -101,6 +103,11 @@ class DesireApp(Shell):
     def get_default_screen(self) -> Screen[Any]:
         """Return the desktop."""
         return self.desk
+
+    def refresh_css(self, animate: bool = True) -> None:
+        """Style everything anew; not for the first theme, in whose colours the style sheet was made."""
+        if self.desk.is_running:
+            super().refresh_css(animate)
 
     @on(Desk.Ready)
     async def _begin(self) -> None:
@@ -117,11 +124,17 @@ class DesireApp(Shell):
             if threading.current_thread() is threading.main_thread():
                 asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
         self.theme_changed_signal.subscribe(self.desk, lambda _: self.editor.follow_theme())
-        self.call_after_refresh(self.engine.start)
+        self.call_later(self._show)
+
+    def _show(self) -> None:
+        """Draw the desktop for the first time, now that everything stands in its place."""
+        self.desk.release()
+        self.engine.start()
 
     def engine_ready(self) -> None:
         """Begin to colour, check and show what only the engine knows."""
-        self.checker = Checker(self.session.check, self._checked, self._check_fault)
+        check = self.session.check
+        self.checker = Checker(partial(check, quick=True), self._checked, self._check_fault, check)
         for area in self.editor.areas:
             area.marks_changed()
             self._check_wanted(EditorPane.CheckWanted(area))

@@ -5,7 +5,6 @@ What is wrong in it is named by file, key and nearest key; the rest counts.
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
@@ -50,11 +49,17 @@ def load(path: Path | None = None) -> tuple[Config, list[str]]:
     path = path or config_file()
     settings, wrong = Config(), []
     try:
-        stored = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
         return settings, []
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        return settings, [f"{path}: {getattr(error, 'strerror', None) or error}; the defaults are used"]
+    except (OSError, UnicodeDecodeError) as error:
+        return settings, [_unreadable(path, error)]
+    import tomllib  # most people have no such file, and open the desktop 10 ms sooner
+
+    try:
+        stored = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        return settings, [_unreadable(path, error)]
     known = {entry.name: entry for entry in fields(Config)}
     for key, value in stored.items():
         if key not in known:
@@ -66,6 +71,10 @@ def load(path: Path | None = None) -> tuple[Config, list[str]]:
         else:
             setattr(settings, key, value)
     return settings, wrong
+
+
+def _unreadable(path: Path, error: Exception) -> str:
+    return f"{path}: {getattr(error, 'strerror', None) or error}; the defaults are used"
 
 
 def keymap(settings: Config) -> dict[str, str]:

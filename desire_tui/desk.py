@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 from textual.containers import Horizontal, Vertical
 from textual.message import Message
-from textual.screen import Screen
 from textual.widgets import Label
 
 from desire_tui.arrangement import SMALLEST, Arrangement, Pane, arrange
 from desire_tui.commands import BY_ID
 from desire_tui.editor.pane import EditorPane
 from desire_tui.editor.popup import CompletionPopup
+from desire_tui.held import HeldScreen
 from desire_tui.panes.command import CommandPane
 from desire_tui.panes.graph import GraphPane
 from desire_tui.panes.help import HelpPane
@@ -50,7 +50,7 @@ SHOWN_KEYS = {
 """Keys of the status row, the most wanted first, with a word for each."""
 
 
-class Desk(Screen[None]):
+class Desk(HeldScreen):
     """All panes."""
 
     AUTO_FOCUS = "#prompt"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
 from time import monotonic
 
 from desire_tui.actions import Controller
@@ -16,7 +15,6 @@ class Drawing(Controller):
     """Decides when; the panes know what."""
 
     _drawn_at = 0.0
-    _held: ExitStack | None = None
 
     def frame(self) -> None:
         """Draw what is new in the graph, unless the terminal has not yet taken the last frame."""
@@ -31,33 +29,17 @@ class Drawing(Controller):
 
     def at_once(self) -> None:
         """Draw a graph that has just begun and send it; one that follows another fast waits for its turn."""
-        if monotonic() - self._drawn_at >= APART_S:
+        if monotonic() - self._drawn_at >= APART_S and not self.is_backed_up:
             self.frame()
-            self.release()
-            self._send_graph()
-
-    def _send_graph(self) -> None:
-        """Send what is new in the graph, and nothing else; Textual's own way takes up to 20 ms longer."""
-        desk = self.app.desk
-        if desk.is_current and not self.is_backed_up:
-            compositor = desk._compositor  # noqa: SLF001 - as above
-            compositor.update_widgets(set(self.app.graph.children) & compositor.visible_widgets.keys())
-            desk._compositor_refresh()  # noqa: SLF001 - as above
+            self.app.desk.send_only(*self.app.graph.children)
 
     def hold(self) -> None:
         """Send nothing to the terminal until a run's first curves stand there, or for a moment.
 
-        What a command changes on its way there — its echo, tabs, status — then is one picture with them, and
+        What a command changes on its way there — its echo, tabs, status — is one picture after them then, and
         making three pictures of it does not keep the engine's thread waiting.
         """
-        if self._held is None:
-            self._held = ExitStack()
-            self._held.enter_context(self.app.batch_update())
-            self.app.desk.set_timer(HOLD_S, self.release)
-
-    def release(self) -> None:
-        """Send what has changed meanwhile."""
-        if self._held is not None:
-            held, self._held = self._held, None
-            held.close()
-            self.app.desk.check_idle()
+        desk = self.app.desk
+        if not desk.is_held:
+            desk.hold()
+            desk.set_timer(HOLD_S, desk.release)

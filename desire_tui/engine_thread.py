@@ -11,7 +11,7 @@ import threading
 import traceback
 from typing import TYPE_CHECKING
 
-from desire_tui import messages
+from desire_tui import messages, opening
 from desire_tui.commands import BY_WORD
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session import Listener, PermissionRequest, StoppedAt
@@ -208,6 +208,7 @@ class EngineThread:
     def _warm_up() -> None:
         with contextlib.suppress(Exception):  # whatever fails here fails again, and is told, when it matters
             warm_up()
+        opening.settle()
 
     def _do(self, job: Callable[[], object]) -> None:
         from desire_tui.engine.interpreter.host import Interrupted

@@ -188,7 +188,7 @@ class EngineNews(Controller):
         if message.failed:
             self.app.line.failed()
         app = self.app
-        app.drawing.release()
+        app.desk.release()
         if (
             app.session.stopped_at is None
             and app.editor.active is not None

@@ -8,7 +8,6 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from desire_tui.commands import COMMANDS
-from desire_tui.help import topics
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -104,6 +103,7 @@ def _words(*, commands: bool) -> dict[str, str]:
     The command line's own words too where they may stand.
     """
     from desire_tui.engine.library import LIBRARY
+    from desire_tui.help import topics
 
     table = {name: f"({entry.parameters})  {entry.help}" for name, entry in LIBRARY.items()}
     for page in topics().values():

@@ -61,7 +61,7 @@ def test_python_in_the_documentation_runs(code, shown, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(("commands", "shown"), every("sh"))
 def test_command_lines_in_the_documentation_work(commands, shown, tmp_path, monkeypatch):
-    from desire_tui.__main__ import main
+    from desire_tui.cli import main
 
     del shown
     (tmp_path / "examples").symlink_to(ROOT / "examples")

@@ -1,0 +1,157 @@
+"""The command line: `desire run`, `desire check`, `desire config`, `desire serve`, and all options."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import click
+
+from desire_tui import __version__
+
+
+class _FilesOrCommand(click.Group):
+    """A first word that is no command is a file for the desktop."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        first = next((a for a in args if not a.startswith("-")), None)
+        if first is not None and first not in self.commands:
+            args = ["ide", *args]
+        return super().parse_args(ctx, args)
+
+
+@click.group(cls=_FilesOrCommand, invoke_without_command=True)
+@click.version_option(__version__, prog_name="desire")
+@click.pass_context
+def main(context: click.Context) -> None:
+    """Desire: interactive dynamic-system simulation in the terminal.
+
+    `desire [FILE…]` opens the desktop.
+    """
+    if context.invoked_subcommand is None:
+        _open_desktop(())
+
+
+@main.command(name="ide", hidden=True)
+@click.argument("files", nargs=-1)
+def ide(files: tuple[str, ...]) -> None:
+    """Open the desktop."""
+    _open_desktop(files)
+
+
+def _open_desktop(files: tuple[str, ...]) -> None:
+    from desire_tui.opening import is_possible, open_desktop
+
+    if not is_possible():
+        raise click.UsageError("the desktop needs a terminal; `desire run FILE` works without one")
+    open_desktop(files)
+
+
+def _settings(_: click.Context, __: click.Parameter, values: tuple[str, ...]) -> dict[str, float]:
+    if not values:
+        return {}
+    from desire_tui.batch.settings import from_texts
+
+    try:
+        return from_texts(values)
+    except ValueError as wrong:
+        raise click.BadParameter(
+            f"'{wrong}' is not NAME=NUMBER, NAME[2]=NUMBER, NAME=1,2,3 or NAME=1,2;3,4"
+        ) from None
+
+
+@main.command()
+@click.argument("file")
+@click.option("--png", metavar="F", help="Write the graph as PNG; several graphs: F-1.png, F-2.png …")
+@click.option("--svg", metavar="F", help="Write the graph as SVG.")
+@click.option("--pdf", metavar="F", help="Write the graph as PDF.")
+@click.option("--csv", metavar="F", help="Write all samples: one row each, columns run, t, names ….")
+@click.option("--json", metavar="F", help="Write everything the program produced.")
+@click.option(
+    "--npz", metavar="F", help="Write samples (1/t, 1/x … of run 1) and final values for numpy.load."
+)
+@click.option("--plot", is_flag=True, help="Print the last graph as text.")
+@click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", callback=_settings,
+              help="Override the script's own values: a=3, v[2]=3, v=1,2,3, A=1,2;3,4.")  # fmt: skip
+@click.option("--go", is_flag=True, help="Continue after every STOP.")
+@click.option("--input", "answers", metavar="F", help="File with the lines that `input` reads.")
+@click.option("--quiet", is_flag=True, help="No console text.")
+@click.option(
+    "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="S", help="End after S seconds."
+)
+@click.option("--allow-shell", is_flag=True, help="Let the program run shell commands.")
+@click.option("--allow-write", is_flag=True, help="Let the program use files outside its folder.")
+@click.option("--backend", type=click.Choice(["native", "reference"]), default="native", show_default=True,
+              help="Compiled code, or NumPy.")  # fmt: skip
+def run(file: str, **options: Any) -> None:
+    """Run a program without a screen. FILE may be - (standard input), output files too (standard output).
+
+    Console text goes to standard output, problems to standard error. Exit status: 0 done, 1 the program
+    failed, 2 wrong usage, 3 stopped by a limit or Ctrl-C.
+    """
+    from desire_tui.batch.outputs import Wanted
+    from desire_tui.batch.run import run_file
+    from desire_tui.batch.work import Orders
+
+    kinds = ("png", "svg", "pdf", "csv", "json", "npz")
+    if sum(options[kind] == "-" for kind in kinds) > 1:
+        raise click.UsageError("only one file can go to standard output")
+    orders = Orders(
+        settings=options["settings"], answer_stops=options["go"], timeout=options["timeout"],
+        backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
+    )  # fmt: skip
+    wanted = Wanted(**{kind: options[kind] for kind in kinds}, plot=options["plot"])
+    sys.exit(_guarded(lambda: run_file(file, orders, wanted, options["answers"], quiet=options["quiet"])))
+
+
+@main.command()
+@click.argument("files", nargs=-1, required=True)
+def check(files: tuple[str, ...]) -> None:
+    """Report the problems of programs without running them. Exit status: 0 none, 1 errors."""
+    from desire_tui.batch.run import check_files
+
+    sys.exit(_guarded(lambda: check_files(files)))
+
+
+@main.command()
+def config() -> None:
+    """Print where the configuration file is, and what it may hold."""
+    from desire_tui.config import defaults_text
+    from desire_tui.places import config_file
+
+    click.echo(f"# {config_file()}")
+    click.echo(defaults_text(), nl=False)
+
+
+@main.command()
+@click.argument("files", nargs=-1)
+@click.option("--host", default="localhost", show_default=True)
+@click.option("--port", default=8000, show_default=True)
+def serve(files: tuple[str, ...], host: str, port: int) -> None:
+    """Put the desktop into a browser."""
+    import shlex
+
+    from textual_serve.server import Server
+
+    command = shlex.join([sys.executable, "-m", "desire_tui", *files])
+    Server(command, host=host, port=port, title="Desire").serve()
+
+
+def _guarded(work: Any) -> int:
+    """Run a command; what the machine refuses (a closed pipe, a full disk) is a message, not a traceback."""
+    import os
+
+    try:
+        status = int(work())
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # the reader of our output has left (`| head`): nothing more to say, and nothing to flush at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except KeyboardInterrupt:
+        sys.stderr.write("stopped by the user\n")
+        return 3
+    except OSError as reason:
+        sys.stderr.write(f"error 106: cannot write: {reason.strerror or reason}\n")
+        return 1
+    return status
