@@ -93,6 +93,7 @@ class DesireApp(Shell):
             "graph": GraphActions(self),
             "view": self.actions_view, "help": HelpActions(self),
         }  # fmt: skip
+        self.checker: Checker | None = None
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.stylesheet.set_variables(self.get_css_variables())
@@ -259,8 +260,8 @@ class DesireApp(Shell):
 
     @on(EditorPane.CheckWanted)
     def _check_wanted(self, event: EditorPane.CheckWanted) -> None:
-        if not self.engine.is_up:
-            return
+        if self.checker is None:
+            return  # every text is checked once the engine is there
         buffer = event.area.buffer
         self.checker.ask(buffer, self.editor.versions.get(buffer.number, 0), event.area.text)
 

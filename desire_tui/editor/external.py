@@ -5,36 +5,85 @@ from __future__ import annotations
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import tempfile
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from textual.app import App, SuspendNotSupported
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from desire_tui.editor.area import CodeArea
 
 
+class _Refused(Exception):  # noqa: N818 - a statement to the user
+    """Why there is no text from the editor."""
+
+
 def edit_outside(app: App[None], area: CodeArea) -> None:
-    """Stop the screen, start $VISUAL or $EDITOR on a copy of the text, take the text back as one change."""
-    words = shlex.split(os.environ.get("VISUAL") or os.environ.get("EDITOR") or "vi")
-    if not words or shutil.which(words[0]) is None:
-        app.notify(f"No editor '{' '.join(words)}': set $EDITOR.", severity="error", markup=False)
+    """Stop the screen, start $VISUAL or $EDITOR on a copy of the text, take the text back as one change.
+
+    The text as it stands in the tab is edited, saved or not. Whatever goes wrong leaves it unchanged.
+    """
+    try:
+        text = _edited(app, _command(), area)
+    except _Refused as reason:
+        app.notify(f"{reason}; the text is unchanged.", severity="error", markup=False, timeout=6)
         return
+    if not area.text.endswith("\n"):
+        text = text.removesuffix("\n")  # most editors add one
+    if text == area.text:
+        return
+    row, column = area.cursor_location
+    area.rewrite_rows(0, area.document.line_count - 1, text.split("\n"))
+    area.go_to(row, column)
+
+
+def _command() -> list[str]:
+    wanted = os.environ.get("VISUAL") or os.environ.get("EDITOR") or "vi"
+    try:
+        words = shlex.split(wanted)
+    except ValueError:
+        words = []
+    if not words or shutil.which(words[0]) is None:
+        raise _Refused(f"No editor '{wanted}': set $EDITOR")
+    return words
+
+
+def _edited(app: App[None], words: list[str], area: CodeArea) -> str:
     with tempfile.TemporaryDirectory(prefix="desire-") as folder:
         copy = Path(folder) / (area.buffer.path.name if area.buffer.path else "program.src")
-        copy.write_text(area.text, encoding="utf-8")
+        fault: OSError | None = None
+        status = 0
         try:
-            with app.suspend():
-                status = subprocess.run([*words, str(copy)], check=False).returncode  # noqa: S603 - the user's own choice
+            copy.write_text(area.text, encoding="utf-8", errors="surrogatepass")
+            with app.suspend(), _interrupts_left_to_the_editor():
+                try:
+                    status = subprocess.run([*words, str(copy)], check=False).returncode  # noqa: S603 - the user's own choice
+                except OSError as error:  # leaving `suspend` by an exception would leave the screen stopped
+                    fault = error
+            text = copy.read_text(encoding="utf-8", errors="replace")
         except SuspendNotSupported:
-            app.notify("This terminal cannot be handed to another program.", severity="error")
-            return
-        text = copy.read_text(encoding="utf-8", errors="replace")
-    if status:
-        app.notify(
-            f"{words[0]} ended with status {status}; the text is unchanged.", severity="warning", markup=False
-        )
-    elif text != area.text:
-        area.rewrite_rows(0, area.document.line_count - 1, text.removesuffix("\n").split("\n"))
+            raise _Refused("This terminal cannot be handed to another program") from None
+        except OSError as error:
+            fault = fault or error
+        if fault is not None:
+            raise _Refused(f"{words[0]}: {fault.strerror}") from None
+        if status:
+            end = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
+            raise _Refused(f"{words[0]} {end}")
+        return text
+
+
+@contextmanager
+def _interrupts_left_to_the_editor() -> Iterator[None]:
+    """Ctrl+C in the editor reaches this process too and must not end it."""
+    before = signal.signal(signal.SIGINT, lambda *_: None)  # a handler, unlike SIG_IGN, is not inherited
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)

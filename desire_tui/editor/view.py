@@ -11,6 +11,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 from textual.document._document_navigator import DocumentNavigator
@@ -111,7 +112,7 @@ class ProgramView(TextArea):
 
     def show_lines(self, lines: Lines) -> None:
         """Show other lines."""
-        self._width_most = 0
+        self._width_most = _width(lines.lines)
         self.document = lines
         lines.followers.append(self._replaced)
         self.wrapped_document = UnwrappedDocument(lines, tab_width=self.indent_width)
@@ -161,7 +162,8 @@ class ProgramView(TextArea):
                 view.follow_text()
 
     def _replaced(self, top: Location, bottom: Location, end: Location) -> None:
-        """Keep the cursor on its text while another view changes it."""
+        """Note how wide the new lines are; keep the cursor on its text while another view changes it."""
+        self._width_most = max(self._width_most, _width(self.document.lines[top[0] : end[0] + 1]))
         if self._is_changing:
             return
         rows_above = end[0] - bottom[0] if bottom[0] < self.scroll_offset.y else 0
@@ -180,10 +182,6 @@ class ProgramView(TextArea):
         self.refresh()
 
     def _refresh_size(self) -> None:
-        row = self.cursor_location[0]
-        if not self._width_most:
-            self._width_most = max((len(line) for line in self.document.lines), default=0)
-        self._width_most = max(self._width_most, len(self.document.get_line(row)))
         width = self._width_most + self.gutter_width + 1
         self.virtual_size = Size(width, self.document.line_count)
         self._refresh_scrollbars()
@@ -218,3 +216,12 @@ class ProgramView(TextArea):
     def find_matching_bracket(self, bracket: str, search_from: Location) -> Location | None:
         """Return where the partner of a bracket stands, if it stands near it."""
         return partner(self.document.lines, search_from) if bracket in "([{)]}" and bracket else None
+
+
+def _width(lines: Sequence[str]) -> int:
+    """Return how many cells the longest of some lines takes, tabs and wide characters counted."""
+    return max((_cells(line) for line in lines), default=0)
+
+
+def _cells(line: str) -> int:
+    return len(line) if line.isascii() and "\t" not in line else cell_len(line.expandtabs(indent.WIDTH))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from textual import events
 
 from desire_tui.editor.brackets import partner
 from desire_tui.editor.document import Lines, follow
@@ -190,6 +191,20 @@ async def test_what_another_view_writes_above_moves_nothing_on_screen(program):
         await desk.press("ctrl+z")
         await desk.pilot.pause()
         assert second.document.line_count == 303
+
+
+async def test_long_lines_are_shown_whole_wherever_the_cursor_is(program):
+    """A paste ends in a short line: the long ones above must not be cut at the width there was before."""
+    async with desktop(program("x = 1\n")) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        await desk.pilot.pause()
+        desk.app.post_message(events.Paste("y = 1.23456789012345\nlabel = 'ünïcode ｗｉｄｅ'\nz\n"))
+        await desk.until(lambda: area.document.line_count == 5)
+        await desk.pilot.pause()
+        shown = "\n".join(area.render_line(y).text for y in range(4))
+        assert "y = 1.23456789012345" in shown
+        assert "'ünïcode ｗｉｄｅ'" in shown
 
 
 async def test_a_tab_with_two_views_closes_both(program):
