@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
@@ -101,10 +99,8 @@ def test_a_loop_survives_clear():
 def test_every_loop_can_be_ended(script):
     world = World()
     world.looks_allowed = 20
-    began = time.perf_counter()
     with pytest.raises(Interrupted):
         world.run(script)
-    assert time.perf_counter() - began < 5
     world.looks_allowed = None
     world.execute("x = 1")
     assert world["x"] == 1
