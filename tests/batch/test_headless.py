@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
-from time import monotonic, sleep
+from time import monotonic
 
 import numpy as np
 import pytest
@@ -359,7 +359,6 @@ def test_ctrl_c_ends_with_status_3(tmp_path):
         text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
     assert process.stdout.readline() == "started\n"
-    sleep(0.3)
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=20)
     assert process.returncode == 3
@@ -375,7 +374,6 @@ def test_ctrl_c_while_waiting_for_input(tmp_path):
         stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
     assert process.stdout.readline() == "started\n"
-    sleep(0.3)
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=20) == 3
     assert "Traceback" not in process.stderr.read()
