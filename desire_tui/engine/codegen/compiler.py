@@ -134,17 +134,14 @@ def _engine(text: str, level: int, *, slp: bool, vectorize: bool) -> Any:
 
 def kept_code(name: str) -> Code | None:
     """Return code that `compile_and_keep` stored for a processor like this one; None if there is none."""
-    content = kept.read(_file_of(name))
-    if content is None:
+    file = _file_of(name)
+    content = kept.read(file)
+    if content is None or not content.startswith(_mark(file)):  # LLVM aborts the process on anything else
         return None
     host = machine()
     llvm = host.llvm
-    try:
-        file = llvm.ObjectFileRef.from_data(content)
-    except RuntimeError:
-        return None
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), host.options(0))
-    engine.add_object_file(file)
+    engine.add_object_file(llvm.ObjectFileRef.from_data(content[len(_mark(file)) :]))
     engine.finalize_object()
     return Code(engine)
 
@@ -152,9 +149,14 @@ def kept_code(name: str) -> Code | None:
 def compile_and_keep(text: str, name: str, *, level: int, vectorize: bool) -> Code:
     """Compile as `compile_text` does; later processes find the code under `name`."""
     engine = _engine(text, level, slp=False, vectorize=vectorize)
-    engine.set_object_cache(lambda _, content: kept.write(_file_of(name), content))
+    file = _file_of(name)
+    engine.set_object_cache(lambda _, content: kept.write(file, _mark(file) + content))
     engine.finalize_object()
     return Code(engine)
+
+
+def _mark(file: str) -> bytes:
+    return file.encode() + b"\n"
 
 
 def _file_of(name: str) -> str:

@@ -125,7 +125,7 @@ class _Body:
 
     def _do_annassign(self, node: ast.AnnAssign) -> None:
         assert node.value is not None
-        self._assign(node.target, self._value(node.value))
+        self._assign(node.target, self._as(self._value(node.value), _KINDS[_name(node.annotation)]))
 
     def _do_augassign(self, node: ast.AugAssign) -> None:
         old = self._value(node.target)

@@ -7,6 +7,7 @@ from ctypes import sizeof
 from functools import cache
 from hashlib import blake2b
 from importlib.resources import files
+from threading import Lock
 from typing import Any, NamedTuple
 
 from llvmlite import ir
@@ -70,10 +71,12 @@ def fast_functions(n: int, *, own: bool) -> StiffFunctions:
     if not own:
         return _fast()
     n = _unrolled(n)
-    if _kept(n) is None:
-        code = compile_and_keep(str(_module(own=True, n=n)), _name(n), level=2, vectorize=n > 0)
-        _known[n] = _found(code, own=True)
-    return _known[n]
+    with _compiling:
+        found = _kept(n)
+        if found is None:
+            code = compile_and_keep(str(_module(own=True, n=n)), _name(n), level=2, vectorize=n > 0)
+            found = _known.setdefault(n, _found(code, own=True))
+        return found
 
 
 def _unrolled(n: int) -> int:
@@ -91,6 +94,9 @@ def _fast() -> StiffFunctions:
 
 
 _known: dict[int, StiffFunctions] = {}
+"""Never replaced: models use the code without holding it."""
+_compiling = Lock()
+"""Several sessions may ask for the same, each from its own thread."""
 
 
 def _kept(n: int) -> StiffFunctions | None:
@@ -100,7 +106,7 @@ def _kept(n: int) -> StiffFunctions | None:
         code = kept_code(_name(n))
         if code is None:
             return None
-        _known[n] = _found(code, own=True)
+        _known.setdefault(n, _found(code, own=True))
     return _known[n]
 
 
