@@ -22,7 +22,11 @@ Path = tuple[tuple[int, bool], ...]
 
 @dataclass
 class OpenGuard:
-    """A guard whose end has not been reached; `otherwise` tells that its `else` was passed."""
+    """A guard whose end has not been reached; `otherwise` tells that its `else` was passed.
+
+    `serial` tells it from other guards; `outer` is the body that it will be a statement of. What has surely
+    been set: `saved` at its beginning, `after_then` at the end of the branch `then`.
+    """
 
     kind: GuardKind
     where: Where
@@ -38,7 +42,15 @@ class OpenGuard:
 
 @dataclass
 class Builder:
-    """What one segment becomes, piece by piece."""
+    """What one segment becomes, piece by piece.
+
+    `body` takes the next statement: the segment's, or that of the innermost of the open `guards`. `counters`,
+    `terms` and `serials` number history positions, `term` statements and guards. `once_only` holds the place
+    of a display and a type request. By states (slot, count): `derivative_paths` the guards around each of
+    their `d/dt` lines, `_held` the numbers that keep a derivative whose guard is shut. `_derivative_arrays`:
+    by a whole array's slot and size the stretches of it that have a `d/dt` (slot, count, guards, name).
+    `exhausted`: tests whether a CLEARN has run out of templates. `names`: scalars' names by slot, for messages.
+    """
 
     context: Context
     states: StateTable

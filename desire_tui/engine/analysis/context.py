@@ -35,7 +35,10 @@ PLACES_MOST = 4
 
 @dataclass
 class Argument:
-    """An argument of a FUNCTION being expanded: lowered at its first use, then shared by all uses."""
+    """An argument of a FUNCTION being expanded: lowered at its first use, then shared by all uses.
+
+    `outer` is the frame in which its text `node` stands.
+    """
 
     node: Expr
     outer: Frame
@@ -47,7 +50,12 @@ _NO_ARGUMENTS: Mapping[str, Argument] = {}
 
 
 class Frame(NamedTuple):
-    """How names read in the text being lowered: dummies stand for something else."""
+    """How names read in the text being lowered: dummies stand for something else.
+
+    `at` is the offset of the statement's raw text in the source; `rename` gives a submodel's dummies their
+    actual names, `arguments` a FUNCTION's its arguments. `invoked` are the places of the invocations and calls
+    that led here, the innermost last, `calls` the names of the FUNCTIONs among them.
+    """
 
     at: int
     rename: Mapping[str, str] = _NO_NAMES

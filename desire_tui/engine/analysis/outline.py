@@ -39,7 +39,8 @@ class Structure:
     None for a PROCEDURE's return. `inside`: per statement the innermost open `if`, `else`, loop or
     definition, −1 outside of all. `data`: places of the data statements. `segment_partner`: per segment (by
     its label) the same as `partner` for `if`, `else` and `end if` in its body; an `if` without `end if` has
-    none and rules the rest of the segment.
+    none and rules the rest of the segment. `labels` and `numbers` (of lines) give places; the definitions go
+    by name.
     """
 
     partner: dict[int, int] = field(default_factory=dict)

@@ -41,7 +41,13 @@ VARIABLE_ORDER = frozenset(range(9, 17))
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Everything a run needs to know before its first step; times in the program's unit."""
+    """Everything a run needs to know before its first step; times in the program's unit.
+
+    The run goes from `t0` to `t0` + `t_max` (TMAX) with communication points every `comint` = TMAX/(`nn` − 1).
+    `dt`, `dt_max`, `dt_min` are the first, largest and smallest step; `error_max` and `error_min` (ERMAX,
+    ERMIN) bound the test difference, of state number `checked` only (CHECKN; 0: of all). A sample is kept
+    every `every` communication points (MM). `scale` is the display's.
+    """
 
     rule: int
     t0: float
@@ -112,7 +118,7 @@ class Defaults:
         every = self._own(MM)
         return Plan(
             rule=rule, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
-            dt_max=self._or_default(DTMAX, comint, supply=step_rule),
+            dt_max=self._largest_step(rule, comint),
             dt_min=self._or_default(DTMIN, dt / 16 if step_rule else 0.0, supply=step_rule),
             error_max=error_max,
             error_min=self._or_default(ERMIN, error_max / 100, supply=step_rule),
@@ -158,6 +164,12 @@ class Defaults:
         if dt > comint * (1 + ROUNDING):
             raise _error("dt-above-comint", dt=dt, comint=comint)
         return dt
+
+    def _largest_step(self, rule: int, comint: float) -> float:
+        own = self._own(DTMAX)
+        if own is not None and rule in VARIABLE_STEP | VARIABLE_ORDER and not own >= 0.0:
+            raise _error("dtmax-not-positive", value=own)
+        return self._or_default(DTMAX, comint, supply=rule in VARIABLE_STEP)
 
     def _tolerance(self, rule: int) -> float:
         own = self._own(ERMAX)
