@@ -304,8 +304,8 @@ def test_ending_it_puts_everything_back(inside):
     worker.wait_for(
         lambda: session._world.runs.simulator.memory is not None and session._world.runs.start is not None
     )
-    worker.wait_for(lambda: session._world.runs.simulator.memory is not None and session.values.cells[0] > 0)
-    assert session.status.state is State.RUNNING
+    in_comparison = lambda: session.status.state is State.RUNNING and 0 < session.status.t < 0.001  # noqa: E731
+    worker.wait_for(in_comparison)
     session.end()
     worker.join()
     assert worker.error.diagnostics[0].code == 301

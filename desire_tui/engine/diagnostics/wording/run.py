@@ -34,6 +34,9 @@ MESSAGES: dict[str, Wording] = {
         "DT = {value:g}, but a step must go forward",
         "set DT above 0, or leave it out: it then is half of COMINT",
     ),
+    "dtmax-not-positive": Wording(
+        87, "DTMAX = {value:g} is no limit for steps", "set DTMAX above 0, or leave it out: it then is COMINT"
+    ),
     "nn-not-a-number": Wording(87, "NN = {value:g} is no number of samples", "set NN to 2 or more"),
     "ermax-missing": Wording(
         87,
