@@ -51,8 +51,8 @@ PROBLEMS = {
         lambda _, y: [[0, 1], [-2000 * y[0] * y[1] - 1, 1000 * (1 - y[0] ** 2)]],
         (2, 0), (2, 1300), 810, 1e-6,
     ),
-    "Prothero and Robinson": Problem(
-        lambda t, y: [-50 * (y[0] - cos(t)) - np.sin(t)], lambda _, __: [[-50]], (1,), (1,), 10, 1e-3
+    "forced decay": Problem(
+        lambda t, y: [-2 * y[0] + cos(5 * t)], lambda _, __: [[-2]], (1,), (1,), 10, 1e-3
     ),
 }  # fmt: skip
 
