@@ -24,7 +24,11 @@ def open_desktop(files: tuple[str, ...]) -> NoReturn:
         import asyncio  # noqa: F401 - here it must do without
     from desire_tui.app import DesireApp
 
-    sys.exit(DesireApp([Path(file) for file in files]).run())
+    status = DesireApp([Path(file) for file in files]).run()
+    patience = sys.modules.get("desire_tui.engine.interpreter.patience")
+    if patience is not None:
+        patience.leave_at_once(0)
+    sys.exit(status)
 
 
 def settle() -> None:

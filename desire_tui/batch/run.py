@@ -11,6 +11,7 @@ from desire_tui.batch.progress import Progress
 from desire_tui.batch.work import Orders, Work
 from desire_tui.engine.diagnostics import DesireError, render_all
 from desire_tui.engine.files import decoded, read_source
+from desire_tui.engine.interpreter import patience
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
@@ -83,6 +84,7 @@ def run_file(name: str, orders: Orders, wanted: Wanted, answers: str | None, *, 
         sys.stderr.write(f"{place.source.name}:{row}: stopped at STOP; --go continues\n")
     if work.abandoned or listener.reading.is_set():
         _leave_at_once(status)
+    patience.leave_at_once(status)
     return status
 
 

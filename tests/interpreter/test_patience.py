@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from threading import Event
 
 import numpy as np
@@ -123,3 +125,18 @@ def test_a_large_inverse_is_one() -> None:
     exact = np.minimum.outer(i, i) * (n + 1 - np.maximum.outer(i, i)) / (n + 1)
     np.testing.assert_allclose(values.view(values.names["B"]), exact, rtol=1e-9)
     np.testing.assert_allclose(values.view(values.names["C"]), np.eye(n), atol=1e-9)
+
+
+def test_a_process_is_left_while_something_goes_on() -> None:
+    """Its exit status and its output get out, though the operation would never end."""
+    code = (
+        "import sys; from threading import Event\n"
+        "from desire_tui.engine.interpreter.patience import *\n"
+        "def stop(): raise ValueError\n"
+        "leave_at_once(3)\n"  # nothing goes on yet
+        "try: patiently(LONG_WORK, Event().wait, stop)\n"
+        "except ValueError: print('broken off')\n"
+        "leave_at_once(7)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (7, "broken off\n", "")
