@@ -9,7 +9,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, Literal
 
-Kind = Literal["script", "DYNAMIC", "dialogue", "command", "variable", "function", "error"]
+Kind = Literal["script", "DYNAMIC", "dialogue", "command", "variable", "function", "desktop", "error"]
 """Where a topic belongs. `script` statements are commands too; `dialogue` ones talk to files or the user."""
 
 HEADINGS: dict[Kind, str] = {
@@ -19,6 +19,7 @@ HEADINGS: dict[Kind, str] = {
     "command": "command line",
     "variable": "system variable",
     "function": "library function",
+    "desktop": "desktop",
     "error": "message",
 }
 
@@ -36,6 +37,12 @@ class Topic:
     example: str = ""
     prints: str = ""
     see: tuple[str, ...] = ()
+    also: str = ""
+    """Words that people may search it by."""
+    leads: tuple[str, ...] = ()
+    """Words that lead here where no other page has them; not offered as words of a program."""
+    actions: tuple[str, ...] = ()
+    """Actions of the desktop that it is about."""
 
     @property
     def markdown(self) -> str:
@@ -72,34 +79,13 @@ def find(word: str) -> Topic | None:
     number = re.fullmatch(r"(?:error\s+)?(\d+)", wanted, re.IGNORECASE)
     if number:
         return topics().get(f"error {number[1]}")
-    return _exact().get(wanted) or _folded().get(wanted.casefold())
+    return _exact().get(wanted) or _folded().get(wanted.casefold()) or _desktop().get(wanted.casefold())
 
 
-def search(text: str) -> list[Topic]:
-    """Pages that hold every word of `text`, the likeliest first; all pages for an empty text."""
-    wanted = text.casefold().split()
-    ranked = [(rank, page) for page in topics().values() if (rank := _rank(page, wanted)) is not None]
-    return [page for _, page in sorted(ranked, key=lambda entry: entry[0])]
-
-
-def _rank(page: Topic, wanted: list[str]) -> int | None:
-    """0: a name; 1: begins a name; 2: in the summary; 3: somewhere; None: not all words occur."""
-    names = [word.casefold() for word in (page.name, *page.words)]
-    summary, body = page.summary.casefold(), page.markdown.casefold()
-    worst = 0
-    for word in wanted:
-        if word in names:
-            rank = 0
-        elif any(name.startswith(word) for name in names):
-            rank = 1
-        elif word in summary:
-            rank = 2
-        elif word in body:
-            rank = 3
-        else:
-            return None
-        worst = max(worst, rank)
-    return worst
+@cache
+def _desktop() -> dict[str, Topic]:
+    """Words of the command line that are no words of the language: `live`, `config`."""
+    return {word: page for page in topics().values() for word in page.leads}
 
 
 @cache
@@ -123,7 +109,7 @@ def _folded() -> dict[str, Topic]:
 def _written() -> list[Topic]:
     """Read the pages of `pages/*.toml`."""
     pages = []
-    for name in ("script", "runs", "dynamic", "vectors", "display", "files", "commands"):
+    for name in ("script", "runs", "dynamic", "vectors", "display", "files", "commands", "desktop"):
         pages += [_page(entry) for entry in tomllib.loads(_text_of(name))["page"]]
     return pages
 
@@ -144,6 +130,9 @@ def _page(entry: dict[str, Any]) -> Topic:
         example=entry.get("example", "").strip("\n"),
         prints=entry.get("prints", "").strip("\n"),
         see=tuple(entry.get("see", ())),
+        also=entry.get("also", ""),
+        leads=tuple(entry.get("leads", ())),
+        actions=tuple(entry.get("actions", ())),
     )
 
 

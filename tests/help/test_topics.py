@@ -6,6 +6,7 @@ from typing import get_args, get_type_hints
 
 import pytest
 
+from desire_tui.commands import COMMANDS
 from desire_tui.engine import nodes
 from desire_tui.engine.diagnostics.wording import all_wordings
 from desire_tui.help import find, search, topics
@@ -16,7 +17,9 @@ ALIASES = {"zz": "erun", "rld": "reload", "quit": "bye", "old": "load", "MACRO":
 
 def keywords() -> list[str]:
     """Every word that the syntax tree knows as the beginning of a statement."""
-    words = list(get_args(nodes.Word)) + list(get_args(get_type_hints(nodes.FileCommand, localns=vars(nodes))["word"]))
+    words = list(get_args(nodes.Word)) + list(
+        get_args(get_type_hints(nodes.FileCommand, localns=vars(nodes))["word"])
+    )
     for cls in (nodes.Declare, nodes.Request, nodes.Learn):
         words += get_args(get_type_hints(cls, localns=vars(nodes))["kind"])
     return sorted(set(words) - {"compare"})
@@ -47,7 +50,7 @@ def test_links_lead_somewhere():
 def test_a_page_says_what_it_is_about(page):
     assert page.summary
     assert page.markdown.startswith(f"# {page.name}\n")
-    assert page.kind == "error" or page.syntax
+    assert page.kind in ("error", "desktop") or page.syntax
     assert all(find(word) is not None for word in page.words)
 
 
@@ -61,5 +64,44 @@ def test_every_error_number_has_a_page():
 def test_search_puts_names_before_mentions():
     assert search("drun")[0].name == "drun"
     assert search("integration rule")[0].name == "irule"
-    assert search("no such word anywhere") == []
+    assert search("zqxj") == []
     assert len(search("")) == len(topics())
+
+
+@pytest.mark.parametrize(
+    ("text", "first"),
+    [
+        ("sin", "sin"), ("ERMAX", "ERMAX"), ("ermax", "ERMAX"), ("error 94", "error 94"), ("94", "error 94"),
+        ("phase plane", "dispxy"), ("phase portrait", "dispxy"), ("initial condition", "d/dt"), ("step size", "DT"),
+        ("loops", "for"), ("color", "display"), ("colour", "display"), ("how to stop a run", "running programs"),
+        ("slider", "live mode"), ("zoom", "the graph"), ("breakpoints", "stepping and breakpoints"),
+        ("undefined variable", "error 200"), ("subroutine", "PROCEDURE"), ("Runge-Kutta", "irule"), ("stiff", "irule"),
+        ("monte carlo", "SEED"), ("fourier", "FFT"), ("save csv", "pictures and data"), ("crash", "files and tabs"),
+    ],
+)  # fmt: skip
+def test_search_finds_what_is_meant(text, first):
+    assert search(text)[0].name == first
+
+
+@pytest.mark.parametrize(
+    ("misspelt", "meant"),
+    [("TMXA", "TMAX"), ("dispyx", "dispxy"), ("irul", "irule"), ("sqare root", "sqrt"), ("vektor", "Vector"),
+     ("ERMXA", "ERMAX"), ("PROCEDRE", "PROCEDURE"), ("integrashun", "irule"), ("notebok", "notebook")],
+)  # fmt: skip
+def test_search_forgives_misspelling(misspelt, meant):
+    assert meant in [page.name for page in search(misspelt)[:2]]
+
+
+def test_where_no_page_has_all_words_those_with_most_come():
+    assert search("irule zqxj")[0].name == "irule"
+
+
+def test_every_action_of_the_desktop_has_a_page_and_every_word_of_the_command_line_leads_to_one():
+    told = [action for page in topics().values() for action in page.actions]
+    assert sorted(set(told)) == sorted(command.id for command in COMMANDS)
+    words = {word for command in COMMANDS for word in command.words} - {
+        "keys"
+    }  # a page that the pane makes itself
+    assert [word for word in words if find(word) is None] == []
+    for command in COMMANDS:
+        assert any(command.id in page.actions for page in search(command.title)), command.title
