@@ -49,7 +49,7 @@ class Builder:
     of a display and a type request. By states (slot, count): `derivative_paths` the guards around each of
     their `d/dt` lines, `_held` the numbers that keep a derivative whose guard is shut. `_derivative_arrays`:
     by a whole array's slot and size the stretches of it that have a `d/dt` (slot, count, guards, name).
-    `exhausted`: tests whether a CLEARN has run out of templates. `names`: scalars' names by slot, for messages.
+    `exhausted`: tests whether a CLEARN has run out of templates. `names`: scalars by slot, for messages.
     """
 
     context: Context

@@ -53,8 +53,8 @@ class Frame(NamedTuple):
     """How names read in the text being lowered: dummies stand for something else.
 
     `at` is the offset of the statement's raw text in the source; `rename` gives a submodel's dummies their
-    actual names, `arguments` a FUNCTION's its arguments. `invoked` are the places of the invocations and calls
-    that led here, the innermost last, `calls` the names of the FUNCTIONs among them.
+    actual names, `arguments` a FUNCTION's its arguments. `invoked` are the places of the invocations and
+    calls that led here, the innermost last, `calls` the names of the FUNCTIONs among them.
     """
 
     at: int

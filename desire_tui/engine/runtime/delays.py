@@ -6,7 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.lowered import Const, DelayLine, Load, Op, Set
+from desire_tui.engine.library import LIBRARY, func1
+from desire_tui.engine.lowered import Const, DelayLine, Load, Op, Set, Table1
 from desire_tui.engine.runtime.faults import actions
 from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP
 from desire_tui.engine.values import DT
@@ -26,11 +27,8 @@ _OPERATIONS: dict[str, Callable[..., float]] = {
     "neg": lambda a: -a,
     "pow": math.pow,
     "ipow": math.pow,
-    "abs": abs,
-    "sqrt": lambda a: math.sqrt(a) if a >= 0 else math.nan,
-    "max": max,
-    "min": min,
 }
+"""What is no library function."""
 
 
 class Delays:
@@ -70,16 +68,21 @@ def _lags(
 
 
 def _evaluate(value: Value, values: Values) -> float:
+    """Return a time; nan where it has none, which is then refused."""
     match value:
         case Const():
             return value.value
         case Load():
             return values.cells[value.slot]
-        case Op() if value.name in _OPERATIONS:
-            try:
-                return float(_OPERATIONS[value.name](*(_evaluate(a, values) for a in value.args)))
-            except (OverflowError, ValueError):
-                return math.nan
+        case Table1():
+            return func1(_evaluate(value.x, values), values.cells[value.slot : value.slot + 2 * value.count])
+        case Op():
+            function = _OPERATIONS.get(value.name) or LIBRARY[value.name].value
+            if function is not None:  # ran() and gauss() have none: a time that is drawn is no time
+                try:
+                    return float(function(*(_evaluate(a, values) for a in value.args)))  # type: ignore[arg-type]
+                except (ArithmeticError, ValueError):
+                    return math.nan
     return math.nan
 
 

@@ -43,10 +43,10 @@ VARIABLE_ORDER = frozenset(range(9, 17))
 class Plan:
     """Everything a run needs to know before its first step; times in the program's unit.
 
-    The run goes from `t0` to `t0` + `t_max` (TMAX) with communication points every `comint` = TMAX/(`nn` − 1).
-    `dt`, `dt_max`, `dt_min` are the first, largest and smallest step; `error_max` and `error_min` (ERMAX,
-    ERMIN) bound the test difference, of state number `checked` only (CHECKN; 0: of all). A sample is kept
-    every `every` communication points (MM). `scale` is the display's.
+    The run goes from `t0` to `t0` + `t_max` (TMAX), with `nn` communication points `comint` apart, of which
+    every `every`-th gives a sample (MM). `dt`, `dt_max`, `dt_min` are the first, largest and smallest step;
+    `error_max` and `error_min` (ERMAX, ERMIN) bound the test difference, of state number `checked` only
+    (CHECKN; 0: of all). `scale` is the display's.
     """
 
     rule: int
