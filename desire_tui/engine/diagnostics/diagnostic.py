@@ -62,6 +62,17 @@ class DesireError(Exception):
         super().__init__(*(d.key for d in diagnostics))
         self.diagnostics = diagnostics
 
+    def placed(self, span: Span, source: Source | None) -> DesireError:
+        """Return the error with problems that have no place of their own placed here."""
+        if all(d.span is not None for d in self.diagnostics):
+            return self
+        return DesireError(
+            *(
+                d if d.span is not None else replace(d, span=span, source=d.source or source)
+                for d in self.diagnostics
+            )
+        )
+
     def __str__(self) -> str:
         return "; ".join(f"error {d.code}: {d.message}" for d in self.diagnostics)
 

@@ -6,7 +6,6 @@ the traceback itself says which part of a statement failed: that costs nothing w
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -75,7 +74,7 @@ def explain(
     `call` lines of the PROCEDUREs being executed, the innermost first.
     """
     if isinstance(error, DesireError):
-        return _placed_error(error, placed, source)
+        return error.placed(placed.span(), source)
     node: Node | None = None
     reached = placed, source
     found = _deepest(error.__traceback__)
@@ -97,18 +96,6 @@ def explain(
     ways = [reached, *callers] if reached[0] is not placed else [*callers]
     related = tuple(Diagnostic("reached-from-here", p.span(), {}, s) for p, s in ways)
     return DesireError(Diagnostic(key, span, facts, source, related=related))
-
-
-def _placed_error(error: DesireError, placed: Placed, source: Source | None) -> DesireError:
-    """Give a problem from the host its place, unless it has one."""
-    if all(d.span is not None for d in error.diagnostics):
-        return error
-    return DesireError(
-        *(
-            d if d.span is not None else replace(d, span=placed.span(), source=d.source or source)
-            for d in error.diagnostics
-        )
-    )
 
 
 def _key_of(error: Exception, node: Node | None) -> tuple[str, dict[str, object]]:

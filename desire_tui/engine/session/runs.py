@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.runtime.record import RunRecord
 from desire_tui.engine.runtime.run import Simulator
@@ -69,7 +69,7 @@ class Runs:
         try:
             segment = desk.segments.lowered(program, structure, label, rule)
         except DesireError as error:
-            raise _placed_at(error, desk, placed) from None
+            raise error.placed(placed.span(), desk.source_of(placed)) from None
         if segment.recover:
             segment = desk.segments.recovering(segment, desk.stash_path)
         start = self._situation()
@@ -95,7 +95,7 @@ class Runs:
         except DesireError as error:
             record.ended = "failed"
             record.message = record.message or error.diagnostics[0].message
-            raise _placed_at(error, desk, placed) from None
+            raise error.placed(placed.span(), desk.source_of(placed)) from None
         finally:
             desk.journal.run_ended(record, desk.overrides)
             self._listener.run_ended(record)
@@ -149,16 +149,3 @@ class Runs:
             self.start.put_back(self._values, self.simulator)
         else:
             self.simulator.reset()
-
-
-def _placed_at(error: DesireError, desk: Desk, placed: Placed) -> DesireError:
-    """Place problems that have no place of their own at the drun."""
-    source = desk.source_of(placed)
-    return DesireError(
-        *(
-            d
-            if d.span is not None
-            else Diagnostic(d.key, placed.span(), d.facts, source, d.severity, d.related)
-            for d in error.diagnostics
-        )
-    )
