@@ -124,8 +124,8 @@ class Builder:
         """
         while self.guards:
             self._close()
-        for number, watched in enumerate(self.exhausted, self.terms):
-            watched.number = number  # type: ignore[misc]  # frozen for the type checker only
+        for term, watched in enumerate(self.exhausted, self.terms):
+            watched.number = term  # type: ignore[misc]  # frozen for the type checker only
         self.body += self.exhausted
         for (slot, count), (held, where) in self._held.items():
             number = self.states.number(slot)
@@ -174,9 +174,7 @@ class Builder:
         if number is None:
             return
         if not self.guards:
-            self.body.append(
-                DerivVec(number, count, value, where) if array else Deriv(number, value, where)
-            )
+            self.body.append(DerivVec(number, count, value, where) if array else Deriv(number, value, where))
             return
         held = self._held.get((slot, count))
         if held is None:
