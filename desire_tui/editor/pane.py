@@ -308,16 +308,17 @@ class EditorPane(Vertical):
 
     def _tell_place(self) -> None:
         row, column = self.front.cursor_location
-        self.query_one("#place", Label).update(f"{row + 1}:{column + 1}")
+        place, text = self.query_one("#place", Label), f"{row + 1}:{column + 1}"
+        place.update(text, layout=len(text) != len(str(place.content)))  # this happens at each key
         label = self.query_one("#problem", Label)
         marks = self.front.marks.problems.get(row, [])
         mark = next((m for m in marks if m.start <= column <= m.end), marks[0] if marks else None)
         if mark is not None:
-            label.update(f" {mark.text}")
+            label.update(f" {mark.text}", layout=False)
         elif count := sum(map(len, self.front.marks.problems.values())):
-            label.update(f" {count} problem{'s' if count > 1 else ''} · F8")
+            label.update(f" {count} problem{'s' if count > 1 else ''} · F8", layout=False)
         else:
-            label.update("")
+            label.update("", layout=False)
         label.set_class(mark is not None and mark.style == "error", "-error")
         label.tooltip = mark.text if mark else None
 

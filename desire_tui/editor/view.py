@@ -3,7 +3,8 @@
 TextArea's internals are overridden in few places, each named here: `_build_highlight_map` (colours without
 tree-sitter), `_set_document` (shared lines, no wrapping tables), `edit` / `_undo_batch` / `_redo_batch`
 (other views follow), `render_line` (gutter marks), `_refresh_size` (the width is not measured anew at each
-key), `find_matching_bracket` (near the cursor only).
+key), `find_matching_bracket` (near the cursor only), `selection` and `_watch_selection` (only the rows
+concerned are drawn again: TextArea sends all that is seen of the text at each key, 20 KB).
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 from textual.document._document_navigator import DocumentNavigator
-from textual.geometry import Size
+from textual.geometry import Region, Size
+from textual.reactive import Reactive, reactive
 from textual.strip import Strip
 from textual.widgets import TextArea
 from textual.widgets.text_area import Selection
@@ -32,7 +34,6 @@ if TYPE_CHECKING:
 
     from textual.document._document import EditResult, Location
     from textual.document._edit import Edit
-    from textual.geometry import Region
 
 GUTTER_SIGNS = {
     "error": ("✖", "#f4737b"),
@@ -46,6 +47,7 @@ class ProgramView(TextArea):
     """Shows a program's lines with marks and colours. `views` are all views of the same lines, itself too."""
 
     document: Lines
+    selection: Reactive[Selection] = reactive(Selection(), init=False, always_update=True, repaint=False)
 
     def __init__(self, text: str, twin: ProgramView | None = None) -> None:
         self.marks: Marks = twin.marks if twin else Marks()
@@ -120,6 +122,7 @@ class ProgramView(TextArea):
         self._build_highlight_map()
         self.move_cursor((0, 0))
         self._rewrap_and_refresh_virtual_size()
+        self.refresh()
 
     def part(self) -> None:
         """Leave the other views alone with the lines."""
@@ -139,16 +142,41 @@ class ProgramView(TextArea):
     def edit(self, edit: Edit) -> EditResult:
         """Carry out an edit."""
         self.marks.problems.pop(edit.top[0], None)
+        lines = self.document.line_count
         with self._changing():
-            return super().edit(edit)
+            result = super().edit(edit)
+        if self.document.line_count == lines:
+            self._refresh_rows(edit.top[0], max(edit.bottom[0], result.end_location[0]))
+        else:
+            self.refresh()
+        return result
 
     def _undo_batch(self, edits: Sequence[Edit]) -> None:
         with self._changing():
             super()._undo_batch(edits)
+        self.refresh()
 
     def _redo_batch(self, edits: Sequence[Edit]) -> None:
         with self._changing():
             super()._redo_batch(edits)
+        self.refresh()
+
+    def _watch_selection(self, previous_selection: Selection, selection: Selection) -> None:
+        bracket = self._matching_bracket_location
+        super()._watch_selection(previous_selection, selection)
+        for places in (previous_selection, selection):
+            (top, _), (bottom, _) = sorted(places)
+            self._refresh_rows(top, bottom)
+        for place in (bracket, self._matching_bracket_location):
+            if place is not None:
+                self._refresh_rows(place[0], place[0])
+
+    def _refresh_rows(self, top: int, bottom: int) -> None:
+        """Draw rows `top … bottom` of the text again, as far as they are seen."""
+        first = max(top - self.scroll_offset.y, 0)
+        last = min(bottom - self.scroll_offset.y, self.size.height - 1)
+        if first <= last:
+            self.refresh(Region(0, first, self.size.width, last - first + 1))
 
     @contextmanager
     def _changing(self) -> Iterator[None]:
