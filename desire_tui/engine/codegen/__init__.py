@@ -4,7 +4,8 @@
 
     statements, vectors … → `text`: LLVM IR as strings      (`expressions`, `functions`, `draws`, `lanes`)
     a pass (`analysis.slices`) → `pieces` of 100 statements → `store` → `compiler` (llvmlite)
-    `driver` + `variable`: the run loop of language.md 8.2, written once over a `Storage`:
+    `driver` over a `loopframe`, its steps `fixed` or `variable`: the run loop of language.md 8.2, written
+    once over a `Storage`:
         `registers` small models of scalars: states, parameters and passes in one function
         `arrays`    all others: tables of compiled pieces, one loop for all models of a rule
     `model`: quick code first, fast code from `background`, bitwise the same results
