@@ -143,13 +143,43 @@ def test_after_drunr_and_after_a_changed_parameter():
     assert value(session, "a") == 50
 
 
-def test_only_samples_at_one_time_are_compared():
-    """DT = 0.3: samples of rule 1 stand at 0, 1.2, 2.1, 3 …; those of rule 4 at whole times."""
-    _, table = compare(DECAY.format(tmax=10, dt=0.3, nn=11), "compare rule 4")
+@pytest.mark.parametrize("order", ["rule 1 first", "rule 4 first"])
+def test_samples_that_stand_at_different_times(order):
+    """DT = 0.3: samples of rule 1 stand at 0, 1.2, 2.1, 3, 4.2 …, those of rule 4 at whole times.
+
+    Rule 4 is compared at the times of rule 1: x = 0.745^k after k steps against exp(-0.3*k).
+    """
+    text = "ERMAX = 1E-8 | " + DECAY.format(tmax=10, dt=0.3, nn=11).replace(
+        "DT = 0.3", "DT = 0.3 | DTMIN = 1E-9"
+    )
+    if order == "rule 4 first":
+        session, first = compare("irule 4\n" + text, "compare rule 1")
+    else:
+        session, first = compare(text, "compare rule 4")
+    largest, at, *ends = rows(first)["x"]
+    steps = np.array([0, 4, 7, 10, 14, 17, 20, 24, 27, 30, 34])
+    differences = np.abs(0.745**steps - np.exp(-0.3 * steps))
+    assert largest == pytest.approx(differences.max(), rel=1e-5)
+    assert at == pytest.approx(0.3 * steps[differences.argmax()])
+    assert sorted(ends) == pytest.approx(sorted([0.745**34, np.exp(-10)]), rel=1e-4)
+    assert "the last samples stand at t = 10" in first[-1]
+    assert len(session.runs) == 1
+
+
+def test_a_finer_step_is_compared_at_the_coarser_ones_samples():
+    _, table = compare(DECAY.format(tmax=10, dt=0.3, nn=11), "compare DT 0.1")
+    steps = np.array([0, 4, 7, 10, 14, 17, 20, 24, 27, 30, 34])
+    differences = np.abs(0.745**steps - 0.905 ** (3 * steps))
+    assert rows(table)["x"][0] == pytest.approx(differences.max(), rel=1e-5)
+
+
+def test_only_samples_at_one_time_are_compared_where_code_runs_at_samples():
+    """A count in OUT must not be repeated at other times: 0, 3, 6, 9 are common."""
+    text = DECAY.format(tmax=10, dt=0.3, nn=11).replace("x = 1\n", "x = 1 | n = 0\n") + "OUT\nn = n + 1\n"
+    _, table = compare(text, "compare rule 4")
     largest, at, *_ = rows(table)["x"]
-    heun_step = 1 - 0.3 + 0.045
     assert at in (3, 6, 9)
-    assert largest == pytest.approx(abs(heun_step**10 - np.exp(-3)), rel=0.05)
+    assert largest == pytest.approx(abs(0.745**10 - np.exp(-3)), rel=0.05)
     assert table[-2:] == [
         "the last samples stand at t = 10.2 and t = 10",
         "7 of 11 samples stand at different times and are not compared: let TMAX/(NN - 1) be a multiple of DT",

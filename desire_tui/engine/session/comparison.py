@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import ceil
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from desire_tui.engine.analysis.slices import full_pass, is_pure
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.runtime.record import RunRecord
+from desire_tui.engine.session.differences import needs_steps_of, table
 from desire_tui.engine.values import DT, ERMAX
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from desire_tui.engine.session.desk import Desk
     from desire_tui.engine.session.session import Session
     from desire_tui.engine.session.world import World
 
 RULES = (*range(6), *range(7, 17))
-_SAME_TIME = 1e-6
-"""Of COMINT: samples so near stand at one time."""
 
 
 @dataclass(frozen=True)
@@ -73,14 +70,41 @@ def compare_runs(session: Session, world: World, desk: Desk, change: Change) -> 
         raise DesireError(Diagnostic("compare-changed"))
     with world.runs.restored():
         other = _repeat(world, desk, last, change)
+        sampled = _sampled_alike(world, desk, last, other, change)
     page = session.graphs.compare((last, other))
     if page is not None:
         world.graph_changed(page)
-    return _table(last, other, change)
+    return table(last, other, change.named, sampled)
 
 
-def _repeat(world: World, desk: Desk, last: RunRecord, change: Change) -> RunRecord:
-    """Run from where the last run began."""
+def _sampled_alike(
+    world: World, desk: Desk, one: RunRecord, other: RunRecord, change: Change
+) -> tuple[RunRecord, RunRecord]:
+    """Return the runs, or where their samples stand at different times one of them made again.
+
+    A fixed step is never shortened and samples come a little late; a run of the other kind is then made with
+    samples at all those steps. Not where anything but samples happens at communication points.
+    """
+    again = needs_steps_of(one, other)
+    if again is None:
+        return one, other
+    program, script = desk.runnable()
+    segment = desk.segments.lowered(program, script, one.segment, other.rule)
+    if not is_pure(full_pass(segment)):
+        return one, other
+    repeated, spacing = again
+    try:
+        if repeated is one:
+            return _repeat(world, desk, one, Change(), spacing), other
+        return one, _repeat(world, desk, one, change, spacing)
+    except DesireError:
+        return one, other  # the runs themselves came to their ends: that is enough to tell
+
+
+def _repeat(
+    world: World, desk: Desk, last: RunRecord, change: Change, spacing: float | None = None
+) -> RunRecord:
+    """Run from where the last run began; with `spacing`, samples stand that far apart."""
     is_exact = world.runs.start is not None
     world.runs.go_back()
     rule = last.rule if change.rule is None else change.rule
@@ -95,6 +119,11 @@ def _repeat(world: World, desk: Desk, last: RunRecord, change: Change) -> RunRec
         if value is not None:
             desk.values.assign(slot, value)
     plan = world.runs.simulator.defaults.plan(segment, rule, desk.source, None)
+    if spacing is not None:
+        steps = ceil(plan.t_max / spacing * (1 - 1e-9))
+        plan = replace(
+            plan, nn=steps + 1, t_max=steps * spacing, comint=spacing, dt=min(plan.dt, spacing), every=1
+        )
     record = RunRecord(
         number=0, segment=last.segment, line=0, requests=segment.requests, columns=segment.columns,
         overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn,
@@ -112,51 +141,6 @@ def _repeat(world: World, desk: Desk, last: RunRecord, change: Change) -> RunRec
     if not finished:
         raise Interrupted
     return record
-
-
-def _table(one: RunRecord, other: RunRecord, change: Change) -> str:
-    """Differences at the samples that both runs took (fixed-step rules may take theirs a little late)."""
-    first, second = change.named(one), change.named(other)
-    width = max(15, len(first) + 2, len(second) + 2)
-    at_one, at_other = _common(one, other)
-    lines = [f"{first}: {one.steps} steps, {second}: {other.steps} steps"]
-    lines.append(f"{'':12s}{'largest':>14s}{'at t':>13s}{first:>{width}s}{second:>{width}s}")
-    for name in dict.fromkeys(column.name for column in one.columns):
-        a, b = one.values(name), other.values(name)
-        difference = np.abs(a[at_one] - b[at_other])
-        at = int(np.nanargmax(difference)) if not np.isnan(difference).all() else 0
-        t, ends = one.t[at_one][at], f"{a[-1]:{width}.8g}{b[-1]:{width}.8g}"
-        lines.append(f"{name:12s}{difference[at]:14.6g}{t:13.6g}{ends}")
-    lines += _remarks(one, other, len(at_one))
-    return "\n".join(lines) + "\n"
-
-
-def _remarks(one: RunRecord, other: RunRecord, compared: int) -> list[str]:
-    lines = []
-    ends = one.t[-1], other.t[-1]
-    comint = one.t_max / (one.nn - 1)
-    if abs(ends[0] - ends[1]) > _SAME_TIME * comint:
-        lines.append(f"the last samples stand at t = {ends[0]:.6g} and t = {ends[1]:.6g}")
-    count = min(one.count, other.count)
-    if compared < count:
-        lines.append(
-            f"{count - compared} of {count} samples stand at different times and are not compared: "
-            "let TMAX/(NN - 1) be a multiple of DT"
-        )
-    if other.message:
-        lines.append(other.message)
-    return lines
-
-
-def _common(one: RunRecord, other: RunRecord) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the rows of both runs that stand at the same times."""
-    a, b = one.t, other.t
-    near = np.clip(np.searchsorted(b, a), 1, max(len(b) - 1, 1))
-    near = np.minimum(near, len(b) - 1)
-    below = np.maximum(near - 1, 0)
-    nearest = np.where(np.abs(b[below] - a) <= np.abs(b[near] - a), below, near)
-    same = np.abs(b[nearest] - a) <= _SAME_TIME * one.t_max / (one.nn - 1)
-    return np.flatnonzero(same), nearest[same]
 
 
 class _Deaf:
