@@ -1,8 +1,10 @@
-"""The desktop, measured through a pseudo-terminal as a user meets it. `python -m benchmarks.bench_tui`
+"""The desktop, measured through a pseudo-terminal as a user meets it. `python -m benchmarks.bench_tui [RUNS]`
 
-Prints a table: time until the desktop is ready, first dot after `zz`, frames a second, kilobytes a frame,
-key echo during a run with 12 curves (median, worst), the same with a terminal that reads 200 KB/s only,
-and the time to leave.
+Prints a table, medians of RUNS (default 3): time until the desktop is ready — a key typed as soon as there is
+something to see stands on the screen —, first dot of a curve after `zz` and Enter, frames a second, kilobytes
+a frame, key echo during a run with 12 curves (median, worst), the same with a terminal that reads 200 KB/s
+only, and the time to leave. Then keys typed into the middle of a program of 1,000 lines: until a key is seen,
+and the app's own work for it (processor time of all its threads).
 """
 
 from __future__ import annotations
@@ -14,10 +16,15 @@ import statistics
 import sys
 import tempfile
 import time
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pexpect
 import pyte
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 ROOT = Path(__file__).parents[1]
 COLUMNS, ROWS = 120, 40
@@ -26,6 +33,7 @@ ENOUGH_SECONDS = 60.0
 SETTLE_SECONDS = 2.0
 """Between the first picture and `zz`: nobody types faster, and the engine is imported meanwhile."""
 KEYS = 40
+RUNS = 3
 SLOW_BYTES_PER_SECOND = 200_000
 DOT = re.compile(rb"\xe2[\xa0-\xa3][\x80-\xbf]")
 """A braille pattern, U+2800 … U+28FF, in UTF-8."""
@@ -103,6 +111,32 @@ class Reader:
         return data
 
     @property
+    def work(self) -> float:
+        """Processor seconds of the app so far; nan where there is no /proc."""
+        try:
+            text = Path(f"/proc/{self.child.pid}/stat").read_text(encoding="ascii")
+        except OSError:
+            return float("nan")
+        user, system = text.rsplit(")", 1)[1].split()[11:13]
+        return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+
+    def settle(self, seconds: float) -> None:
+        """Read for so long."""
+        end = time.perf_counter() + seconds
+        while time.perf_counter() < end:
+            self.read(0.05)
+
+    def leave(self) -> float:
+        """Press Ctrl+Q; returns the seconds until the process is gone."""
+        left = time.perf_counter()
+        self.child.send("\x11")
+        while self.child.isalive() and time.perf_counter() - left < 20:
+            self.read(0.05, draw=False)
+        away = time.perf_counter() - left
+        self.child.close(force=True)
+        return away
+
+    @property
     def prompt(self) -> str:
         """The row of the command line."""
         return self.screen.display[ROWS - 2]
@@ -135,26 +169,37 @@ def echo_times(reader: Reader) -> list[float]:
     return times
 
 
-def measure(curves: int, bytes_per_second: float | None = None) -> dict[str, float]:
-    """Run one desktop through its paces."""
-    with tempfile.TemporaryDirectory(prefix="desire-bench-") as name:
-        folder = Path(name)
-        (folder / "waves.src").write_text(lasting(curves, ENOUGH_SECONDS))
+@contextmanager
+def folder_with(name: str, text: str) -> Iterator[Path]:
+    """Make a folder with a program and a configuration: no lists of words over what is typed."""
+    with tempfile.TemporaryDirectory(prefix="desire-bench-") as path:
+        folder = Path(path)
+        (folder / name).write_text(text)
         (folder / "config" / "desire-tui").mkdir(parents=True)
         (folder / "config" / "desire-tui" / "config.toml").write_text("completion_after = 0\n")
+        yield folder
+
+
+def measure(text: str, bytes_per_second: float | None = None) -> dict[str, float]:
+    """Run one desktop through its paces."""
+    with folder_with("waves.src", text) as folder:
         reader = Reader(folder, "waves.src", bytes_per_second)
-        ready = reader.until("waves.src") - reader.started
-        settle = time.perf_counter() + SETTLE_SECONDS
-        while time.perf_counter() < settle:
-            reader.read(0.1)
+        reader.until("waves.src")
+        reader.child.send("k")
+        while "> k" not in reader.prompt:
+            reader.read(0.2)
+        ready = time.perf_counter() - reader.started
+        reader.child.send("\x7f")
+        reader.settle(SETTLE_SECONDS)
         reader.child.send("zz")
         reader.until("> zz")
         sent = time.perf_counter()
         reader.child.send("\r")
-        seen = b""
-        while not DOT.search(seen):
-            seen = (seen + reader.read(0.5))[-1 << 16 :]
+        seen = [b""]
+        while not DOT.search(seen[-2][-2:] + seen[-1] if len(seen) > 1 else seen[-1]):
+            seen.append(reader.read(0.5, draw=False))  # pyte, slower than a terminal, looks afterwards
         first = time.perf_counter() - sent
+        reader.stream.feed(b"".join(seen))
         reader.until("running")
         reader.bytes, began = 0, time.perf_counter()
         unseen = []  # pyte is slower than a terminal: it looks at the frames afterwards
@@ -165,35 +210,80 @@ def measure(curves: int, bytes_per_second: float | None = None) -> dict[str, flo
         kilobytes = reader.bytes / max(frames, 1) / 1000
         reader.stream.feed(b"".join(unseen))
         echo = echo_times(reader)
-        left = time.perf_counter()
-        reader.child.send("\x11")
-        while reader.child.isalive() and time.perf_counter() - left < 20:
-            reader.read(0.05, draw=False)
-        away = time.perf_counter() - left
-        reader.child.close(force=True)
+        away = reader.leave()
     return {
         "ready s": ready, "first dot s": first, "frames/s": frames / elapsed, "KB/frame": kilobytes,
         "echo median ms": 1000 * statistics.median(echo), "echo worst ms": 1000 * max(echo), "exit s": away,
     }  # fmt: skip
 
 
+def long_program() -> str:
+    """Return a ladder of 1,000 lines; line 500 is there to be typed into."""
+    lines = ["TMAX = 1 | DT = 0.001 | NN = 11", "drun", "DYNAMIC"]
+    lines += [f"d/dt x{n} = -x{n} + 0.5*x{max(n - 1, 1)}" for n in range(1, 997)]
+    lines.insert(499, "here = ")
+    return "\n".join([*lines, ""])
+
+
+def measure_editor() -> dict[str, float]:
+    """Type into the middle of a long program."""
+    with folder_with("long.src", long_program()) as folder:
+        reader = Reader(folder, "long.src")
+        reader.until("long.src")
+        reader.settle(SETTLE_SECONDS)
+        reader.child.send("line 500\r")
+        reader.until("here =")
+        for key in ("\x1be", "\x1b[F"):  # to the editor, to the line's end
+            reader.child.send(key)
+            reader.settle(0.3)
+        reader.settle(SETTLE_SECONDS)
+        work, times, typed = reader.work, [], ""
+        for number in range(KEYS):
+            typed += "abcdefghij"[number % 10]
+            sent = time.perf_counter()
+            reader.child.send(typed[-1])
+            while f"here = {typed}" not in "\n".join(reader.screen.display):
+                reader.read(0.2)
+            times.append(time.perf_counter() - sent)
+            reader.settle(0.1)
+        work = reader.work - work
+        reader.child.kill(9)
+        reader.child.close(force=True)
+    return {
+        "key median ms": 1000 * statistics.median(times), "key worst ms": 1000 * max(times),
+        "work a key ms": 1000 * work / KEYS,
+    }  # fmt: skip
+
+
 WANTED = {
     "ready s": "≤ 0.6", "first dot s": "≤ 0.1", "frames/s": "≥ 20", "KB/frame": "≤ 6",
     "echo median ms": "≤ 50", "echo worst ms": "≤ 150", "exit s": "≤ 1",
+    "key median ms": "≤ 50", "key worst ms": "≤ 150", "work a key ms": "≤ 12",
 }  # fmt: skip
 
 
 def main() -> None:
     """Print the table."""
+    runs = int(sys.argv[1]) if len(sys.argv) > 1 else RUNS
     cases = {"4 curves": (4, None), "12 curves": (12, None), "12, 200 KB/s": (12, SLOW_BYTES_PER_SECOND)}
-    results = {name: measure(*case) for name, case in cases.items()}
+    texts = {curves: lasting(curves, ENOUGH_SECONDS) for curves in (4, 12)}
+    results: dict[str, list[dict[str, float]]] = {name: [] for name in (*cases, "1,000 lines")}
+    for _ in range(runs):
+        for name, (curves, rate) in cases.items():
+            results[name].append(measure(texts[curves], rate))
+        results["1,000 lines"].append(measure_editor())
     load = os.getloadavg()[0]
     print(
-        f"The desktop at {COLUMNS}×{ROWS} through a pseudo-terminal ({os.cpu_count()} cores, load {load:.1f})"
+        f"The desktop at {COLUMNS}×{ROWS} through a pseudo-terminal, medians of {runs} "
+        f"({os.cpu_count()} cores, load {load:.1f})"
     )
     print(f"{'':16s}{'wanted':>10s}" + "".join(f"{name:>15s}" for name in results))
     for key, wanted in WANTED.items():
-        print(f"{key:16s}{wanted:>10s}" + "".join(f"{result[key]:15.3g}" for result in results.values()))
+        row = (
+            f"{statistics.median(one[key] for one in all_of):15.3g}" if key in all_of[0] else " " * 15
+            for all_of in results.values()
+        )
+        print(f"{key:16s}{wanted:>10s}" + "".join(row))
 
 
 if __name__ == "__main__":
