@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import prod
-
 from desire_tui.engine.analysis import lower, state_order
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse
@@ -15,7 +13,7 @@ def source(text: str) -> Source:
 
 
 def segment(body: str, *, functions: str = "", label: str | None = None, **names: object):
-    """Lower `body`. Names are numbers, or shapes (tuples) of arrays; `x_` prefixes are as they are."""
+    """Lower `body`. Names are numbers, or shapes (tuples) of arrays."""
     program = parse(source(f"{functions}\nDYNAMIC\n{body}"))
     assert not program.problems, [d.message for d in program.problems]
     values = Values()
@@ -27,8 +25,3 @@ def segment(body: str, *, functions: str = "", label: str | None = None, **names
         else:
             values.assign(values.scalar(name).slot, float(value))
     return lower(program, label, values), values
-
-
-def fill(values: Values, name: str, numbers) -> None:
-    quantity = values.find(name)
-    values.data[quantity.slot : quantity.slot + prod(quantity.shape)] = numbers

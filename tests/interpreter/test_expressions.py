@@ -16,10 +16,6 @@ NAMES = {"x": 0.75, "y": -2.5, "z": 3.0, "big": 1e150}
 FUNCTIONS = ["sin", "cos", "sat", "lim", "deadz", "swtch", "sgn", "abs", "tanh", "sqrt", "ln", "exp", "tri", "round"]
 
 
-class Fails(Exception):
-    pass
-
-
 def leaf():
     numbers = st.floats(0, 100, allow_subnormal=False).map(lambda v: (repr(v), v))
     names = st.sampled_from([*NAMES.items()])
