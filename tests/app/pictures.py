@@ -25,16 +25,17 @@ Made by `make pictures` from the table in `desire_tui/commands.py`. Keys can be 
 
 async def main() -> None:
     """Play every scene and keep its last picture."""
-    from .scenes import SCENES, app_for, play
+    from .scenes import PICTURES, app_for, play
+    from .svg import tidy
 
     FOLDER.mkdir(parents=True, exist_ok=True)
     KEYS.write_text(keys_page())
-    for scene in SCENES:
+    for scene in PICTURES:
         with tempfile.TemporaryDirectory() as name:
             app = app_for(scene, Path(name))
             async with app.run_test(size=scene.size) as pilot:
                 await play(app, pilot, scene)
-                (FOLDER / f"{scene.name}.svg").write_text(app.export_screenshot(title="Desire"))
+                (FOLDER / f"{scene.name}.svg").write_text(tidy(app.export_screenshot(title="Desire")))
         print(FOLDER / f"{scene.name}.svg")  # noqa: T201 - a tool of the command line
 
 

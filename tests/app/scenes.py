@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.app import DesireApp
@@ -11,7 +12,6 @@ from .conftest import until
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from textual.pilot import Pilot
 
@@ -46,6 +46,7 @@ class Scene:
     theme: str = "dark"
     run: bool = True
     words: tuple[str, ...] = field(default=())
+    file: str = "step.src"
 
 
 SCENES = (
@@ -57,6 +58,13 @@ SCENES = (
     Scene("help-160x50", (160, 50), words=("help",)),
     Scene("live-100x30", (100, 30), words=("live",)),
 )
+EPIDEMIC = (Path(__file__).parents[2] / "examples" / "ch2" / "epidemic.src").read_text()
+PICTURES = (
+    *SCENES,
+    Scene("desktop-120x34", (120, 34), ("alt+q", "down"), text=EPIDEMIC, file="epidemic.src"),
+    Scene("examples-110x34", (110, 34), (*"servo",), run=False, words=("examples",)),
+)
+"""What docs show; a program of the examples may change without any snapshot being wrong."""
 
 
 async def play(app: DesireApp, pilot: Pilot[None], scene: Scene) -> None:
@@ -69,10 +77,12 @@ async def play(app: DesireApp, pilot: Pilot[None], scene: Scene) -> None:
     if scene.run:
         await pilot.press("f5")
         await until(pilot, lambda: not app.engine.is_busy)
-    for step in scene.steps:
+    for step in scene.steps if "examples" not in scene.words else ():
         await pilot.press(step)
     for word in scene.words:
         match word:
+            case "examples":
+                await show_examples(app, pilot, scene)
             case "help":
                 app.do("help.word", "dispxy")
             case "live":
@@ -84,9 +94,21 @@ async def play(app: DesireApp, pilot: Pilot[None], scene: Scene) -> None:
     await pilot.pause(0.2)
 
 
+async def show_examples(app: DesireApp, pilot: Pilot[None], scene: Scene) -> None:
+    """Open the browser, type the steps, wait for the picture."""
+    from desire_tui.panes.examples import ExamplesScreen
+    from desire_tui.panes.thumbnail import Thumbnail
+
+    app.do("file.examples")
+    await until(pilot, lambda: isinstance(app.screen, ExamplesScreen))
+    for step in scene.steps:
+        await pilot.press(step)
+    await until(pilot, lambda: app.screen.query_one(Thumbnail).graph is not None)
+
+
 def app_for(scene: Scene, folder: Path) -> DesireApp:
     """Return an app with the scene's program in a file; the speed of a run, never twice the same, is not shown."""
-    path = folder / "step.src"
+    path = folder / scene.file
     path.write_text(scene.text)
     app = DesireApp([path])
     app.show_status = lambda: None  # type: ignore[method-assign]
