@@ -9,8 +9,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from desire_tui.commands import BY_ID
 from desire_tui.help import topics
 from desire_tui.help.examples import CHAPTERS, Example, examples
+from desire_tui.panes.keynames import key_names
 from tests.programs.coverage import markdown as tested_where
 
 if TYPE_CHECKING:
@@ -25,6 +27,11 @@ NOTE = "<!-- made by python -m docs.generate; edit the tables it reads, not this
 GALLERY = """\
 {count} programs, one for every system of the book and more. Open them with F11 in the app, or by name:
 `desire examples/ch2/lorenz.src`. The `--?` lines say what they must show; a test holds them to it."""
+
+DESKTOP = """\
+![The desktop](pictures/main-160x50.svg)
+
+All keys in one table, and how to change them: [keys](keys.md)."""
 
 
 def statements() -> str:
@@ -63,6 +70,23 @@ def _section(page: Topic) -> str:
     return "\n\n".join([f"### {page.name}", *rest])
 
 
+def desktop() -> str:
+    """Return what the desktop does beyond the language, with its keys."""
+    parts = ["# The desktop", NOTE, DESKTOP]
+    for page in topics().values():
+        if page.kind != "desktop":
+            continue
+        text = page.markdown.partition("\n\nSee also")[0].partition("\n\n")[2]
+        parts.append(f"## {page.name.capitalize()}\n\n" + text.replace("*desktop*: ", "", 1).rstrip())
+        rows = [
+            f"| {key_names(BY_ID[name].keys)} | {BY_ID[name].title} | {BY_ID[name].help} |"
+            for name in page.actions
+        ]
+        if rows:
+            parts.append("\n".join(("| key | action | |", "| --- | --- | --- |", *rows)))
+    return "\n\n".join(parts) + "\n"
+
+
 def gallery() -> str:
     """Every example with what it shows, and pictures of some."""
     every = examples(EXAMPLES)
@@ -92,6 +116,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "statements.md": statements,
     "functions.md": functions,
     "errors.md": errors,
+    "desktop.md": desktop,
     "examples.md": gallery,
     "coverage.md": coverage,
 }
