@@ -5,10 +5,10 @@ from C; 5,000 states of a heat equation 50 times faster than with a dense matrix
 `python -m benchmarks.bench_stiff`.
 
 All report the same 11 equidistant points, all but CVODE's two differenced runs get the exact Jacobian, and
-all get `rtol = tol` with `atol = tol` times the state's largest magnitude: what Desire's weights are once
-that magnitude has been reached, before it (and by rtol·|y| always) laxer for the others. Two comparisons:
-*asked for 1e-6*, tol = 1e-6 for all; *got 1e-6*, each with the largest power of ten that brings all states
-at all points within 1e-6 of their largest magnitudes of a solution by Radau at 1e-12.
+all get `rtol = tol` with `atol = tol` times the state's largest magnitude: what Desire's ERMAX is related to
+once that magnitude has been reached; before it (and by rtol·|y| always) laxer for the others. Two comparisons:
+*got 1e-6*, each with the largest of 1e-4, 3e-5, 1e-5 … that brings all states at all points within 1e-6 of
+their largest magnitudes of a solution by Radau at 1e-12; *asked for 1e-6*, tol = 1e-6 for all.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from desire_tui.engine.codegen.stiff_library import fast_functions
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session import Listener, Session
 
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 from desire_tui.engine.source import Source
 
 POINTS = 11
-TOLERANCES = tuple(10.0**-k for k in range(4, 13))
+TOLERANCES = tuple(float(f"{digit}e-{k}") for k in range(5, 13) for digit in (10, 3))
 GOAL = 1e-6
 DENSE_SECONDS = 90.0
 
@@ -111,12 +112,16 @@ def points(case: Case) -> NDArray[np.float64]:
     return np.linspace(0.0, case.t_end, POINTS)
 
 
-def desire(case: Case, tol: float, rule: int, repeats: int = 100) -> Outcome:
-    """Best of the runs' own times: all that `drun` does."""
+def desire(case: Case, tol: float, rule: int, repeats: int = 200) -> Outcome:
+    """Best of the runs' own times, once the fast code is in: all that `drun` does."""
     text = case.program.format(rule=rule, ermax=tol, dt=case.dt, t_end=case.t_end, repeats=repeats)
+    source = Source(text, case.name)
+    fast_functions(len(case.start), own=True)
     session = Session(Listener())
     try:
-        session.erun(Source(text, case.name))
+        session.erun(source)
+        time.sleep(0.3)  # the model's own fast code
+        session.erun(source)
     except DesireError:
         return float("inf"), None
     return min(run.seconds for run in session.runs), session.runs[-1].rows[:POINTS, 1:]
@@ -272,13 +277,13 @@ def compare(case: Case) -> None:
     ).y.T  # fmt: skip
     runs = {name: {} for name in SOLVERS}
     for name, solver in SOLVERS.items():
-        for tol in TOLERANCES:
-            if tol == TOLERANCES[0] or all(e > GOAL for _, e in runs[name].values()):
+        for tol in sorted({*TOLERANCES, GOAL}, reverse=True):
+            if tol == GOAL or all(e > GOAL for _, e in runs[name].values()):
                 seconds, rows = solver(case, tol)
                 runs[name][tol] = seconds, error(case, rows, reference)
     for title, choose in (
-        ("asked for 1e-6", lambda _: TOLERANCES[0]),
         ("got 1e-6", coarsest_that_got_there),
+        ("asked for 1e-6", lambda _: GOAL),
     ):
         print(f"\n{case.name}, {title}:{'tol':>24s} {'error':>9s} {'ms':>9s}   times rule 14, rule 15")
         own = [runs[f"desire, rule {rule}"][choose(runs[f"desire, rule {rule}"])] for rule in (14, 15)]

@@ -30,7 +30,9 @@ if TYPE_CHECKING:
 BLOCK_SECONDS = 0.02
 """How long a block of samples should take: short enough to look alive, long enough to cost nothing."""
 BLOCK_FIRST = 1
-"""Samples of the first block: a curve is seen at once, however slow. The next may be 8 times as long."""
+"""Samples of the first block: a curve is seen at once, however slow."""
+BLOCK_GROWTH = 64
+"""A block may have so many times the samples of the one before it, if that was quick."""
 ROWS_BYTES_MAX = 1 << 30
 """Samples one run may keep: 10 million of 12 variables."""
 PICTURES_BYTES_MAX = 1 << 28
@@ -147,7 +149,7 @@ class Simulator:
             elif ended is not Ended.RUNNING:
                 return ended
             else:
-                block = max(1.0, min(block * 8, block * BLOCK_SECONDS / max(took, 1e-6)))
+                block = max(1.0, min(block * BLOCK_GROWTH, block * BLOCK_SECONDS / max(took, 1e-6)))
 
     def _settle(
         self, segment: Segment, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord

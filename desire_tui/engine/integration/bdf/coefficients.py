@@ -12,6 +12,13 @@ from desire_tui.engine.integration.bdf.memory import ORDER_MOST, Bdf
 def set_coefficients(s: Bdf) -> None:
     """Set `l`, the tests' `tq` and gamma for order and step size [cvSetBDF, cvSetTqBDF]."""
     l, tau, tq, q, h = s.l, s.tau, s.tq, s.order, s.h  # noqa: E741 - the literature's letter
+    equal = 1
+    for j in range(1, q):
+        equal = equal and tau[j] == h
+    if equal and s.l_order == q and s.l_h == h and s.wait != 1:
+        return  # all steps that matter were equal, and are
+    s.l_order = q if equal else 0
+    s.l_h = h
     l[0] = 1.0
     l[1] = 1.0
     for i in range(2, q + 1):
@@ -120,6 +127,7 @@ def lower_order(s: Bdf) -> None:
 
 def change_order(s: Bdf, change: int) -> None:
     """Go one order up or down [cvAdjustOrder]; from 2 down nothing must be taken out."""
+    s.l_order = 0  # `l` is used for other things here
     if change == 1:
         raise_order(s)
     if change == -1 and s.order > 2:

@@ -54,6 +54,7 @@ class Bdf(ctypes.Structure):
         ("wait", _INT),  # [qwait]: steps until another order is considered
         ("tau", _REAL * (ROWS + 1)),  # the last steps' sizes
         ("l", _REAL * (ROWS + 1)),  # coefficients of the corrector
+        ("l_order", _INT), ("l_h", _REAL),  # what `l` was made for: so many equal steps of this size
         ("tq", _REAL * 6),  # constants of the error tests
         ("tq5_kept", _REAL),  # [saved_tq5]
         ("gamma", _REAL), ("gamma_factored", _REAL),  # [gamma, gammap]

@@ -51,6 +51,7 @@ def restart(s: Bdf, t: float, h_first: float) -> None:
     s.ratio_most = _RATIO_FIRST
     s.h_last = 0.0
     s.tq5_kept = 0.0
+    s.l_order = 0
     s.rate = 1.0
 
 
@@ -293,7 +294,7 @@ def choose(s: Bdf, error: float) -> None:
         s.h_next = s.h
         s.ratio = 1.0
         return
-    same = 1.0 / ((_BIAS_SAME * error) ** (1.0 / (q + 1)) + _ADDED)
+    same = growth(_BIAS_SAME * error, q + 1)
     if s.wait != 0:
         settle(s, same)
         return
@@ -301,9 +302,9 @@ def choose(s: Bdf, error: float) -> None:
     down = 0.0
     up = 0.0
     if q > 1:
-        down = 1.0 / ((_BIAS_DOWN * size(s, q) * s.tq[1]) ** (1.0 / q) + _ADDED)
+        down = growth(_BIAS_DOWN * size(s, q) * s.tq[1], q)
     if q != ORDER_MOST and s.tq5_kept != 0.0:
-        up = 1.0 / ((_BIAS_UP * rise(s) * s.tq[3]) ** (1.0 / (q + 2)) + _ADDED)
+        up = growth(_BIAS_UP * rise(s) * s.tq[3], q + 2)
     best = max(down, same, up)
     if best < _RATIO_WORTH_WHILE:
         settle(s, best)
@@ -315,6 +316,19 @@ def choose(s: Bdf, error: float) -> None:
             s.order_next = q + 1
             keep_correction(s)
     settle(s, best)
+
+
+def growth(error: float, root: int) -> float:
+    """Return the ratio by which a step may grow; 1 in place of one that would not be worth while.
+
+    A root costs as much as all else in the choice: most need not be taken.
+    """
+    bound = 1.0
+    for _ in range(root):
+        bound *= 1.0 / _RATIO_WORTH_WHILE
+    if error > bound:
+        return 1.0
+    return 1.0 / (error ** (1.0 / root) + _ADDED)
 
 
 def rise(s: Bdf) -> float:
