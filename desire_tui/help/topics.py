@@ -178,11 +178,12 @@ def _errors() -> list[Topic]:
 
 
 def _error_page(code: int, messages: list[tuple[str, str, str]]) -> Topic:
+    messages = sorted(messages, key=lambda message: not message[2])  # what is explained is the usual case
     plain = list(dict.fromkeys(_readable(message) for message, _, _ in messages))
     paragraphs: list[str] = []
     for message, hint, explanation in messages:
         heading = f"**{_readable(message)}**" if len(plain) > 1 else ""
-        paragraphs += [heading, f"Hint: {_readable(hint)}." if hint else "", explanation]
+        paragraphs += [heading, _sentence(hint) if hint else "", explanation]
     text = "\n\n".join(dict.fromkeys(part for part in paragraphs if part))
     return Topic(
         name=f"error {code}",
@@ -190,6 +191,11 @@ def _error_page(code: int, messages: list[tuple[str, str, str]]) -> Topic:
         summary=plain[0] + (", and others" if len(plain) > 1 else ""),
         text=text,
     )
+
+
+def _sentence(hint: str) -> str:
+    text = f"Hint: {_readable(hint)}"
+    return text if text.endswith("?") else f"{text}."
 
 
 def _readable(template: str) -> str:

@@ -61,6 +61,15 @@ def test_every_error_number_has_a_page():
         assert page.kind == "error"
 
 
+def test_an_error_page_begins_with_the_usual_case_and_its_hints_are_sentences():
+    assert find("200").summary.startswith("undefined variable")
+    ends = [
+        line[-2:] for page in topics().values() for line in page.text.split("\n") if line.startswith("Hint: ")
+    ]
+    assert len(ends) > 200
+    assert [end for end in ends if end[-1] not in ".?" or end in ("?.", "..")] == []
+
+
 def test_search_puts_names_before_mentions():
     assert search("drun")[0].name == "drun"
     assert search("integration rule")[0].name == "irule"
