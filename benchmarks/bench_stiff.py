@@ -6,7 +6,7 @@ from C; 5,000 states of a heat equation 50 times faster than with a dense matrix
 
 All report the same 11 equidistant points, all but CVODE's two differenced runs get the exact Jacobian, and
 all get `rtol = tol` with `atol = tol` times the state's largest magnitude: what Desire's ERMAX is related to
-once that magnitude has been reached; before it (and by rtol·|y| always) laxer for the others. Two comparisons:
+once that magnitude has been reached; before it (and by rtol·|y| always) laxer for the others. Compared are
 *got 1e-6*, each with the largest of 1e-4, 3e-5, 1e-5 … that brings all states at all points within 1e-6 of
 their largest magnitudes of a solution by Radau at 1e-12; *asked for 1e-6*, tol = 1e-6 for all.
 """
