@@ -37,10 +37,15 @@ class LineHighlights(dict[int, "list[Range]"]):
     def __bool__(self) -> bool:
         return self.document is not None
 
+    @staticmethod
+    def are_on() -> bool:
+        """Whether there are colours: not before the engine is imported."""
+        return _ENGINE in sys.modules
+
     def __missing__(self, row: int) -> list[Range]:
         assert self.document is not None
         line = self.document.get_line(row)
-        ranges = list(_colours(line)) if len(line) <= LINE_MAX and _ENGINE in sys.modules else []
+        ranges = list(_colours(line)) if len(line) <= LINE_MAX and self.are_on() else []
         for mark in self.marks.get(row, ()):
             start = min(mark.start, max(len(line) - 1, 0))
             end = max(mark.end, start + 1)

@@ -308,19 +308,26 @@ class EditorPane(Vertical):
 
     def _tell_place(self) -> None:
         row, column = self.front.cursor_location
-        place, text = self.query_one("#place", Label), f"{row + 1}:{column + 1}"
-        place.update(text, layout=len(text) != len(str(place.content)))  # this happens at each key
-        label = self.query_one("#problem", Label)
-        marks = self.front.marks.problems.get(row, [])
+        problems = self.front.marks.problems
+        marks = problems.get(row, [])
         mark = next((m for m in marks if m.start <= column <= m.end), marks[0] if marks else None)
         if mark is not None:
-            label.update(f" {mark.text}", layout=False)
-        elif count := sum(map(len, self.front.marks.problems.values())):
-            label.update(f" {count} problem{'s' if count > 1 else ''} · F8", layout=False)
+            sentence = f" {mark.text}"
+        elif count := sum(map(len, problems.values())):
+            sentence = f" {count} problem{'s' if count > 1 else ''} · F8"
         else:
-            label.update("", layout=False)
+            sentence = ""
+        self._tell("#place", f"{row + 1}:{column + 1}")
+        label = self._tell("#problem", sentence)
         label.set_class(mark is not None and mark.style == "error", "-error")
         label.tooltip = mark.text if mark else None
+
+    def _tell(self, place: str, text: str) -> Label:
+        """Show a text in the row below; a key that changes nothing there draws nothing, lays out nothing."""
+        label = self.query_one(place, Label)
+        if (before := str(label.content)) != text:
+            label.update(text, layout=place == "#place" and len(before) != len(text))
+        return label
 
     def on_click(self, event: object) -> None:
         """Press the OK button, or bring the text that was clicked to the front."""

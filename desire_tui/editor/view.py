@@ -2,9 +2,8 @@
 
 TextArea's internals are overridden in few places, each named here: `_build_highlight_map` (colours without
 tree-sitter), `_set_document` (shared lines, no wrapping tables), `edit` / `_undo_batch` / `_redo_batch`
-(other views follow), `render_line` (gutter marks), `_refresh_size` (the width is not measured anew at each
-key), `find_matching_bracket` (near the cursor only), `selection` and `_watch_selection` (only the rows
-concerned are drawn again: TextArea sends all that is seen of the text at each key, 20 KB).
+(other views follow), `render_line` and `refresh` (gutter marks; only rows that look otherwise than before are
+drawn), `_refresh_size` (no measuring, no layout at each key), `find_matching_bracket` (near the cursor only).
 """
 
 from __future__ import annotations
@@ -15,9 +14,9 @@ from typing import TYPE_CHECKING
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
+from textual.cache import LRUCache
 from textual.document._document_navigator import DocumentNavigator
 from textual.geometry import Region, Size
-from textual.reactive import Reactive, reactive
 from textual.strip import Strip
 from textual.widgets import TextArea
 from textual.widgets.text_area import Selection
@@ -31,6 +30,7 @@ from desire_tui.editor.unwrapped import UnwrappedDocument
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+    from typing import Self
 
     from textual.document._document import EditResult, Location
     from textual.document._edit import Edit
@@ -43,11 +43,18 @@ GUTTER_SIGNS = {
 }
 
 
+ROWS_KEPT = 1024
+"""So many drawn rows are kept: what a key does not change is not drawn again."""
+
+
+WIDTH_STEP = 16
+"""The width of the text grows by so much, so that not every letter of the longest line changes it."""
+
+
 class ProgramView(TextArea):
     """Shows a program's lines with marks and colours. `views` are all views of the same lines, itself too."""
 
     document: Lines
-    selection: Reactive[Selection] = reactive(Selection(), init=False, always_update=True, repaint=False)
 
     def __init__(self, text: str, twin: ProgramView | None = None) -> None:
         self.marks: Marks = twin.marks if twin else Marks()
@@ -56,6 +63,11 @@ class ProgramView(TextArea):
         self._rows_moved = 0
         self._width_most = 0
         self._text: str | None = None
+        self._drawn: LRUCache[tuple[object, ...], Strip] = LRUCache(ROWS_KEPT)
+        self._shown: dict[int, tuple[object, ...]] = {}
+        """How each row of the window looked when it was drawn."""
+        self._common: tuple[object, ...] = ()
+        self._is_due = False
         super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
         self._highlights = LineHighlights()
         self.indent_width = indent.WIDTH
@@ -95,7 +107,6 @@ class ProgramView(TextArea):
 
     def _build_highlight_map(self) -> None:
         self._text = None
-        self._line_cache.clear()
         highlights = self._highlights
         highlights.clear()
         if isinstance(
@@ -122,7 +133,6 @@ class ProgramView(TextArea):
         self._build_highlight_map()
         self.move_cursor((0, 0))
         self._rewrap_and_refresh_virtual_size()
-        self.refresh()
 
     def part(self) -> None:
         """Leave the other views alone with the lines."""
@@ -142,41 +152,16 @@ class ProgramView(TextArea):
     def edit(self, edit: Edit) -> EditResult:
         """Carry out an edit."""
         self.marks.problems.pop(edit.top[0], None)
-        lines = self.document.line_count
         with self._changing():
-            result = super().edit(edit)
-        if self.document.line_count == lines:
-            self._refresh_rows(edit.top[0], max(edit.bottom[0], result.end_location[0]))
-        else:
-            self.refresh()
-        return result
+            return super().edit(edit)
 
     def _undo_batch(self, edits: Sequence[Edit]) -> None:
         with self._changing():
             super()._undo_batch(edits)
-        self.refresh()
 
     def _redo_batch(self, edits: Sequence[Edit]) -> None:
         with self._changing():
             super()._redo_batch(edits)
-        self.refresh()
-
-    def _watch_selection(self, previous_selection: Selection, selection: Selection) -> None:
-        bracket = self._matching_bracket_location
-        super()._watch_selection(previous_selection, selection)
-        for places in (previous_selection, selection):
-            (top, _), (bottom, _) = sorted(places)
-            self._refresh_rows(top, bottom)
-        for place in (bracket, self._matching_bracket_location):
-            if place is not None:
-                self._refresh_rows(place[0], place[0])
-
-    def _refresh_rows(self, top: int, bottom: int) -> None:
-        """Draw rows `top … bottom` of the text again, as far as they are seen."""
-        first = max(top - self.scroll_offset.y, 0)
-        last = min(bottom - self.scroll_offset.y, self.size.height - 1)
-        if first <= last:
-            self.refresh(Region(0, first, self.size.width, last - first + 1))
 
     @contextmanager
     def _changing(self) -> Iterator[None]:
@@ -210,21 +195,80 @@ class ProgramView(TextArea):
         self.refresh()
 
     def _refresh_size(self) -> None:
-        width = self._width_most + self.gutter_width + 1
-        self.virtual_size = Size(width, self.document.line_count)
+        width = -(-(self._width_most + self.gutter_width + 1) // WIDTH_STEP) * WIDTH_STEP
+        size = Size(width, self.document.line_count)
+        if size == self.virtual_size:
+            return
+        self.set_reactive(ProgramView.virtual_size, size)  # no new layout of the whole desktop
+        self._scroll_update(size)
         self._refresh_scrollbars()
+
+    def refresh(
+        self, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False
+    ) -> Self:
+        """Draw again: the regions, or the rows that no longer look as they are shown."""
+        if regions or layout or recompose or not repaint or not self._shown:
+            return super().refresh(*regions, repaint=repaint, layout=layout, recompose=recompose)
+        if not self._is_due:
+            self._is_due = True
+            self.call_next(self._refresh_rows)  # after all that the key does
+        return self
+
+    def _refresh_rows(self) -> None:
+        self._is_due = False
+        top, width, shown = self.scroll_offset.y, self.size.width, self._shown
+        common = self._common_looks()
+        rows = [y for y in range(self.size.height) if self._looks(top + y, common) != shown.get(y)]
+        if rows:
+            super().refresh(*(Region(0, y, width, 1) for y in rows))
 
     def render_lines(self, crop: Region) -> list[Strip]:
         """Draw rows; blank ones before the style sheet was applied (a tab opened as a dialog closes)."""
         if not self._component_styles:
             return [Strip.blank(crop.width)] * crop.height
-        return super().render_lines(crop)
+        common = self._common_looks()
+        if common != self._common:
+            self._common = common
+            if self._theme:
+                self._theme.apply_css(self)
+        return super(TextArea, self).render_lines(crop)
 
     def render_line(self, y: int) -> Strip:
-        """Draw a row, with its mark in the gutter."""
-        strip = super().render_line(y)
+        """Draw a row, with its mark in the gutter; rows that look as before are kept."""
         row = y + self.scroll_offset.y
-        sign = self._sign(row)
+        looks = self._shown[y] = self._looks(row, self._common)
+        strip = self._drawn.get(looks)
+        if strip is None:
+            strip = self._drawn[looks] = self._signed(self._render_line(y), self._sign(row))
+        return strip
+
+    def _common_looks(self) -> tuple[object, ...]:
+        """Return what the looks of all rows depend on."""
+        return (
+            self.size.width, max(self.virtual_size.width, self.size.width), self.gutter_width,
+            self.scroll_offset.x, self.theme, self.rich_style, self.has_focus, LineHighlights.are_on(),
+        )  # fmt: skip
+
+    def _looks(self, row: int, common: tuple[object, ...]) -> tuple[object, ...]:
+        """Return all that a row's looks depend on."""
+        if row >= self.document.line_count:
+            return common
+        (top, left), (bottom, right) = sorted(self.selection)
+        selected = None
+        if top <= row <= bottom:
+            selected = (left if row == top else -1, right if row == bottom else -1, top == bottom)
+        cursor = None
+        bracket = self._matching_bracket_location
+        if self.cursor_location[0] == row:
+            cursor = (self._draw_cursor, self.cursor_location, bracket is not None)
+        partner_here = bracket if bracket is not None and bracket[0] == row else None
+        problems = tuple(self.marks.problems.get(row, ()))
+        return (
+            common, row, self.document.get_line(row), self._sign(row), problems, selected, cursor,
+            partner_here,
+        )  # fmt: skip
+
+    def _signed(self, strip: Strip, sign: str | None) -> Strip:
         if sign is None:
             return strip
         character, colour = GUTTER_SIGNS[sign]

@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from textual import events
+from textual.screen import Screen
+from textual.widgets import TextArea
 
 from desire_tui.editor.brackets import partner
 from desire_tui.editor.document import Lines, follow
@@ -319,3 +321,58 @@ async def test_a_breakpoint_set_while_the_script_runs_stops_it(program):
         assert desk.app.engine.is_busy
         await desk.press("shift+f10")
         await desk.idle()
+
+
+# ---------------------------------------------------------------------------------------------------- drawing
+
+
+def shown(desk) -> list[list[tuple[str, object]]]:
+    """Return what the screen holds, with styles."""
+    return [[(s.text, s.style) for s in strip.simplify()] for strip in desk.app.screen._compositor.render_strips()]
+
+
+async def test_what_is_drawn_row_by_row_is_what_a_new_drawing_gives(program, monkeypatch):
+    """Only rows that changed are drawn; whatever is done, none may be forgotten."""
+    monkeypatch.setattr("desire_tui.editor.pane.CHECK_AFTER_S", 1e6)  # nothing comes by itself between two looks
+    text = "".join(f"y{n} = sin({n})*(x + 0.5) -- line {n}\n" for n in range(100))
+    async with desktop(program(text)) as desk:
+        desk.app.settings.completion_after = 0
+        area = desk.app.editor.front
+        area.focus()
+        area.cursor_blink = False
+        for keys in (
+            ["x"], ["enter"], ["backspace", "backspace"], ["right"] * 4, ["pagedown"], ["shift+down", "shift+right"], ["tab"],
+            ["ctrl+z"], ["ctrl+underscore"], ["f9"], ["end"], ["Y"] * 70, ["home"], ["ctrl+end"], ["ctrl+home"], ["ctrl+l"],
+            ["alt+e"], ["alt+t"], ["ctrl+a"], ["left"], ["alt+v"], ["q"], ["ctrl+backslash"], ["ctrl+f"], ["6"], ["escape"],
+        ):  # fmt: skip
+            await desk.press(*keys)
+            await desk.pilot.pause()
+            before = shown(desk)
+            for view in area.views:
+                view._drawn.clear()
+                view._shown.clear()  # all of it is drawn now
+                view._common = ()
+                view.refresh()
+            await desk.pilot.pause()
+            assert shown(desk) == before, keys
+
+
+async def test_a_key_draws_its_row_and_lays_out_nothing(program, monkeypatch):
+    text = "".join(f"y{n} = sin({n})*x + 0.5 -- line {n}\n" for n in range(1000))
+    async with desktop(program(text)) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        area.go_to(500, 3)
+        await desk.press("a")
+        await desk.until(lambda: area.marks.problems)
+        await desk.pilot.pause(0.1)
+        drawn, laid_out = [], []
+        draw, lay_out = TextArea._render_line, Screen._refresh_layout
+        monkeypatch.setattr(TextArea, "_render_line", lambda view, y: (drawn.append(y), draw(view, y))[1])
+        monkeypatch.setattr(
+            Screen, "_refresh_layout", lambda screen, *args, **more: (laid_out.append(1), lay_out(screen, *args, **more))[1]
+        )
+        await desk.press("b", "c", "d")
+        await desk.pilot.pause(0.05)
+        assert 0 < len(drawn) <= 6  # a row, perhaps again with its cursor
+        assert not laid_out
