@@ -89,6 +89,10 @@ def run(file: str, **options: Any) -> None:
     Console text goes to standard output, problems to standard error. Exit status: 0 done, 1 the program
     failed, 2 wrong usage, 3 stopped by a limit or Ctrl-C.
     """
+    sys.exit(_guarded(lambda: _run(file, **options)))
+
+
+def _run(file: str, **options: Any) -> int:
     from desire_tui.batch.outputs import Wanted
     from desire_tui.batch.run import run_file
     from desire_tui.batch.work import Orders
@@ -101,16 +105,20 @@ def run(file: str, **options: Any) -> None:
         backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
     )  # fmt: skip
     wanted = Wanted(**{kind: options[kind] for kind in kinds}, plot=options["plot"])
-    sys.exit(_guarded(lambda: run_file(file, orders, wanted, options["answers"], quiet=options["quiet"])))
+    return run_file(file, orders, wanted, options["answers"], quiet=options["quiet"])
 
 
 @main.command()
 @click.argument("files", nargs=-1, required=True)
 def check(files: tuple[str, ...]) -> None:
     """Report the problems of programs without running them. Exit status: 0 none, 1 errors."""
-    from desire_tui.batch.run import check_files
 
-    sys.exit(_guarded(lambda: check_files(files)))
+    def work() -> int:
+        from desire_tui.batch.run import check_files
+
+        return check_files(files)
+
+    sys.exit(_guarded(work))
 
 
 @main.command()

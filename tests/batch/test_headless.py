@@ -366,6 +366,23 @@ def test_ctrl_c_ends_with_status_3(tmp_path):
     assert "Traceback" not in err
 
 
+@pytest.mark.parametrize("module", ["click", "numpy", "desire_tui.batch.run", "desire_tui.engine.session"])
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_ctrl_c_while_the_program_is_still_loading(decay, command, module):
+    """The moment is made certain: loading a module of the way raises what Ctrl-C raises."""
+    code = (
+        "import sys\nclass Finder:\n  def find_spec(self, name, path=None, target=None):\n"
+        f"    if name == {module!r}: raise KeyboardInterrupt\n"
+        "sys.meta_path.insert(0, Finder())\nfrom desire_tui.__main__ import main\n"
+        f"main([{command!r}, {str(decay)!r}])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert (done.returncode, done.stdout, done.stderr) == (3, "", "stopped by the user\n")
+
+
 def test_ctrl_c_while_waiting_for_input(tmp_path):
     path = tmp_path / "ask.src"
     path.write_text("write 'started'\ninput x\n")
