@@ -124,7 +124,7 @@ class DesireApp(Shell):
         for number in (signal.SIGTERM, signal.SIGHUP):
             if threading.current_thread() is threading.main_thread():
                 asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
-        self.theme_changed_signal.subscribe(self.desk, lambda _: self.editor.follow_theme())
+        self.theme_changed_signal.subscribe(self.desk, lambda _: self.follow_theme())
         self.call_later(self._show)
 
     def _show(self) -> None:

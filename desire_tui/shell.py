@@ -155,6 +155,11 @@ class Shell(App[None]):
             self.desk.query_one(ProblemsPane).show(self.editor.areas)
         )
 
+    def follow_theme(self) -> None:
+        """Take over the colours of a new theme where they are not CSS's."""
+        self.editor.follow_theme()
+        self.list_problems()
+
     def snapshot_written(self, path: Path) -> None:
         """Tell where the picture is."""
         self.command.console.add(f"{path}", "notice")

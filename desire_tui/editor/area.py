@@ -25,7 +25,8 @@ class CodeArea(ProgramView):
     CodeArea { border: none; padding: 0; height: 1fr; width: 1fr; scrollbar-size-vertical: 1;
                scrollbar-size-horizontal: 0; }
     CodeArea:focus { border: none; }
-    CodeArea .text-area--gutter { color: $foreground 50%; }
+    CodeArea .text-area--gutter { color: $foreground 70%; }
+    CodeArea .text-area--cursor-gutter { color: $foreground; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("shift+tab", "shift_lines(-1)", "Dedent", show=False),

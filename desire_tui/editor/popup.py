@@ -64,7 +64,7 @@ class CompletionPopup(OptionList):
         width = min(word_width + longest + 3, screen.width - 2, 72)
         self.clear_options()
         self.add_options(
-            Option(Text.assemble((f"{o.word:<{word_width}}", "bold"), (o.about, "dim"), no_wrap=True))
+            Option(Text.assemble((f"{o.word:<{word_width}}", "bold"), f"{o.about}", no_wrap=True))
             for o in found
         )
         rows = min(len(found), ROWS_MAX)

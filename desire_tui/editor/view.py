@@ -36,11 +36,12 @@ if TYPE_CHECKING:
     from textual.document._edit import Edit
 
 GUTTER_SIGNS = {
-    "error": ("✖", "#f4737b"),
-    "warning": ("▲", "#e5c07b"),
-    "break": ("●", "#f4737b"),
-    "trace": ("▶", "#7fc97f"),
+    "error": ("✖", "error"),
+    "warning": ("▲", "warning"),
+    "break": ("●", "error"),
+    "trace": ("▶", "success"),
 }
+"""Signs, each with the colour of the theme it is drawn in."""
 
 
 ROWS_KEPT = 1024
@@ -275,6 +276,7 @@ class ProgramView(TextArea):
         width = self.gutter_width
         left, right = strip.crop(0, width - 1), strip.crop(width)
         style = next(iter(left), Segment("")).style or Style()
+        colour = str(getattr(self.app.current_theme, colour))
         mark = Strip([Segment(character, style + Style(color=colour, bold=True))], 1)
         return Strip.join([left, mark, right])
 

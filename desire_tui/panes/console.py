@@ -14,6 +14,8 @@ from textual.message import Message
 from textual.scroll_view import ScrollView
 from textual.strip import Strip
 
+from desire_tui import themes
+
 if TYPE_CHECKING:
     from textual import events
     from textual.selection import Selection
@@ -186,7 +188,7 @@ class Console(ScrollView):
             case "notice":
                 return Style(color=str(theme.accent), italic=True)
             case "code":
-                return Style(dim=True)
+                return Style(color=themes.quiet(theme))
             case _:
                 return Style()
 

@@ -123,7 +123,7 @@ class ExamplesScreen(Question["Chosen | None"]):
             line = Text(name, no_wrap=True)
             if self.app.size.width >= WIDE:
                 line.append(" " * max(NAME_COLUMNS - len(name), 1))
-                line.append(example.about, "dim")
+                line.append(example.about)
             options.add_option(Option(line, example.path.as_posix()))
         if not found:
             none = "No such example." if self._examples else f"No examples in {examples_folder()}"

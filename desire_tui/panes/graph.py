@@ -14,7 +14,7 @@ from textual.message import Message
 
 from desire_tui.panes import readout
 from desire_tui.panes.sheet import Look, Sheet
-from desire_tui.panes.tiles import TILE_COLUMNS, WHITE_STYLE, KeyRow, SheetTile, curve_style
+from desire_tui.panes.tiles import TILE_COLUMNS, WHITE_STYLE, KeyRow, SheetTile, net_style
 from desire_tui.panes.window import Window
 
 if TYPE_CHECKING:
@@ -202,7 +202,7 @@ class GraphPane(Container, can_focus=True):
         self._painter = Painter(canvas, page, self.window)
         mark = self.page_mark
         lines = [frame.lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark, *frame.lines[1:]]
-        net = ground if page.net is None else ground + curve_style(page.net, white=white)
+        net = ground if page.net is None else ground + net_style(page.net, white=white)
         look = Look(ground, ground + Style(bold=True), net, white)
         self.sheet.lay(columns, rows, look, lines, frame, canvas)
         self._painter.update()  # first: a piece is sent with what stands in it

@@ -180,7 +180,7 @@ class HelpPane(Vertical):
         for page in pages.search(event.value)[:HITS_MAX]:
             hits.add_option(
                 Option(
-                    Text.assemble((f"{page.name:<16} ", "bold"), (page.summary, "dim"), no_wrap=True),
+                    Text.assemble((f"{page.name:<16} ", "bold"), page.summary, no_wrap=True),
                     page.name,
                 )
             )

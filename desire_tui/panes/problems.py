@@ -35,6 +35,7 @@ class ProblemsPane(OptionList):
     def __init__(self) -> None:
         super().__init__(id="problems")
         self._entries: list[tuple[CodeArea, Mark]] = []
+        self._theme = ""
 
     def show(self, areas: Sequence[CodeArea]) -> int:
         """List the problems of these tabs; returns how many there are."""
@@ -44,8 +45,9 @@ class ProblemsPane(OptionList):
             for row in sorted(area.marks.problems)
             for mark in area.marks.problems[row]
         ]
-        if entries == self._entries and self.option_count:
+        if entries == self._entries and self.option_count and self._theme == self.app.theme:
             return len(entries)
+        self._theme = self.app.theme
         self._entries = entries
         theme = self.app.current_theme
         self.clear_options()
@@ -53,7 +55,7 @@ class ProblemsPane(OptionList):
             colour = str(theme.error if mark.style == "error" else theme.warning)
             place = f"{area.buffer.name}:{mark.row + 1}:{mark.start + 1} "
             self.add_option(
-                Option(Text.assemble((place, "dim"), (f"{mark.style} {mark.code}: ", colour), mark.message))
+                Option(Text.assemble(place, (f"{mark.style} {mark.code}: ", colour), mark.message))
             )
         if not entries:
             self.add_option(Option("No problems.", disabled=True))

@@ -69,7 +69,7 @@ class Slider(Widget, can_focus=True):
             Segment(f"{self.quantity[: NAME_CELLS - 1]:<{NAME_CELLS}}", base + Style(bold=self.has_focus)),
             Segment("━" * at, base + Style(color=str(theme.primary))),
             Segment("●", knob),
-            Segment("─" * (self._track - 1 - at), base + Style(dim=True)),
+            Segment("─" * (self._track - 1 - at), base + Style(color=str(theme.secondary))),
             Segment(f"{self.value:>{VALUE_CELLS}.5g}", base),
         ]
         return Strip(segments).adjust_cell_length(self.size.width, base)

@@ -9,7 +9,7 @@ from rich.style import Style
 from textual.strip import Strip
 from textual.widget import Widget
 
-from desire_tui.panes.tiles import NO_COLOR, WHITE_STYLE, curve_style
+from desire_tui.panes.tiles import NO_COLOR, WHITE_STYLE, curve_style, net_style
 
 if TYPE_CHECKING:
     from desire_tui.engine.graph import Graph
@@ -79,7 +79,7 @@ class Thumbnail(Widget):
         painter = Painter(canvas, graph)
         while painter.update():
             pass
-        net = ground if graph.net is None else ground + curve_style(graph.net, white=white)
+        net = ground if graph.net is None else ground + net_style(graph.net, white=white)
         rows = []
         for number, line in enumerate(frame.lines):
             at = number - frame.top

@@ -27,7 +27,14 @@ WHITE_STYLE = Style(color="#202020", bgcolor="#ffffff")
 
 @lru_cache(maxsize=256)
 def curve_style(color: int, *, white: bool) -> Style:
-    """Return the style of a colour number on a black or white background."""
+    """Return the style of a curve's colour number on a black or white background."""
+    from desire_tui.engine.graph import curve_rgb
+
+    return Style(color=Color.from_rgb(*curve_rgb(color, white=white)))
+
+
+def net_style(color: int, *, white: bool) -> Style:
+    """Return the style of the net: one of the paper's own colour is not seen."""
     from desire_tui.engine.graph import rgb
 
     return Style(color=Color.from_rgb(*rgb(color, white=white)))
@@ -105,7 +112,8 @@ class KeyRow(GraphPiece):
         if reading is not None:
             segments.append(Segment(f" {reading.head} ", ground + Style(bold=True)))
             for name, color, value in reading.values:
-                segments.append(Segment(f" {name} = {value}", ground + curve_style(color, white=white)))
+                segments.append(Segment(" ■", ground + curve_style(color, white=white)))
+                segments.append(Segment(f" {name} = {value}", ground))
         elif pane.page is not None and pane.keys_shown:
             for name, color in pane.page.keys:
                 segments.append(Segment(" ■ ", ground + curve_style(color, white=white)))

@@ -8,7 +8,6 @@ import subprocess
 import sys
 
 import pytest
-from textual.color import Color
 
 from desire_tui import config, places, themes
 from desire_tui.editor import recovery
@@ -36,7 +35,9 @@ def test_the_defaults_file_means_the_defaults():
 
 
 def test_a_wrong_configuration_names_file_key_and_nearest_key():
-    settings, wrong = written('them = "light"\nframes_per_second = 500\n[keys]\n"run.strat" = "f9"\n"run.pause" = 3\n')
+    settings, wrong = written(
+        'them = "light"\nframes_per_second = 500\n[keys]\n"run.strat" = "f9"\n"run.pause" = 3\n'
+    )
     assert settings == config.Config()
     assert all(str(places.config_file()) in sentence for sentence in wrong)
     assert "'them'" in wrong[0]
@@ -88,7 +89,9 @@ async def test_recovery_files_of_living_sessions_are_left_alone(program):
         assert file.exists()
 
 
-@pytest.mark.parametrize("text", ["{", "[]", json.dumps({"version": 99, "tabs": []}), '{"version": 1, "tabs": [{"x": 1}]}'])
+@pytest.mark.parametrize(
+    "text", ["{", "[]", json.dumps({"version": 99, "tabs": []}), '{"version": 1, "tabs": [{"x": 1}]}']
+)
 async def test_a_damaged_recovery_file_is_kept_aside(program, text: str):
     file = places.state_folder() / f"recovery-{dead_pid()}.json"
     file.parent.mkdir(parents=True)
@@ -152,26 +155,6 @@ async def test_history_keys(program):
         await desk.press("enter")
         await desk.idle()
         assert desk.output.count("> a = 1") == 2
-
-
-def contrast(one: str, other: str) -> float:
-    """WCAG's contrast ratio."""
-
-    def luminance(text: str) -> float:
-        parts = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in Color.parse(text).normalized]
-        return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
-
-    high, low = sorted((luminance(one), luminance(other)), reverse=True)
-    return (high + 0.05) / (low + 0.05)
-
-
-@pytest.mark.parametrize("theme", themes.THEMES, ids=lambda theme: theme.name)
-def test_text_can_be_read_in_every_theme(theme):
-    for colour in (theme.foreground, theme.primary, theme.accent, theme.error, theme.warning):
-        assert contrast(colour, theme.surface) >= 4.5
-    for style in themes.editor_theme(theme).syntax_styles.values():
-        if style.color is not None:
-            assert contrast(style.color.name, theme.surface) >= 4.5, style
 
 
 async def test_every_theme_can_be_shown(program):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from desire_tui.engine.graph.book import GraphBook
-from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, rgb
+from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
 from desire_tui.engine.graph.keys import Key
 from desire_tui.engine.graph.lines import clip_polyline, thin_columns
 from desire_tui.engine.graph.model import Curve, Frame, Graph, Points, ShownArray
@@ -11,5 +11,5 @@ from desire_tui.engine.graph.settings import DisplaySettings
 
 __all__ = [
     "BLACK", "WHITE", "Curve", "DisplaySettings", "Frame", "Graph", "GraphBook", "Key", "Points", "Rgb",
-    "ShownArray", "clip_polyline", "rgb", "thin_columns",
+    "ShownArray", "clip_polyline", "curve_rgb", "rgb", "thin_columns",
 ]  # fmt: skip

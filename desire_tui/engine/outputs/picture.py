@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.graph.colors import BLACK, WHITE, rgb
+from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
 from desire_tui.engine.graph.lines import clip_polyline, thin_columns, to_unit
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def _dress(axes: Axes, graph: Graph, ink: Tint) -> None:
 def _draw_curve(axes: Axes, curve: Curve, graph: Graph) -> None:
     """Draw in frame units: a curve of an earlier run keeps its own scale."""
     x, y = to_unit(curve.frame, *curve.samples())
-    color, width = _tint(curve.color, graph), _WIDTHS[curve.thickness]
+    color, width = _curve_tint(curve.color, graph), _WIDTHS[curve.thickness]
     if not curve.joined:
         with np.errstate(invalid="ignore"):
             inside = (x >= 0) & (x <= 1) & (y >= 0) & (y <= 1)
@@ -153,7 +153,7 @@ def _draw_points(axes: Axes, graph: Graph) -> None:
     if not len(x):
         return
     axes.scatter(
-        x, y, s=(2.0 * _WIDTHS[graph.thickness]) ** 2, c=[_tint(int(c), graph) for c in colors],
+        x, y, s=(2.0 * _WIDTHS[graph.thickness]) ** 2, c=[_curve_tint(int(c), graph) for c in colors],
         linewidths=0, zorder=3,
     )  # fmt: skip
 
@@ -161,7 +161,8 @@ def _draw_points(axes: Axes, graph: Graph) -> None:
 def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
     from matplotlib.lines import Line2D
 
-    handles = [Line2D([], [], color=_tint(k.color, graph), linewidth=3, label=k.name) for k in graph.keys]
+    tints = [(key.name, _curve_tint(key.color, graph)) for key in graph.keys]
+    handles = [Line2D([], [], color=tint, linewidth=3, label=name) for name, tint in tints]
     legend = figure.legend(
         handles=handles, loc="outside lower center", ncols=min(len(handles), 8), frameon=False
     )
@@ -180,5 +181,13 @@ def _draw_pictures(figure: Figure, graph: Graph, ink: Tint) -> None:
 
 
 def _tint(color: int, graph: Graph) -> Tint:
-    red, green, blue = rgb(color, white=graph.white)
+    return _parts(rgb(color, white=graph.white))
+
+
+def _curve_tint(color: int, graph: Graph) -> Tint:
+    return _parts(curve_rgb(color, white=graph.white))
+
+
+def _parts(color: Rgb) -> Tint:
+    red, green, blue = color
     return red / 255, green / 255, blue / 255

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.graph.colors import rgb
+from desire_tui.engine.graph.colors import curve_rgb
 from desire_tui.engine.outputs.canvas import NO_COLOR, Canvas
 from desire_tui.engine.outputs.frame import text_frame
 from desire_tui.engine.outputs.painter import Painter
@@ -40,5 +40,5 @@ def _paint(text: str, color: int, graph: Graph, *, colored: bool) -> str:
     ground = "\x1b[48;2;255;255;255m" if graph.white else ""
     if not colored or not (ground or text.strip()):
         return text
-    red, green, blue = rgb(0 if color == NO_COLOR else color, white=graph.white)
+    red, green, blue = curve_rgb(0 if color == NO_COLOR else color, white=graph.white)
     return f"{ground}\x1b[38;2;{red};{green};{blue}m{text}{_RESET}"
