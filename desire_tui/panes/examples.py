@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 REST_S = 0.06
 """A program is run for its picture when the list stands still for so long."""
-NAME_COLUMNS, WIDE, LOW_BELOW = 30, 110, 32
+NAME_COLUMNS, WIDE, LOW_BELOW, TINY_BELOW = 30, 110, 32, 18
 _previews: dict[str, Preview] = {}
 """Pictures made since the start, by the program's text."""
 PREVIEWS_MAX = 64
@@ -53,6 +53,8 @@ class ExamplesScreen(Question["Chosen | None"]):
     ExamplesScreen #program { height: 2fr; padding: 0 1; border-top: solid $panel;
                               text-wrap: nowrap; text-overflow: ellipsis; }
     ExamplesScreen.-low #program { display: none; }
+    ExamplesScreen.-tiny Thumbnail { display: none; }
+    ExamplesScreen.-tiny #about { max-height: 100%; }
     ExamplesScreen Thumbnail { height: 3fr; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -99,8 +101,9 @@ class ExamplesScreen(Question["Chosen | None"]):
         self.query_one(OptionList).can_focus = False
 
     def on_resize(self) -> None:
-        """Where there is little room, the picture gets it all."""
+        """Where there is little room, the picture gets it all; where there is hardly any, the description."""
         self.set_class(self.app.size.height < LOW_BELOW, "-low")
+        self.set_class(self.app.size.height < TINY_BELOW, "-tiny")
 
     def on_unmount(self) -> None:
         """Let the previewer's thread end."""

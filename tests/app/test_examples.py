@@ -168,3 +168,12 @@ async def test_a_program_that_fails_says_so(tmp_path):
     previewer.close()
     assert made[0].graph is None
     assert "zero" in made[0].problem
+
+
+async def test_where_there_is_hardly_any_room_the_description_has_it(program):
+    async with desktop(program("x = 1\n"), size=(60, 16)) as desk:
+        screen = await browser(desk)
+        assert not picture(screen).display
+        await desk.pilot.resize_terminal(80, 24)
+        await desk.until(lambda: picture(screen).display and picture(screen).graph is not None)
+        await desk.until(lambda: "■" in rows(picture(screen))[-1])

@@ -192,6 +192,15 @@ def test_notes_and_odd_characters(book):
     assert "<p><strong>my_odd *name*.src</strong>, version 1</p>" in MarkdownIt().render(book.text)
 
 
+def test_a_comparison_and_a_report_are_kept(book):
+    book.zz(DECAY)
+    for command in ("compare rule 3", "dump run"):
+        book.session.execute(command)
+        head, *table = book.blocks("text")[-1].splitlines()
+        assert head == f"> {command}"
+        assert len(table) > 2
+
+
 def test_long_output_is_cut(book):
     book.zz("for k = 1 to 5000 | write 'line number '; k | next\n")
     printed = book.blocks("text")[-1]

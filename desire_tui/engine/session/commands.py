@@ -131,7 +131,7 @@ class Commands:
             if self._world.state is State.IDLE:
                 raise DesireError(Diagnostic("stopped-by-user")) from None
             raise  # the script that compares ends too
-        self._listener.console_text(table)
+        self._world.write(table)
 
     def _notebook(self, argument: str | None) -> None:
         journal = self._desk.journal
