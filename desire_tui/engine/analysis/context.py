@@ -98,6 +98,8 @@ class Context:
         self.complained: set[str] = set()
         self.reads: list[str] = []
         """Names that the expression being lowered has read; "" for what is more than reading a name."""
+        self.row_chosen: Where | None = None
+        """Where a row `P#` is read first, if the segment leaves iRow to the script."""
         self.before: list[Action] = []
         """What the present statement computes first: the pieces of its long chains (`pieces`)."""
         self.redefines_library = not functions.keys().isdisjoint(LIBRARY)

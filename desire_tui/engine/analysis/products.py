@@ -218,6 +218,8 @@ def _row(context: Context, node: RowOfNode, quantity: Quantity, extent: Extent) 
     if not agree(quantity.shape[1], extent[0]):
         return nonconformable(context, node, f"{quantity.name}#", quantity.shape[1:], extent)
     note_read(context, node, quantity.slot, size_of(quantity), None)
+    if context.row_chosen is None and "iRow" not in context.assigned:
+        context.row_chosen = context.where(node)
     return RowOf(quantity.slot, quantity.shape[0], quantity.shape[1])
 
 

@@ -106,7 +106,7 @@ def lower_segment(
         requests=tuple(builder.requests), pictures=tuple(builder.pictures),
         stash=tuple(builder.stash), recover=tuple(builder.recover), jacobian=jacobian,
         counters=builder.counters, scalars=_scalars(context), names=builder.names,
-        exhausted=tuple(builder.exhausted),
+        exhausted=tuple(builder.exhausted), row_chosen=context.row_chosen,
     )  # fmt: skip
     return segment, context.problems
 

@@ -88,7 +88,7 @@ class MatVec:
 
 @node
 class RowOf:
-    """Row ((trnc(iRow) - 1) mod rows) + 1 of a matrix; error 124 where iRow < 1 is the runtime's business."""
+    """Row ((trnc(iRow) - 1) mod rows) + 1 of a matrix; error 124 is the runtime's business."""
 
     slot: int
     rows: int

@@ -78,6 +78,7 @@ class Segment:
 
     `scalars` lists the slots of scalars that the segment sets; `counters` says how many history positions
     it has. `exhausted` lists the tests among `body` that end the run where a CLEARN has no template left.
+    `row_chosen` is the place of a `P#` whose row the script must choose (iRow at least 1).
     """
 
     label: str | None
@@ -92,6 +93,7 @@ class Segment:
     counters: int = 0
     scalars: tuple[int, ...] = ()
     exhausted: tuple[Terminate, ...] = ()
+    row_chosen: Where | None = None
     names: dict[int, str] = field(default_factory=dict)
 
     @property

@@ -14,6 +14,7 @@ from desire_tui.engine.values import (
     DTMIN,
     ERMAX,
     ERMIN,
+    IROW,
     MM,
     NN,
     SCALE,
@@ -87,7 +88,10 @@ class Defaults:
         self._generation = values.generation
 
     def plan(self, segment: Segment, rule: int, source: Source, at: Span | None) -> Plan:
-        """Return the plan of a run of `segment` under `irule` (1 if never set). DesireError 87, 93, 110."""
+        """Return the plan of a run of `segment` under `irule` (1 if never set). Errors 87, 93, 110, 124."""
+        if segment.row_chosen is not None and not self._values.cells[IROW] >= 1.0:
+            facts = {"value": self._values.cells[IROW]}
+            raise DesireError(Diagnostic("row-not-chosen", segment.row_chosen.span, facts, segment.source))
         if self._values.generation != self._generation:
             self._supplied.clear()
             self._generation = self._values.generation

@@ -71,6 +71,9 @@ MESSAGES: dict[str, Wording] = {
         "the samples before are kept; a smaller DT or another rule may help",
         _FAULT_PAGE,
     ),
+    "row-not-chosen": Wording(
+        124, "iRow = {value:g} chooses no row", "set iRow = 1, 2, … before drun, or in the segment"
+    ),
     "no-template-left": Wording(
         232,
         "no template is left at t = {t:.6g}: the input is near none, and no row is free",
