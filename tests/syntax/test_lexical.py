@@ -133,6 +133,13 @@ def test_highlighting(line: str) -> None:
     assert " ".join(f"{line[start:end]}={cls}" for start, end, cls in highlight(line)) == HIGHLIGHTED[line]
 
 
+@pytest.mark.parametrize("word", ["else", "proceed"])
+def test_a_strange_character_alone_before_else(word):
+    """One message, about the character; the block is whole."""
+    program = parse(Source(f"if x = 1 then é {word}\nx = 2\nproceed"))
+    assert [problem.key for problem in program.problems] == ["strange-character"]
+
+
 def test_carriage_returns_end_lines():
     """`\\n`, `\\r\\n` and `\\r` alone, mixed; rows and columns count them alike."""
     source = Source("x = 1\ry = 2 -- a\r\nwrite x\n\r z = )")

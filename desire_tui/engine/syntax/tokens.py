@@ -146,6 +146,8 @@ def _is_soft(chunk: Chunk, lexeme: str, text: str, pos: int) -> bool:
 def _is_over(chunk: Chunk) -> bool:
     """Whether the statement could end before `else` or `proceed` behind a `then`."""
     kinds = chunk.kinds
+    if not kinds:
+        return True  # nothing but a strange character
     return kinds[-1] in OPERAND_END or (len(kinds) == 1 and kinds[0] in STAND_ALONE)
 
 
