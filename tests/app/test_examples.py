@@ -177,3 +177,15 @@ async def test_where_there_is_hardly_any_room_the_description_has_it(program):
         await desk.pilot.resize_terminal(80, 24)
         await desk.until(lambda: picture(screen).display and picture(screen).graph is not None)
         await desk.until(lambda: "■" in rows(picture(screen))[-1])
+
+
+async def test_the_first_start_opens_a_copy_and_the_tour_comes_once():
+    original = named("step_response")
+    async with desktop() as desk:
+        assert desk.app.editor.front.text == original.text
+        assert desk.app.editor.front.buffer.path is None
+        assert "Welcome" in desk.output
+        desk.app.leave()
+    async with desktop() as desk:
+        assert desk.app.editor.front.text == original.text
+        assert "Welcome" not in desk.output
