@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from desire_tui.engine.codegen.stiff_library import fast_functions
 from desire_tui.engine.integration.bdf import newton, step
 from desire_tui.engine.integration.bdf.memory import Evaluate, Fill, Weigh
 from desire_tui.engine.integration.bdf.solver import OwnSolver
@@ -19,6 +20,8 @@ from desire_tui.engine.integration.sundials import library
 from desire_tui.engine.integration.sundials.linear import Linear
 from desire_tui.engine.integration.sundials.signatures import JacobianFunction, RhsFunction, WeightFunction
 from desire_tui.engine.integration.sundials.solver import Callbacks, Solver
+from desire_tui.engine.session import Listener, Session
+from desire_tui.engine.source import Source
 
 TOLERANCE = 1e-6
 
@@ -181,3 +184,32 @@ def test_backwards_in_time():
     flag, steps, _ = ours(problem, [-3.0])
     assert flag == step.AT_STOP
     assert steps[-1, 2] == pytest.approx(exp(-3), abs=1e-5)
+
+
+@pytest.mark.parametrize("n", [1, 2, 5, 17, 30])
+@pytest.mark.parametrize("fast", [False, True])
+def test_native_code_for_each_number_of_states(n, fast):
+    """A chain of n stages fed at one end; the matrix exponential by eigenvalues. Both codes, the same numbers."""
+    text = f"""STATE u[{n}]
+        for i = 1 to {n} | u[i] = 1/i | next
+        irule 14 | ERMAX = 1E-7 | DT = 1E-5 | TMAX = 0.5 | NN = 6
+        drun
+        DYNAMIC
+        Vectr d/dt u = 40*(u{{-1}} - 2*u + u{{1}})
+        dispt u[1]
+    """
+    if fast:
+        fast_functions(n, own=True)
+    session = Session(Listener())
+    session.erun(Source(text, "chain.src"))
+    matrix = 40 * (np.diag([1.0] * (n - 1), 1) + np.diag([1.0] * (n - 1), -1) - 2 * np.eye(n))
+    values, vectors = np.linalg.eigh(matrix)
+    exact = vectors @ (np.exp(0.5 * values) * (vectors.T @ (1 / np.arange(1, n + 1))))
+    quantity = session.values.find("u")
+    found = session.values.data[quantity.slot : quantity.slot + n]
+    assert found == pytest.approx(exact, abs=1e-6)
+    steps = session.runs[-1].steps
+    assert steps == STEPS.setdefault(n, steps), "fast code takes the steps of quick code"
+
+
+STEPS: dict[int, int] = {}

@@ -57,7 +57,7 @@ class StiffModel:
         addresses = {name: functions.address(name) for name in inner}
         addresses["derivatives"] = addresses.pop("derivative")
         way = _plan(segment, rule, extra)
-        self._own = is_own(rule, way)
+        self._own = is_own(rule, segment.order, way)
         self._system = partial(
             StiffSystem,
             rule,
@@ -75,7 +75,8 @@ class StiffModel:
         loop = stiff_loop()  # does little between two intervals: quick code is good enough
         self._loop = backend.store.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
-        backend.improver.add(self)
+        self._runs, self._improver = 0, backend.improver
+        backend.improver.add(self._tables)
         backend.improver.add(functions)
 
     def _use(self, natives: StiffFunctions) -> None:
@@ -100,8 +101,7 @@ class StiffModel:
         context.columns, context.column_count = self._columns.ctypes.data, self._columns.size
 
     def improve(self) -> Iterator[None]:
-        """Compile fast code (`background.Improvable`)."""
-        yield from self._tables.improve()
+        """Compile a fast solver (`background.Improvable`)."""
         self._better = fast_functions(self._slots.size, own=self._own)
         yield
 
@@ -133,6 +133,9 @@ class StiffModel:
     def advance(self, memory: RunMemory) -> Ended:
         """Run on (`runtime.memory`)."""
         if memory.phase == Phase.AT_POINT and memory.point == 0:
+            self._runs += 1
+            if self._runs == 2:  # a program with a single run would only wait for it at its end
+                self._improver.add(self)
             better, self._better = self._better, None
             if better is not None:
                 self._use(better)

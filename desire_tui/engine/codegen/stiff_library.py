@@ -42,8 +42,6 @@ _TEXTS = {name: (files("desire_tui.engine") / name).read_bytes() for name in _SO
 
 LARGE = 200
 """More states than this are worth 0.1 s of optimisation; fewer get quick code after 0.02 s."""
-UNROLLED_MOST = 16
-"""Up to so many states our solver is compiled for just this number, which halves its time."""
 
 
 class StiffFunctions(NamedTuple):
@@ -62,25 +60,20 @@ class StiffFunctions(NamedTuple):
 def first_functions(n: int, *, own: bool) -> StiffFunctions:
     """Return what a run can start with at once: fast code if there is some, else quick code."""
     if own:
-        return _kept(_unrolled(n)) or _quick(own=True)
+        return _kept(n) or _quick(own=True)
     return _fast() if n > LARGE else _quick(own=False)
 
 
 def fast_functions(n: int, *, own: bool) -> StiffFunctions:
-    """Compile the fastest code for n states (0.1 s; our solver 0.5 s, once a machine)."""
+    """Compile the fastest code for n states (0.1 s; our solver, for just this n, 1 s once a machine)."""
     if not own:
         return _fast()
-    n = _unrolled(n)
     with _compiling:
         found = _kept(n)
         if found is None:
-            code = compile_and_keep(str(_module(own=True, n=n)), _name(n), level=2, vectorize=n > 0)
+            code = compile_and_keep(str(_module(own=True, n=n)), _name(n), level=2, vectorize=True)
             found = _known.setdefault(n, _found(code, own=True))
         return found
-
-
-def _unrolled(n: int) -> int:
-    return n if n <= UNROLLED_MOST else 0
 
 
 @cache

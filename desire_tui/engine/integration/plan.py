@@ -52,9 +52,9 @@ class Plan:
     tables: Tables | None
 
 
-def is_own(rule: int, plan: Plan) -> bool:
+def is_own(rule: int, n: int, plan: Plan) -> bool:
     """Whether `bdf` can do it in CVODE's place: Newton's iteration for BDF with a dense matrix."""
-    return rule in {14, 15} and plan.linear.kind == "dense" and plan.tables is not None
+    return rule in {14, 15} and n <= DENSE_MOST and plan.tables is not None
 
 
 def kind_of(rule: int) -> str:

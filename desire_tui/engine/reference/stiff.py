@@ -60,7 +60,7 @@ class StiffReferenceModel(ReferenceModel):
         self._acts = acts_at_steps(segment)
         self._callbacks = PythonCallbacks(self)
         way = self._plan(rule)
-        natives = replace(self._callbacks.natives, own=is_own(rule, way))
+        natives = replace(self._callbacks.natives, own=is_own(rule, self.order, way))
         self.system = self._callbacks.system = StiffSystem(
             rule, way, values.address, self.ranges, Functions(), natives
         )  # fmt: skip

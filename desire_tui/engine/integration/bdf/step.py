@@ -328,7 +328,8 @@ def growth(error: float, root: int) -> float:
         bound *= 1.0 / _RATIO_WORTH_WHILE
     if error > bound:
         return 1.0
-    return 1.0 / (error ** (1.0 / root) + _ADDED)
+    ratio: float = 1.0 / (error ** (1.0 / root) + _ADDED)
+    return ratio
 
 
 def rise(s: Bdf) -> float:
