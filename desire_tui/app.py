@@ -143,6 +143,7 @@ class DesireApp(Shell):
         self.desk.set_interval(STATUS_EVERY_S, self.show_status)
         self.desk.set_interval(QUANTITIES_EVERY_S, lambda: self.quantities.show(self.session.values))
         self.is_ready = True
+        self.line.next()
 
     def _checked(self, number: int, version: int, problems: tuple[Diagnostic, ...]) -> None:
         self.post_message(Checked(number, version, problems))

@@ -166,6 +166,8 @@ class EngineThread:
     @property
     def session(self) -> Session:
         """The session; waits for it if it is just being made."""
+        if self._thread.ident is None:
+            self.start()  # a key that came before the first frame
         self._made.wait()
         assert self._session is not None
         return self._session
@@ -176,8 +178,9 @@ class EngineThread:
         return self._pending > 0
 
     def start(self) -> None:
-        """Begin to work."""
-        self._thread.start()
+        """Begin to work, if it did not begin before."""
+        if self._thread.ident is None:
+            self._thread.start()
 
     def submit(self, job: Callable[[], object]) -> None:
         """Do a job after those that wait. Called on the screen's thread only."""

@@ -34,6 +34,9 @@ class CommandLine(Controller):
     def enter(self, lines: list[str]) -> None:
         """Carry out lines, one after the other."""
         app = self.app
+        if not app.engine.is_up:  # typed while the desktop still opens: `next` comes with the engine
+            self._queue.extend(line for line in lines if line.strip())
+            return
         state = app.session.status.state
         if state is State.PAUSED and len(lines) == 1 and not lines[0].strip():
             if lines[0]:

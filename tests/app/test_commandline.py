@@ -7,14 +7,16 @@ import math
 import pytest
 from textual.events import Paste
 
+from desire_tui.app import DesireApp
 from desire_tui.editor.buffer import free_label
 from desire_tui.engine.runtime.record import RunRecord
 from desire_tui.engine.session import State, Status
+from desire_tui.engine_thread import EngineThread, ScreenListener
 from desire_tui.panes.held import HeldLines
 from desire_tui.panes.runtext import bar, run_text
 from desire_tui.panes.status import StatusBar
 
-from .conftest import LONG, OSCILLATOR, Desktop, desktop
+from .conftest import LONG, OSCILLATOR, Desktop, desktop, until
 
 
 async def paste(desk: Desktop, text: str) -> None:
@@ -252,3 +254,20 @@ async def test_after_load_the_keys_stay_in_the_command_line(program):
         await desk.idle()
         assert desk.output.rstrip().endswith("42")
         assert not desk.app.editor.front.is_dirty
+
+
+async def test_what_is_typed_before_the_engine_is_there_is_carried_out_then(program):
+    """Lines and F5 came before the first frame: nothing may wait for an engine that was never started."""
+    app = DesireApp([program(OSCILLATOR)])
+    async with app.run_test(size=(100, 30)) as pilot:
+        app.line.enter(["a = 6"])
+        app.line.enter(["write 7*a"])
+        await until(pilot, lambda: "42" in app.command.console.text.splitlines())
+        app.session.end()
+
+
+def test_the_session_is_made_by_whoever_asks_first():
+    engine = EngineThread(ScreenListener(lambda message: None), lambda message: None)
+    assert engine.session is engine.session
+    engine.start()
+    assert engine.is_up
