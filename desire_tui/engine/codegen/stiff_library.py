@@ -40,6 +40,8 @@ _BDF = (coefficients, newton, step)
 _TEXTS = {name: (files("desire_tui.engine") / name).read_bytes() for name in _SOURCES}
 """Read now, when the modules are: files may change under a process that lives for days."""
 
+_ANY = 0
+"""In place of a number of states: code for all."""
 LARGE = 200
 """More states than this are worth 0.1 s of optimisation; fewer get quick code after 0.02 s."""
 
@@ -78,7 +80,12 @@ def fast_functions(n: int, *, own: bool) -> StiffFunctions:
 
 @cache
 def _quick(*, own: bool) -> StiffFunctions:
-    return _found(compile_text(str(_module(own=own)), level=0), own=own)
+    if not own:
+        return _found(compile_text(str(_module(own=False)), level=0), own=False)
+    # Writing our solver as IR takes 0.1 s, which every program with one run would pay
+    return _kept(_ANY) or _found(
+        compile_and_keep(str(_module(own=True)), _name(_ANY), level=0, vectorize=False), own=True
+    )
 
 
 @cache
@@ -119,8 +126,8 @@ def _name(n: int) -> str:
     return f"bdf-{n}-{blake2b(everything, digest_size=8).hexdigest()}"
 
 
-def _module(*, own: bool, n: int = 0) -> ir.Module:
-    """Write callbacks and interval loops; `own`: with our solver, for n states if n is not 0."""
+def _module(*, own: bool, n: int = _ANY) -> ir.Module:
+    """Write callbacks and interval loops; `own`: with our solver, for n states only if that is not `_ANY`."""
     _connect()
     module = ir.Module("stiff")
     add_callbacks(module)
