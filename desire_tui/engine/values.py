@@ -111,6 +111,11 @@ class Values:
         """Address of slot 0."""
         return int(self.data.ctypes.data)
 
+    @property
+    def spare(self) -> int:
+        """How many more numbers there is memory for; whole-array statements need some for a moment."""
+        return self.capacity - self._arrays
+
     def clear(self) -> None:
         """Forget all names (`clear`, `erun`); system variables remain, undefined but for PI and scale."""
         self._zero(0, self._scalars)

@@ -93,6 +93,14 @@ def test_error(script, code, piece):
     assert found == (code, piece) if piece else found[0] == code
 
 
+def test_statements_that_would_fill_the_memory_are_refused():
+    """Arrays of a fifth of the room each can be declared, but neither transformed nor computed with."""
+    n = World().values.spare // 5
+    declared = f"ARRAY x[{n}], y[{n}], z[{n}]\n"
+    assert error_of(f"{declared}FFT F, {n}, x, y") == (40, str(n))
+    assert error_of(f"{declared}Vector z = x") == (40, "Vector z = x")
+
+
 def test_a_huge_array_is_refused():
     assert error_of("ARRAY x[1E+12]") == (40, "x[1E+12]")
     assert error_of("ARRAY x[1E6,1E6]")[0] == 40

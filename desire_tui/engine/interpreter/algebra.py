@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+TEMPORARIES = 3
+"""Arrays of the target's size that a statement holds at a time."""
+
 
 def matrix(site: Site) -> Operation:
     """`MATRIX C = A * B + …`; `= 1` the identity, `= 0` all zeroes; `DELTA` adds."""
@@ -48,6 +51,7 @@ def matrix(site: Site) -> Operation:
 
     @np.errstate(all="ignore")  # the result is looked at
     def action() -> None:
+        site.needs_room(TEMPORARIES * target.size, node)
         result = value()
         if identity:
             result = np.eye(rows, columns)
@@ -79,6 +83,7 @@ def vector(site: Site) -> Operation:
 
     @np.errstate(all="ignore")  # the result is looked at
     def action() -> None:
+        site.needs_room(TEMPORARIES * target.size, node)
         result = conform(value(), target.shape, node, node.name)
         if node.delta:
             result = view + result

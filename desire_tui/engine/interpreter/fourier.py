@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 WORK_PER_ELEMENT = 50
 """What a transform costs, in multiplications, roughly (`patiently`)."""
+_ROOM_PER_ELEMENT = 8
+"""Numbers that a transform holds at a time: copies, complex input, complex output."""
 
 
 def fft(site: Site) -> Operation:
@@ -40,6 +42,7 @@ def fft(site: Site) -> Operation:
         for argument, quantity in zip(node.args[1:], quantities, strict=True):
             if quantity.size < n:
                 raise Fault("fft-array-short", argument, name=quantity.name, size=quantity.size, n=n)
+        site.needs_room(_ROOM_PER_ELEMENT * n, node.args[0])
         parts = [view[:n].copy() for view in views]
         patiently(WORK_PER_ELEMENT * n, lambda: _TRANSFORMS[node.kind](*parts), site.machine.check)
         for view, part in zip(views, parts, strict=True):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.codes import Code, Operation
     from desire_tui.engine.interpreter.machine import Machine
-    from desire_tui.engine.nodes import Expr, Placed, Statement, Target
+    from desire_tui.engine.nodes import Expr, Node, Placed, Statement, Target
     from desire_tui.engine.values import Quantity
 
 
@@ -127,6 +127,11 @@ class Site:
         if meaning.shape:
             raise self.scope.whole_array(target, meaning)
         return py.number(meaning.slot), meaning.kind
+
+    def needs_room(self, numbers: int, part: Node) -> None:
+        """Refuse a statement that would fill the machine's memory for a moment (error 40)."""
+        if numbers > self.values.spare:
+            raise Fault("out-of-memory", part, elements=numbers)
 
     def numbers(self, quantity: Quantity) -> NDArray[np.float64]:
         """Return a real array's numbers in its shape, sharing memory."""
