@@ -61,19 +61,20 @@ class _Place:
         return found
 
 
-def wrong_elements(segment: Segment, values: Values) -> tuple[Diagnostic, ...]:
+def wrong_elements(segment: Segment, values: Values) -> tuple[Diagnostic, ...] | None:
     """Return a warning 462 for each element of the JACOBIAN segment that is not the model's derivative.
 
-    Compared near the states that `values` hold; parameters are taken as they are. Nothing is said about
-    models that cannot be differentiated (random numbers, memory) or are too large (`WORK_MOST`). t and the
-    states are put back, defined variables and the array are not. DesireError 230: the array is not n by n.
+    Compared near the states that `values` hold; parameters are taken as they are. None: there is no
+    JACOBIAN, the model cannot be differentiated (random numbers, memory) or is too large (`WORK_MOST`).
+    t and the states are put back, defined variables and the array are not. DesireError 230: the array is
+    not n by n.
     """
     if segment.jacobian is None or segment.order * len(segment.jacobian.entries) > WORK_MOST:
-        return ()
+        return None
     try:
         matrices = _Matrices(segment, values)
     except NotDifferentiable:
-        return ()
+        return None
     t, states = values.cells[T], matrices.states()
     start, *others = [matrices.at(*place) for place in _places(t, states)]
     matrices.move(t, states)

@@ -81,7 +81,7 @@ class _EmptyWorld:
 
         self._wanted.discard(label)
         segment = lower(self._program, label, self._values, self._structure)
-        self.found.extend(wrong_elements(segment, self._values))
+        self.found.extend(wrong_elements(segment, self._values) or ())
         if not self._wanted:
             raise Interrupted
 

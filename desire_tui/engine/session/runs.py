@@ -16,6 +16,7 @@ from desire_tui.engine.session.starting import NUMBERS_MOST, Situation
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.graph import GraphBook
     from desire_tui.engine.lowered import Segment
     from desire_tui.engine.nodes import Placed
@@ -75,7 +76,7 @@ class Runs:
         start = self._situation()
         plan = self.simulator.defaults.plan(segment, rule, desk.source_of(placed), placed.span())
         model = desk.segments.model(segment, plan.rule)
-        self._advise(model)
+        self._advise(model, segment)
         self.start, self.run_of = start, (program.source.text, self._values.generation)
         self.count += 1
         record = RunRecord(
@@ -108,12 +109,22 @@ class Runs:
         values = self._values
         return Situation.now(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
 
-    def _advise(self, model: Model) -> None:
+    def _advise(self, model: Model, segment: Segment) -> None:
         """Show what a model has to say before its first run (rules 9 … 16)."""
         advice = getattr(model, "advice", None)
         problems = advice() if advice is not None else ()
+        if any(p.key == "jacobian-wrong" for p in problems):
+            problems = self._exactly(segment, problems)
         if problems:
             self._listener.problems(problems)
+
+    def _exactly(self, segment: Segment, found: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
+        """Judge a JACOBIAN that disagrees with differences by exact derivatives: at a kink differences err."""
+        from desire_tui.engine.reference.jacobian import wrong_elements
+
+        with self.restored():
+            exact = wrong_elements(segment, self._values)
+        return found if exact is None else exact
 
     def _stash(self, segment: Segment, record: RunRecord) -> None:
         first = 1 + len(record.columns) - len(segment.stash)

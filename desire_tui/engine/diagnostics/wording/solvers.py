@@ -80,7 +80,8 @@ MESSAGES: dict[str, Wording] = {
     ),
     "jacobian-differs": Wording(
         462,
-        "J[{row},{column}] is {given:.6g} but the derivative of d/dt {state} by {by} is {exact:.6g}: {place}",
+        "J[{row},{column}] is {given:.6g} but the derivative of d/dt {state} by {by} is {exact:.6g}"
+        " at {place}",
         "states count in the order of their d/dt lines; without JACOBIAN rule 14 finds its elements itself",
     ),
     "jacobian-not-diagonal": Wording(
