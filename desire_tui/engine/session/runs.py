@@ -119,7 +119,7 @@ class Runs:
             self._listener.problems(problems)
 
     def _exactly(self, segment: Segment, found: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
-        """Judge a JACOBIAN that disagrees with differences by exact derivatives: at a kink differences err."""
+        """Judge a JACOBIAN that disagrees with differences by exact derivatives: differences err at kinks."""
         from desire_tui.engine.reference.jacobian import wrong_elements
 
         with self.restored():

@@ -58,7 +58,7 @@ MESSAGES: dict[str, Wording] = {
         409, "'{setting}' is set from outside, but the program has no '{name}'", "look for a slip in the name"
     ),
     "set-array": Wording(
-        409, "'{name}' is set from outside like a scalar, but is an array", "set elements, for instance {name}[1]"
+        409, "'{name}' is set from outside like a scalar, but is an array", "set its elements: {name}[1]"
     ),
     "set-no-array": Wording(
         409, "'{setting}' is set from outside, but '{name}' is no array", "set it without subscripts"
