@@ -42,6 +42,7 @@ from desire_tui.panes.keynames import key_names
 from desire_tui.panes.problems import ProblemsPane
 from desire_tui.panes.quantities import QuantitiesPane
 from desire_tui.panes.side import SidePane
+from desire_tui.panes.sliders import Sliders
 from desire_tui.panes.status import StatusBar
 from desire_tui.shell import Shell
 from desire_tui.startup import open_first
@@ -292,8 +293,8 @@ class DesireApp(Shell):
     def _quantity_edited(self, event: QuantitiesPane.Edited) -> None:
         self.line.enter([event.text])
 
-    @on(QuantitiesPane.SliderMoved)
-    def _slider_moved(self, event: QuantitiesPane.SliderMoved) -> None:
+    @on(Sliders.Moved)
+    def _slider_moved(self, event: Sliders.Moved) -> None:
         self.live.ask(event.values, overlay=event.overlay)
 
     @on(StatusBar.Clicked)

@@ -173,5 +173,5 @@ class RunActions(Controller):
     def live_overlay(self, argument: str = "") -> None:
         """Turn overlaying of live runs on or off."""
         del argument
-        on = self.app.quantities.toggle_overlay()
+        on = self.app.quantities.sliders.toggle_overlay()
         self.app.notify(f"Live runs {'overlay' if on else 'replace'} their curves.", timeout=2)

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, ClassVar
 
 from textual import on
 from textual.binding import Binding, BindingType
-from textual.containers import Vertical, VerticalScroll
+from textual.containers import Vertical
 from textual.message import Message
 from textual.widgets import DataTable, Input
 
-from desire_tui.panes.slider import Slider
+from desire_tui.panes.sliders import Sliders
+from desire_tui.panes.valuetext import shape_text, value_text
 
 if TYPE_CHECKING:
     from textual.app import ComposeResult
@@ -19,34 +20,7 @@ if TYPE_CHECKING:
 
 ROWS_MAX = 400
 """More rows are not shown; the filter finds the others."""
-ELEMENTS_SHOWN = 4
 NAME_CELLS_MAX, VALUE_CELLS = 16, 16
-
-
-def shape_text(quantity: Quantity) -> str:
-    """Return what kind of thing a quantity is, in a word."""
-    from desire_tui.engine.values import Kind
-
-    kind = {Kind.REAL: "", Kind.INTEGER: "INTEGER ", Kind.COMPLEX: "COMPLEX "}[quantity.kind]
-    shape = f"[{','.join(map(str, quantity.shape))}]" if quantity.shape else ""
-    state = "state" if quantity.is_state else ""
-    return f"{kind}{shape}{' ' if shape and state else ''}{state}".strip()
-
-
-def value_text(values: Values, quantity: Quantity) -> str:
-    """Return a quantity's value, arrays by their first elements."""
-    from desire_tui.engine.values import Kind
-
-    if not values.is_defined(quantity):
-        return "undefined"
-    if quantity.kind is Kind.COMPLEX and not quantity.shape:
-        real, imaginary = values.cells[quantity.slot], values.cells[quantity.slot + 1]
-        return f"{real:g} + j*({imaginary:g})"
-    if not quantity.shape:
-        return f"{values.cells[quantity.slot]:g}"
-    flat = values.view(quantity).reshape(-1)[:ELEMENTS_SHOWN]
-    more = " …" if quantity.size > ELEMENTS_SHOWN else ""
-    return " ".join(f"{value:.4g}" for value in flat.tolist()) + more
 
 
 class QuantitiesPane(Vertical):
@@ -58,7 +32,6 @@ class QuantitiesPane(Vertical):
     QuantitiesPane #edit { display: none; background: $panel; color: $accent; }
     QuantitiesPane DataTable { height: 1fr; background: $surface; scrollbar-size-vertical: 1;
                                scrollbar-size-horizontal: 0; }
-    QuantitiesPane #sliders { height: auto; max-height: 40%; background: $surface; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("l", "slider", "Live slider", show=False),
@@ -74,27 +47,18 @@ class QuantitiesPane(Vertical):
             super().__init__()
             self.text = text
 
-    class SliderMoved(Message):
-        """Parameters of live mode changed: re-run with these values."""
-
-        def __init__(self, values: dict[str, float], *, overlay: bool) -> None:
-            super().__init__()
-            self.values = values
-            self.overlay = overlay
-
     def __init__(self) -> None:
         super().__init__(id="quantities")
         self._values: Values | None = None
         self._shown: dict[str, tuple[str, str]] = {}
         self._editing = ""
-        self._overlay = False
 
     def compose(self) -> ComposeResult:
         """Filter, table, field to edit in, sliders."""
         yield Input(placeholder="filter · Enter edits · l live slider", id="filter")
         yield DataTable(cursor_type="row", show_header=False, cell_padding=1)
         yield Input(id="edit")
-        yield VerticalScroll(id="sliders")
+        yield Sliders()
 
     @property
     def table(self) -> DataTable[str]:
@@ -184,6 +148,11 @@ class QuantitiesPane(Vertical):
 
     # ---------------------------------------------------------------------------------------------- sliders
 
+    @property
+    def sliders(self) -> Sliders:
+        """The sliders below the table."""
+        return self.query_one(Sliders)
+
     def action_slider(self) -> None:
         """Make a slider for the chosen quantity."""
         if (quantity := self.chosen) is not None:
@@ -191,45 +160,16 @@ class QuantitiesPane(Vertical):
 
     def add_slider(self, name: str) -> None:
         """Give a scalar a slider, or move to the one it has."""
-        quantity = self._values.find(name) if self._values is not None and name else None
-        if (
-            quantity is None
-            or quantity.shape
-            or self._values is None
-            or not self._values.is_defined(quantity)
-        ):
-            self.table.focus()
-            if name:
-                self.notify(
-                    f"'{name}' has no value yet: run the program, then choose a parameter.", markup=False
-                )
+        values = self._values
+        quantity = values.find(name) if values is not None and name else None
+        if values is not None and quantity is not None and not quantity.shape and values.is_defined(quantity):
+            self.sliders.add(name, values.cells[quantity.slot])
             return
-        for slider in self.query(Slider):
-            if slider.quantity == name:
-                slider.focus()
-                return
-        slider = Slider(name, self._values.cells[quantity.slot])
-        self.query_one("#sliders").mount(slider)
-        slider.focus()
+        self.table.focus()
+        if name:
+            self.notify(f"'{name}' has no value yet: run the program, then choose a parameter.", markup=False)
 
     def action_remove_slider(self) -> None:
         """Take away the slider that has the focus."""
-        focused = self.screen.focused
-        if isinstance(focused, Slider):
-            focused.remove()
+        if self.sliders.remove_focused():
             self.table.focus()
-
-    def toggle_overlay(self) -> bool:
-        """Overlay live runs, or replace them; returns which."""
-        self._overlay = not self._overlay
-        return self._overlay
-
-    @property
-    def slider_values(self) -> dict[str, float]:
-        """Values of all sliders."""
-        return {slider.quantity: slider.value for slider in self.query(Slider)}
-
-    @on(Slider.Moved)
-    def _moved(self, event: Slider.Moved) -> None:
-        event.stop()
-        self.post_message(self.SliderMoved(self.slider_values, overlay=self._overlay))
