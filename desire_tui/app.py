@@ -59,6 +59,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.session import Permissions
 
 STATUS_EVERY_S, QUANTITIES_EVERY_S = 0.1, 0.35
+ENGINE_AFTER_S = 0.05
+"""A key typed as soon as the desktop is seen is answered first: Python imports in one thread at a time."""
 EDITOR_ONLY = {"edit.undo", "edit.redo", "edit.select_all", "edit.comment", "file.close"}
 """Their keys mean something else inside a one-line field."""
 
@@ -131,7 +133,7 @@ class DesireApp(Shell):
     def _show(self) -> None:
         """Draw the desktop for the first time, now that everything stands in its place."""
         self.desk.release()
-        self.engine.start()
+        self.desk.set_timer(ENGINE_AFTER_S, self.engine.start)
 
     def engine_ready(self) -> None:
         """Begin to colour, check and show what only the engine knows."""

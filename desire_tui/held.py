@@ -28,8 +28,9 @@ class HeldScreen(Screen[None]):
     def release(self) -> None:
         """Lay out and send what changed while the screen was held."""
         if self.is_held:
+            super()._on_timer_update()  # still held: it would send twice what is both moved and drawn anew
             self.is_held = False
-            self._on_timer_update()
+            self._compositor_refresh()
 
     def send_only(self, *parts: Widget) -> None:
         """Send what has changed in some widgets at once: Textual's own way takes up to 20 ms longer."""

@@ -1,4 +1,4 @@
-"""When and how much is sent to the terminal: a sheet in pieces, a held screen, one row for a key."""
+"""When and how much is sent to the terminal: a sheet in pieces, a held screen, a first frame at once."""
 
 from __future__ import annotations
 
@@ -99,33 +99,6 @@ async def test_a_first_frame_does_not_wait_for_the_clock_but_the_next_does(progr
         app.drawing._drawn_at = drawn - 1.0
         app.drawing.at_once()
         assert app.graph._drawn != ()
-
-
-async def test_a_key_in_the_editor_draws_one_row_again(program, monkeypatch):
-    async with desktop(program("x = 1\n" * 20)) as desk:
-        area = desk.app.editor.front
-        area.focus()
-        area.go_to(5, 5)
-        await desk.pilot.pause(0.1)
-        rows, whole = set(), []
-        before = type(area).refresh
-
-        def refresh(self, *regions, repaint=True, layout=False, recompose=False):
-            if self is area:
-                rows.update(y for region in regions for y in region.line_range)
-                if not regions and repaint:
-                    whole.append(layout)
-            return before(self, *regions, repaint=repaint, layout=layout, recompose=recompose)
-
-        monkeypatch.setattr(type(area), "refresh", refresh)
-        await desk.press("2")
-        assert area.document.get_line(5) == "x = 12"
-        assert rows == {5}
-        assert whole == []
-        await desk.press("up")
-        assert rows == {4, 5}
-        await desk.press("enter")
-        assert whole  # everything below has moved
 
 
 def test_the_desktop_opens_without_tls_and_leaves_it_to_those_who_want_it():
