@@ -29,7 +29,8 @@ def learned(text, backend):
 
 @pytest.mark.parametrize("w", ["0.1*ran()", "0", "0.3*(i - 2)"])
 @pytest.mark.parametrize(
-    "statement", ["CLEARN v = W(x) 0.1, 0", "CLEARN v = W(x) 0.1, 0.6", "PLEARN v = W*x; 0.02", "INTP v = W*x; 0.1"]
+    "statement",
+    ["CLEARN v = W(x) 0.1, 0", "CLEARN v = W(x) 0.1, 0.6", "PLEARN v = W*x; 0.02", "INTP v = W*x; 0.1"],
 )
 def test_back_ends_agree(statement, w):
     text = START.format(w=w) + f"{statement}\nDOT s = v*1\ndispt s\n"

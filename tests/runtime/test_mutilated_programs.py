@@ -9,7 +9,7 @@ from threading import Timer
 
 import pytest
 
-from desire_tui.engine.diagnostics import DesireError, render_all
+from desire_tui.engine.diagnostics import DesireError, Diagnostic, render_all
 from desire_tui.engine.session import Session
 from desire_tui.engine.source import Source
 
@@ -50,12 +50,14 @@ def test_mutilated_programs_fail_with_messages(seed: int, backend, tmp_path: Pat
         session = Session(backend=backend)
         net = Timer(SAFETY_SECONDS, session.end)
         net.start()
+        problems: tuple[Diagnostic, ...] = ()
         try:
             session.erun(Source(text, "mutilated.src"))
         except DesireError as error:
-            assert all(problem.code > 0 for problem in error.diagnostics), text
-            assert "Traceback" not in render_all(error.diagnostics)
+            problems = error.diagnostics
         except EOFError:
             pass  # it asked for input, and nobody answers
         finally:
             net.cancel()
+        assert all(problem.code > 0 for problem in problems), text
+        assert "Traceback" not in render_all(problems)

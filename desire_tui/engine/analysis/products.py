@@ -169,9 +169,7 @@ def matrix_vector(
     return MatVec(a.slot, a.shape[0], a.shape[1], transposed, x.slot)
 
 
-def _signed_unit(
-    context: Context, factor: Expr, following: tuple[str, Expr], extent: Extent
-) -> Value | None:
+def _signed_unit(context: Context, factor: Expr, following: tuple[str, Expr], extent: Extent) -> Value | None:
     """Lower a unit whose factors may have signs: `-A*x`, `3*-u*v`."""
     op, right = following
     (sign, first), (other, second) = unsigned(factor), unsigned(right)
