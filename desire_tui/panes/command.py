@@ -9,9 +9,10 @@ from textual.containers import Horizontal, Vertical
 from textual.message import Message
 from textual.widgets import Input, Label
 
-from desire_tui.panes.console import Console, Place
+from desire_tui.panes.console import Console
 from desire_tui.panes.held import HeldLines
 from desire_tui.panes.prompt import Prompt
+from desire_tui.panes.scrollback import Place
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

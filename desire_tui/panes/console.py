@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import islice
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -15,31 +13,13 @@ from textual.scroll_view import ScrollView
 from textual.strip import Strip
 
 from desire_tui import themes
+from desire_tui.panes.scrollback import Scrollback
 
 if TYPE_CHECKING:
     from textual import events
     from textual.selection import Selection
 
-Kind = Literal["output", "command", "error", "warning", "notice", "code"]
-LINES_MAX = 20_000
-LINE_CHARS_MAX = 4_000
-_CONTROL = {code: 0xFFFD for code in (*range(32), 127, *range(128, 160)) if code != 9}
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A place in a program that a line of output points at; row and column from 1."""
-
-    name: str
-    row: int
-    column: int
-
-
-@dataclass(slots=True)
-class _Line:
-    text: str
-    kind: Kind
-    place: Place | None = None
+    from desire_tui.panes.scrollback import Kind, Line, Place
 
 
 class Console(ScrollView):
@@ -62,10 +42,7 @@ class Console(ScrollView):
 
     def __init__(self) -> None:
         super().__init__(id="console")
-        self._lines: list[_Line] = []
-        self._open = False
-        self._rows: list[tuple[int, int, int]] = []  # row on screen → line, first character, last + 1
-        self._width = 0
+        self.scrollback = Scrollback()
         self.found: tuple[str, int] | None = None
         """Text searched, line it was found in."""
 
@@ -73,78 +50,37 @@ class Console(ScrollView):
 
     def write(self, text: str, kind: Kind = "output") -> None:
         """Append text exactly as it comes; a line may come in pieces."""
-        if not text:
-            return
-        at_end = self.is_vertical_scroll_end
-        pieces = text.split("\n")
-        if self._open and self._lines and self._lines[-1].kind == kind:
-            line = self._lines[-1]
-            line.text = (line.text + pieces.pop(0).expandtabs(8).translate(_CONTROL))[:LINE_CHARS_MAX]
-            self._lay_out(len(self._lines) - 1)
-        if pieces and pieces[-1] == "":
-            pieces.pop()
-            ended = True
-        else:
-            ended = text.endswith("\n")
-        first = len(self._lines)
-        self._lines += [_Line(p.expandtabs(8).translate(_CONTROL)[:LINE_CHARS_MAX], kind) for p in pieces]
-        self._open = not ended
-        self._lay_out(first)
-        self._settle(at_end)
+        if text:
+            at_end = self.is_vertical_scroll_end
+            self.scrollback.write(text, kind)
+            self._settle(at_end)
 
     def add(self, text: str, kind: Kind = "notice", place: Place | None = None) -> None:
         """Append whole lines; an unfinished one before is finished."""
         at_end = self.is_vertical_scroll_end
-        first = len(self._lines)
-        for line in text.split("\n"):
-            self._lines.append(_Line(line.expandtabs(8).translate(_CONTROL)[:LINE_CHARS_MAX], kind, place))
-        self._open = False
-        self._lay_out(first)
+        self.scrollback.add(text, kind, place)
         self._settle(at_end)
 
     def clear(self) -> None:
         """Forget everything."""
-        self._lines.clear()
-        self._open = False
-        self._lay_out(0)
+        self.scrollback.clear()
         self._settle(at_end=True)
 
     @property
     def text(self) -> str:
         """All lines."""
-        return "\n".join(line.text for line in self._lines)
-
-    def _lay_out(self, first: int) -> None:
-        """Break lines from number `first` on into rows of the pane's width."""
-        if len(self._lines) > LINES_MAX:
-            del self._lines[: len(self._lines) - LINES_MAX]
-            first = 0
-        while self._rows and self._rows[-1][0] >= first:
-            self._rows.pop()
-        if first == 0:
-            self._rows.clear()
-        width = max(self._width, 10)
-        for number, line in enumerate(islice(self._lines, first, None), first):
-            start, end = 0, len(line.text)
-            while end - start > width:
-                cut = line.text.rfind(" ", start + width // 2, start + width + 1) + 1 or start + width
-                self._rows.append((number, start, cut))
-                start = cut
-            self._rows.append((number, start, end))
+        return "\n".join(line.text for line in self.scrollback.lines)
 
     def _settle(self, at_end: bool) -> None:
-        self.virtual_size = Size(self._width, len(self._rows))
+        self.virtual_size = Size(self.scrollback.width, len(self.scrollback.rows))
         if at_end:
             self.scroll_end(animate=False, immediate=True)
         self.refresh()
 
     def on_resize(self) -> None:
         """Break the lines anew."""
-        width = self.scrollable_content_region.width
-        if width != self._width:
-            self._width = width
-            at_end = self.is_vertical_scroll_end
-            self._lay_out(0)
+        at_end = self.is_vertical_scroll_end
+        if self.scrollback.set_width(self.scrollable_content_region.width):
             self._settle(at_end)
 
     # --------------------------------------------------------------------------------------------- drawing
@@ -153,10 +89,10 @@ class Console(ScrollView):
         """Draw a row."""
         base = self.rich_style
         row = y + self.scroll_offset.y
-        if row >= len(self._rows):
+        if row >= len(self.scrollback.rows):
             return Strip.blank(self.size.width, base)
-        number, start, end = self._rows[row]
-        line = self._lines[number]
+        number, start, end = self.scrollback.rows[row]
+        line = self.scrollback.lines[number]
         text = line.text[start:end]
         style = base + self._style(line)
         segments = [Segment(text, style)]
@@ -176,7 +112,7 @@ class Console(ScrollView):
                 )
         return strip
 
-    def _style(self, line: _Line) -> Style:
+    def _style(self, line: Line) -> Style:
         theme = self.app.current_theme
         match line.kind:
             case "error":
@@ -212,21 +148,15 @@ class Console(ScrollView):
             self.found = None
             self.refresh()
             return False
-        count = len(self._lines)
-        again = self.found is not None and self.found[0] == wanted
-        here = self.found[1] if again and self.found else count
-        order = range(here - 1, here - 1 - count, -1) if backwards else range(here + 1, here + 1 + count)
-        for number in order:
-            at = number % count if count else 0
-            if count and wanted.casefold() in self._lines[at].text.casefold():
-                self.found = (wanted, at)
-                row = next(r for r, (line, *_) in enumerate(self._rows) if line == at)
-                self.scroll_to(y=max(0, row - self.size.height // 2), animate=False, immediate=True)
-                self.refresh()
-                return True
-        self.found = (wanted, count)
+        count = len(self.scrollback.lines)
+        here = self.found[1] if self.found is not None and self.found[0] == wanted else count
+        at = self.scrollback.find(wanted, here, -1 if backwards else 1)
+        self.found = (wanted, count if at is None else at)
+        if at is not None:
+            row = self.scrollback.row_of(at)
+            self.scroll_to(y=max(0, row - self.size.height // 2), animate=False, immediate=True)
         self.refresh()
-        return False
+        return at is not None
 
     def get_selection(self, selection: Selection) -> tuple[str, str] | None:
         """Return the text selected with the mouse."""
@@ -240,5 +170,6 @@ class Console(ScrollView):
     def on_click(self, event: events.Click) -> None:
         """Go to the place that the line names."""
         row = int(event.y) + self.scroll_offset.y
-        if 0 <= row < len(self._rows) and (place := self._lines[self._rows[row][0]].place) is not None:
+        rows = self.scrollback.rows
+        if 0 <= row < len(rows) and (place := self.scrollback.lines[rows[row].line].place) is not None:
             self.post_message(self.PlaceChosen(place))
