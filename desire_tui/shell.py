@@ -116,6 +116,11 @@ class Shell(App[None]):
         self.desk.set_focus(widget)  # at once: widget.focus() waits, and keys typed meanwhile would go astray
         return widget.focusable
 
+    def show_run(self) -> None:
+        """Where the editor fills a small screen, give way to the graph and the command line."""
+        if self.desk.alone is None and not {"graph", "command"} & self.desk.shown:
+            self.bring(self.command.prompt)
+
     def toggle_maximized(self, pane: Pane | None) -> None:
         """Show a pane (default: the focused one) alone, or all again."""
         desk = self.desk

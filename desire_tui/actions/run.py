@@ -25,6 +25,7 @@ class RunActions(Controller):
         """`zz`: accept the front tab and run it; a run that goes on is ended first."""
         del argument
         app = self.app
+        app.show_run()
         source = self._accept_front()
         app.listener.front = source
         self.end_now()

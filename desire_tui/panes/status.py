@@ -11,6 +11,7 @@ from textual.reactive import reactive
 from textual.strip import Strip
 from textual.widget import Widget
 
+from desire_tui.engine.session import State
 from desire_tui.panes.runtext import run_text
 
 if TYPE_CHECKING:
@@ -22,7 +23,10 @@ if TYPE_CHECKING:
 
 KEYS_KEPT, KEYS_PART = 32, 0.45
 """Cells, or part of the row, that the keys keep beside the run."""
+KEYS_GOING = 12
+"""Cells they keep while a run goes on: its numbers matter more then."""
 RUN_KEPT = 10
+PAUSE = "run.pause"
 REPORT = "run.report"
 """What a click on the run does."""
 
@@ -60,13 +64,19 @@ class StatusBar(Widget):
     def text(self) -> str:
         """What the right side says of the run."""
         width = self.size.width - (len(self.hint) + 3 if self.hint else 0)
-        keys = 0 if self.hint else max(KEYS_KEPT, int(width * KEYS_PART))
+        keys = 0 if self.hint else KEYS_GOING if self._going else max(KEYS_KEPT, int(width * KEYS_PART))
         return run_text(self.status, min(width, max(width - keys, RUN_KEPT)))
+
+    @property
+    def _going(self) -> bool:
+        return self.status is not None and self.status.state is State.RUNNING
 
     def _shown_keys(self, room: int) -> list[tuple[KeyHint, int]]:
         """Keys that fit, with the cell where each begins."""
         shown, used = [], 0
-        for hint in self.keys:
+        for hint in (
+            sorted(self.keys, key=lambda hint: hint.command_id != PAUSE) if self._going else self.keys
+        ):
             width = len(hint.key) + len(hint.title) + 3
             if used + width > room:
                 break

@@ -271,3 +271,14 @@ def test_the_session_is_made_by_whoever_asks_first():
     assert engine.session is engine.session
     engine.start()
     assert engine.is_up
+
+
+async def test_while_a_run_goes_on_its_step_is_seen_at_80_columns_and_the_key_that_pauses_it(program):
+    async with desktop(program(LONG), size=(80, 24)) as desk:
+        await desk.press("f5")
+        await desk.until(lambda: desk.app.session.runs and desk.app.session.runs[0].steps)
+        desk.app.show_status()
+        row = desk.app.desk.query_one(StatusBar).render_line(0).text
+        assert row.startswith(" ^C pause")
+        assert "steps/s · DT 0.001" in row
+        assert len(row) == 80

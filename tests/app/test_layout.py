@@ -162,3 +162,13 @@ async def test_maximizing_any_pane_and_moving_on(program):
         assert desk.app.desk.shown == {"command"}
         await desk.press("f4")
         assert desk.app.desk.shown == {"editor", "command", "graph"}
+
+
+async def test_on_a_small_screen_a_run_begun_in_the_editor_is_seen(program):
+    async with desktop(program(OSCILLATOR), size=(40, 12)) as desk:
+        await desk.press("alt+e")
+        assert desk.app.desk.shown == {"editor"}
+        await desk.press("f5")
+        await desk.idle()
+        assert desk.app.desk.shown == {"command", "graph"}
+        assert desk.app.focused is desk.app.command.prompt
