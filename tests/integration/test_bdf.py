@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from desire_tui.engine.codegen.stiff_library import fast_functions
-from desire_tui.engine.integration.bdf import newton, step
+from desire_tui.engine.integration.bdf import memory, newton, step
 from desire_tui.engine.integration.bdf.memory import Evaluate, Fill, Weigh
 from desire_tui.engine.integration.bdf.solver import OwnSolver
 from desire_tui.engine.integration.callbacks import numbers
@@ -168,14 +168,14 @@ def test_a_pole_ends_with_small_steps():
         return [y[0] ** 2] if y[0] < 1e6 else None
 
     flag, steps, _ = ours(problem, [2.0], f)
-    assert flag == step.NOT_CONVERGED
+    assert flag == memory.NOT_CONVERGED
     assert steps[-1, 0] == pytest.approx(1.0, abs=1e-4)
 
 
 def test_no_derivatives_at_the_start():
     problem = PROBLEMS["oscillator"]
     flag, _, _ = ours(problem, [1.0], lambda *_: None)
-    assert flag == step.NO_DERIVATIVES
+    assert flag == memory.NO_DERIVATIVES
 
 
 def test_backwards_in_time():

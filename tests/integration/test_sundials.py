@@ -147,7 +147,6 @@ dispt x
 
 def test_without_the_library_a_plain_message_and_the_other_rules_work(monkeypatch, forget):
     monkeypatch.setattr(library, "find_spec", lambda _name: None)
-    assert not library.available()
     with pytest.raises(DesireError) as caught:
         written(PROGRAM.format(rule=15), "reference")
     assert caught.value.diagnostics[0].code == 460

@@ -17,7 +17,7 @@ from desire_tui.engine.codegen.plain_python import PlainPython
 from desire_tui.engine.codegen.steppers import CvodeStepper, OwnStepper
 from desire_tui.engine.codegen.stiff_callbacks import add_callbacks
 from desire_tui.engine.codegen.stiff_interval import add_gather, add_interval
-from desire_tui.engine.integration.bdf import coefficients, newton, step
+from desire_tui.engine.integration.bdf import choice, coefficients, newton, start, step
 from desire_tui.engine.integration.bdf.memory import Bdf
 from desire_tui.engine.integration.problem import Problem
 from desire_tui.engine.integration.sundials.library import libraries
@@ -32,11 +32,12 @@ _CALLED = (
 _SOURCES = (
     "codegen/plain_python.py", "codegen/steppers.py", "codegen/stiff_builder.py",
     "codegen/stiff_callbacks.py", "codegen/stiff_interval.py", "codegen/stiff_library.py",
-    "integration/bdf/coefficients.py", "integration/bdf/memory.py", "integration/bdf/newton.py",
-    "integration/bdf/step.py", "integration/problem.py", "runtime/memory.py",
+    "integration/bdf/choice.py", "integration/bdf/coefficients.py", "integration/bdf/memory.py",
+    "integration/bdf/newton.py", "integration/bdf/start.py", "integration/bdf/step.py",
+    "integration/problem.py", "runtime/memory.py",
 )  # fmt: skip
 """All that the code depends on: kept code of other texts is not looked at."""
-_BDF = (coefficients, newton, step)
+_BDF = (choice, coefficients, newton, start, step)
 _TEXTS = {name: (files("desire_tui.engine") / name).read_bytes() for name in _SOURCES}
 """Read now, when the modules are: files may change under a process that lives for days."""
 

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
 ORDER_MOST = 5
 """BDF of order 6 is unstable for nearly every stiff problem."""
 ROWS = ORDER_MOST + 1
+TOO_ACCURATE, TEST_FAILED, NOT_CONVERGED, SETUP_FAILED, GAVE_UP, NO_DERIVATIVES = -2, -3, -4, -6, -8, -10
+"""CVODE's flags. More accuracy is wished for than doubles have; the error test, the corrector failed too
+often; the Jacobian cannot be had; a callback gave up; derivatives were not finite."""
+EPSILON = 2.220446049250313e-16
 
 _ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
 _REALS, _INTS = ctypes.POINTER(_REAL), ctypes.POINTER(_INT)

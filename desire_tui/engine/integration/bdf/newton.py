@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.bdf.memory import SETUP_FAILED
+
 if TYPE_CHECKING:
     from desire_tui.engine.integration.bdf.memory import Bdf, Ints, Reals
 
-SETUP_FAILED = -6
-"""CVODE's flag: the Jacobian cannot be had."""
 TOO_SLOW = 1
 """The corrector did not converge; so is a derivative that a callback could not give. Try a smaller step."""
 NOTHING, BAD_TEST, BAD_CORRECTION = 0, 1, 2

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from desire_tui.engine.integration.bdf import step
+from desire_tui.engine.integration.bdf import start, step
 from desire_tui.engine.integration.bdf.memory import Arrays, Bdf
 from desire_tui.engine.integration.sundials.solver import MATRIX_CONVERGENCE, Counts
 
@@ -45,7 +45,7 @@ class OwnSolver:
 
     def restart(self, t: float, first_step: float) -> None:
         """Begin anew from the states at `states`."""
-        step.restart(self._bdf, t, first_step)
+        start.restart(self._bdf, t, first_step)
 
     def step(self, t_stop: float) -> tuple[int, float]:
         """Take one step, never beyond `t_stop`; return the flag (< 0: failed) and the time reached."""

@@ -60,15 +60,6 @@ def superlu() -> ctypes.CDLL | None:
     return library
 
 
-def available() -> bool:
-    """Whether rules 9 … 16 can work here."""
-    try:
-        libraries()
-    except DesireError:
-        return False
-    return True
-
-
 def _find(part: str) -> Path:
     package = find_spec("sksundae")
     if package is None or package.origin is None:

@@ -85,7 +85,7 @@ JacobianFunction = ctypes.CFUNCTYPE(_I, _D, _P, _P, _P, _P, _P, _P, _P)
 """CVLsJacFn: t, y, f(y), matrix, user data, three spare vectors."""
 
 ADAMS, BDF = 1, 2
-NORMAL, ONE_STEP = 1, 2
+ONE_STEP = 2
 SUCCESS, TSTOP_RETURN = 0, 1
 CSC = 0
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.linear import Attached, Linear
-from desire_tui.engine.integration.sundials.signatures import ADAMS, BDF, ONE_STEP, SUCCESS, address
+from desire_tui.engine.integration.sundials.signatures import ADAMS, BDF, ONE_STEP, SUCCESS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -55,7 +55,7 @@ class Solver:
     """CVODE for `n` states at `states` (an address: the solution is written there, nothing is copied).
 
     `rule` 9 … 12 is Adams, 13 … 16 BDF. Start it with `restart`, then call `step` again and again, or let
-    native code call `CVode` through `step_address` with `memory` and `vector`.
+    native code call `CVode` with `memory` and `vector`.
     """
 
     def __init__(self, rule: int, n: int, states: int, callbacks: Callbacks, linear: Linear) -> None:
@@ -126,11 +126,6 @@ class Solver:
         self._fetch("CVodeGetEstLocalErrors", errors)
         self._fetch("CVodeGetErrWeights", weights)
         return int(np.argmax(np.nan_to_num(np.abs(errors * weights), nan=np.inf)))
-
-    @property
-    def step_address(self) -> int:
-        """Address of the C function `CVode`."""
-        return address(self._library, "CVode")
 
     def _set(self, name: str, *arguments: object) -> None:
         flag = getattr(self._library, name)(self.memory, *arguments)
