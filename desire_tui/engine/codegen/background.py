@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 _BREATH_SECONDS = 0.0005
 """Between two steps: LLVM's lock is not fair, and somebody may wait with quick code."""
-_END_SECONDS = 5.0
+_END_SECONDS = 30.0
 _BEGUN_MOST = 3
 _QUIET_SECONDS = 0.02
 """After somebody waited for quick code, more may follow; then the user comes first."""

@@ -30,7 +30,8 @@ _CALLED = (
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
 )  # fmt: skip
 _SOURCES = (
-    "codegen/plain_python.py", "codegen/steppers.py", "codegen/stiff_builder.py",
+    "codegen/plain_expressions.py", "codegen/plain_python.py", "codegen/steppers.py",
+    "codegen/stiff_builder.py",
     "codegen/stiff_callbacks.py", "codegen/stiff_interval.py", "codegen/stiff_library.py",
     "integration/bdf/choice.py", "integration/bdf/coefficients.py", "integration/bdf/memory.py",
     "integration/bdf/newton.py", "integration/bdf/start.py", "integration/bdf/step.py",
