@@ -213,7 +213,7 @@ class DesireApp(Shell):
         """Carry out an action of the command table."""
         result = self.call(command_id, argument)
         if inspect.iscoroutine(result):
-            self.run_worker(result, name=command_id, exit_on_error=True)
+            self.begun = self.run_worker(result, name=command_id, exit_on_error=True)
 
     def action_do(self, command_id: str) -> None:
         """Carry out what a key is bound to."""

@@ -12,28 +12,47 @@ import asyncio
 import contextlib
 from typing import TYPE_CHECKING
 
+from textual.screen import ModalScreen
+from textual.widget import Widget
 from textual.widgets import Input, TextArea
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
     from textual import events
-    from textual.app import App
-    from textual.widget import Widget
+    from textual.screen import Screen
+
+    from desire_tui.shell import Shell
 
 PATIENCE_S = 2.0
 """A widget that is busy for longer does not hold up the keys of the others."""
 
 
 async def carry_out(
-    app: App[None], event: events.Key, hand_over: Callable[[events.Key], Awaitable[None]]
+    app: Shell, event: events.Key, hand_over: Callable[[events.Key], Awaitable[None]]
 ) -> None:
     """Carry out a key that may be bound: after what was typed before it, before what comes next.
 
     `hand_over` is the app's usual way: bindings with priority, else the focused widget's queue.
     """
     await caught_up(app.focused)
-    field = app.focused
+    field, screen, begun = app.focused, app.screen, app.begun
+    await _deal_with(app, event, field, hand_over)
+    if field is not None and isinstance(screen, ModalScreen):
+        for above in field.ancestors:  # Return in a dialog's field goes up to the dialog, which ends
+            await caught_up(above if isinstance(above, Widget) else None)
+    if app.screen is not screen and isinstance(screen, ModalScreen):
+        await _at_rest(app, app.screen)
+    elif app.begun is not begun:
+        await _at_rest(app, screen)
+
+
+async def _deal_with(
+    app: Shell,
+    event: events.Key,
+    field: Widget | None,
+    hand_over: Callable[[events.Key], Awaitable[None]],
+) -> None:
     if not isinstance(field, (Input, TextArea)):
         await hand_over(event)
         return
@@ -45,6 +64,16 @@ async def carry_out(
     if not await app._check_bindings(event.key) and field.parent is not None:  # noqa: SLF001 - as above
         event.bubble = True  # type: ignore[misc]
         event._bubble_to(field.parent)  # noqa: SLF001 - what Textual itself would have done
+
+
+async def _at_rest(app: Shell, screen: Screen[object]) -> None:
+    """Wait until an action just begun is done, or has opened a dialog that takes the keys."""
+    end = asyncio.get_running_loop().time() + PATIENCE_S
+    worker = app.begun
+    while worker is not None and not worker.is_finished and asyncio.get_running_loop().time() < end:
+        if app.screen is not screen and app.screen.focused is not None:
+            return
+        await asyncio.sleep(0.001)
 
 
 async def caught_up(widget: Widget | None) -> None:

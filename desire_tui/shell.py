@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from textual.widget import Widget
+    from textual.worker import Worker
 
     from desire_tui.arrangement import Pane
     from desire_tui.desk import Desk
@@ -36,6 +37,8 @@ class Shell(App[None]):
 
     desk: Desk
     engine: EngineThread
+    begun: Worker[None] | None = None
+    """The action begun last that takes its time."""
     complaints = 0
     """How often the user was told that something of his cannot be done."""
 

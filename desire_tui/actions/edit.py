@@ -57,7 +57,7 @@ class EditActions(Controller):
             self.app.notify(f"'{text}' is no line number.", severity="error", markup=False)
             return
         area.go_to(int(row) - 1, int(column) - 1 if column.strip().isdecimal() else 0)
-        area.focus()
+        self.app.bring(area)
 
     def comment(self, argument: str = "") -> None:
         """Turn the selected rows into comments, or back."""
@@ -75,7 +75,7 @@ class EditActions(Controller):
         if mark is None:
             self.app.notify("No problems in this program.", timeout=2)
             return
-        area.focus()
+        self.app.bring(area)
         area.go_to(mark.row, mark.start)
 
     def next_problem(self, argument: str = "") -> None:

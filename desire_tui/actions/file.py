@@ -34,7 +34,7 @@ class FileActions(Controller):
         """Open an empty tab."""
         del argument
         area = await self.app.editor.add(Buffer())
-        area.focus()
+        self.app.bring(area)
 
     async def clear(self, argument: str = "") -> None:
         """Clear the program after asking (`new`)."""
@@ -83,7 +83,7 @@ class FileActions(Controller):
             return None
         area = await editor.add(buffer)
         if focus:
-            area.focus()
+            self.app.bring(area)
         return area
 
     def _folder(self) -> Path:
@@ -209,7 +209,7 @@ class FileActions(Controller):
         origin = self.app.editor.active or self.app.editor.front
         buffer = Buffer(label=f"{Path(origin.buffer.name).stem}-copy")
         area = await self.app.editor.add(buffer, change(origin.text))
-        area.focus()
+        self.app.bring(area)
 
     # ------------------------------------------------------------------------------------------ tabs, leaving
 

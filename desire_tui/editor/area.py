@@ -31,6 +31,10 @@ class CodeArea(ProgramView):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("shift+tab", "shift_lines(-1)", "Dedent", show=False),
         Binding("ctrl+d", "duplicate_line", "Duplicate line", show=False),
+        Binding("ctrl+home", "to_end(-1)", "Top of the text", show=False),
+        Binding("ctrl+end", "to_end(1)", "End of the text", show=False),
+        Binding("ctrl+shift+home", "to_end(-1, True)", "Select to the top", show=False),
+        Binding("ctrl+shift+end", "to_end(1, True)", "Select to the end", show=False),
         Binding("alt+shift+up", "move_line(-1)", "Move line up", show=False),
         Binding("alt+shift+down", "move_line(1)", "Move line down", show=False),
     ]
@@ -158,6 +162,10 @@ class CodeArea(ProgramView):
         self.selection = Selection(
             (top + step, 0), (bottom + step, len(self.document.get_line(bottom + step)))
         )
+
+    def action_to_end(self, step: int, select: bool = False) -> None:
+        """Move the cursor to the top (-1) or the end (1) of the text."""
+        self.move_cursor((0, 0) if step < 0 else self.document.end, select=select)
 
     def go_to(self, row: int, column: int = 0) -> None:
         """Put the cursor on a row (from 0), in the middle of the view."""

@@ -19,6 +19,7 @@ _TYPED = re.compile(r"d/[A-Za-z]*|[A-Za-z][A-Za-z0-9_$]*")
 OFFERED_MAX = 60
 LINES_SEARCHED, LINE_SEARCHED = 2000, 1000
 """So many lines before and behind the cursor are searched for names, and so many characters of each."""
+SMALL_WORDS = frozenset({"and", "or", "not", "then", "to", "t0"})
 OWN_NAME = "name in this program"
 
 
@@ -103,6 +104,7 @@ def _words(*, commands: bool) -> dict[str, str]:
     The command line's own words too where they may stand.
     """
     from desire_tui.engine.library import LIBRARY
+    from desire_tui.engine.syntax import highlight
     from desire_tui.help import topics
 
     table = {name: f"({entry.parameters})  {entry.help}" for name, entry in LIBRARY.items()}
@@ -110,7 +112,10 @@ def _words(*, commands: bool) -> dict[str, str]:
         if page.kind == "error" or (page.kind == "command" and not commands):
             continue
         for word in (page.name, *page.words):
-            if _TYPED.fullmatch(word):
+            if not _TYPED.fullmatch(word):
+                continue
+            of_the_language = word in SMALL_WORDS or highlight(word)[0][2] != "name"
+            if of_the_language or page.kind == "command":  # other words only lead to the page
                 table.setdefault(word, page.summary)
     if commands:
         for command in COMMANDS:

@@ -56,7 +56,7 @@ class FindBar(Horizontal):
         field = self.query_one("#wanted", Input)
         if wanted:
             field.value = wanted
-        field.focus()
+        self.screen.set_focus(field)  # at once: the letters typed next are for it
         self._count()
 
     def places(self) -> list[tuple[Location, Location]]:

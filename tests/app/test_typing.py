@@ -235,3 +235,35 @@ async def test_any_text_at_any_speed(program, seed: int):
         await desk.until(lambda: len(area.text) >= len(typed))
         await desk.pilot.pause()
         assert area.text == typed
+
+
+async def test_letters_right_after_a_key_go_where_it_leads(program):
+    """To the find bar, a new tab, a dialog: none of them is there yet when the letters are typed."""
+    text = "".join(f"y{n} = {n}\n" for n in range(50))
+    async with desktop(program(text)) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        await desk.pilot.pause()
+        desk.app.post_message(events.Key("ctrl+f", None))
+        rush(desk, "y33\n")
+        desk.app.post_message(events.Key("escape", None))
+        rush(desk, "found")
+        await desk.until(lambda: "found" in area.text)
+        assert area.document.get_line(33) == "found = 33"
+        desk.app.post_message(events.Key("ctrl+g", None))
+        rush(desk, "12\nhere ")
+        await desk.until(lambda: "here" in area.text)
+        assert area.document.get_line(11) == "here y11 = 11"
+        desk.app.post_message(events.Key("ctrl+n", None))
+        rush(desk, "new")
+        await desk.until(lambda: desk.app.editor.front.text == "new")
+        assert "new" not in area.text
+        desk.app.post_message(events.Key("ctrl+end", None))
+        rush(desk, "er")
+        await desk.until(lambda: desk.app.editor.front.text == "newer")
+
+
+def test_only_words_of_the_language_are_offered():
+    words = {offer.word for start in "abcdefghijklmnopqrstuvwxyz" for offer in offers(start, [], {})}
+    assert {"dispt", "drun", "irule", "sin", "then", "d/dt", "TMAX"} <= words
+    assert not {"precedence", "operators", "hexadecimal", "settings", "rules"} & words
