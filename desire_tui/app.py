@@ -58,7 +58,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.session import Permissions
 
-STATUS_EVERY_S, QUANTITIES_EVERY_S = 0.1, 0.35
+STATUS_EVERY_S, QUANTITIES_EVERY_S = 0.1, 0.6
+"""Numbers to read: drawing the table of quantities takes as long as five frames of the graph."""
 ENGINE_AFTER_S = 0.05
 """A key typed as soon as the desktop is seen is answered first: Python imports in one thread at a time."""
 EDITOR_ONLY = {"edit.undo", "edit.redo", "edit.select_all", "edit.comment", "file.close"}
@@ -294,6 +295,10 @@ class DesireApp(Shell):
     @on(QuantitiesPane.Edited)
     def _quantity_edited(self, event: QuantitiesPane.Edited) -> None:
         self.line.enter([event.text])
+
+    @on(QuantitiesPane.PlotWanted)
+    def _plot_wanted(self, event: QuantitiesPane.PlotWanted) -> None:
+        self.do("graph.chart", event.name)
 
     @on(Sliders.Moved)
     def _slider_moved(self, event: Sliders.Moved) -> None:
