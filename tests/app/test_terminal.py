@@ -50,6 +50,7 @@ class Terminal:
             sys.executable, ["-m", "desire_tui", *files], env=env, cwd=str(folder), dimensions=(rows, columns)
         )
         self.child.delaybeforesend = None
+        self.child.ptyproc.delayafterterminate = 0.5  # on a machine with much to do even SIGKILL takes its time
         self.modes_before = termios.tcgetattr(self.child.child_fd)
 
     def read(self, seconds: float = 0.05) -> None:
@@ -72,6 +73,12 @@ class Terminal:
         end = time.monotonic() + PATIENCE_S
         while not condition():
             assert time.monotonic() < end, (self.text, bytes(self.raw[-600:]), self.child.isalive())
+            self.read()
+
+    def read_question(self) -> None:
+        """Take the time a person takes to read: answers typed before are not taken for answers."""
+        end = time.monotonic() + 1
+        while time.monotonic() < end:
             self.read()
 
     def send(self, text: str) -> None:
@@ -155,6 +162,7 @@ def test_a_session(terminal: Callable[..., Terminal], tmp_path: Path):
     children = children_of(screen.child.pid)
     screen.send(CTRL_Q)
     screen.until(lambda: "Unsaved work" in screen.text)
+    screen.read_question()
     screen.send("d")
     screen.child.expect(pexpect.EOF, timeout=PATIENCE_S)
     screen.raw += screen.child.before or b""
@@ -208,6 +216,7 @@ def test_a_signal_restores_the_terminal_and_keeps_the_work(
 
     again = terminal("kept.src")
     again.until(lambda: "Unsaved work found" in again.text)
+    again.read_question()
     again.send("r")
     again.until(lambda: "precious = 1" in again.text)
 
@@ -227,13 +236,16 @@ def test_a_kill_loses_at_most_a_checkpoint(terminal: Callable[..., Terminal], tm
     screen.child.wait()
     again = terminal()
     again.until(lambda: "Unsaved work found" in again.text)
+    again.read_question()
     again.send("r")
     again.until(lambda: "precious = 1" in again.text)
 
 
 def test_a_tiny_terminal_says_so(terminal: Callable[..., Terminal], tmp_path: Path):
     (tmp_path / "a.src").write_text("x = 1\n")
-    screen = terminal("a.src", rows=5, columns=20)
-    screen.until(lambda: "40 × 10" in screen.text)
+    screen = terminal("a.src", rows=2, columns=15)
+    screen.until(lambda: "16 × 3" in " ".join(screen.text.split()))
+    screen.resize(5, 20)  # one pane at a time
+    screen.until(lambda: "> " in screen.text and "F5" in screen.text)
     screen.resize(24, 80)
-    screen.until(lambda: "a.src" in screen.text)
+    screen.until(lambda: "a.src" in screen.text and "x = 1" in screen.text)
