@@ -296,6 +296,10 @@ class DesireApp(Shell):
     def _quantity_edited(self, event: QuantitiesPane.Edited) -> None:
         self.line.enter([event.text])
 
+    @on(QuantitiesPane.PlotWanted)
+    def _plot_wanted(self, event: QuantitiesPane.PlotWanted) -> None:
+        self.do("graph.chart", event.name)
+
     @on(Sliders.Moved)
     def _slider_moved(self, event: Sliders.Moved) -> None:
         self.live.ask(event.values, overlay=event.overlay)

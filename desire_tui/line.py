@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.actions import Controller
 from desire_tui.commands import REFERENCE_WORDS, Command, parse_line
+from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session import State
 from desire_tui.panes.valuetext import value_text
 
@@ -18,8 +19,8 @@ if TYPE_CHECKING:
 
     from desire_tui.app import DesireApp
 
-_NAMES = re.compile(r"(?:write\s+)?[A-Za-z][\w$]*(?:\s*[,;]\s*[A-Za-z][\w$]*)*\s*$")
-DURING_A_RUN = "During a run names alone show their values. Ctrl+C pauses, Space Enter ends it."
+_NAMES = re.compile(r"[A-Za-z][\w$]*(?:\s*[,;]\s*[A-Za-z][\w$]*)*\s*$")
+DURING_A_RUN = "During a run names and write show values. Ctrl+C pauses, Space Enter ends it."
 
 
 class CommandLine(Controller):
@@ -110,17 +111,25 @@ class CommandLine(Controller):
         self._queue.clear()
 
     def _during_a_run(self, line: str) -> None:
-        """Show the values of names; anything else has to wait for the end of the run."""
+        """Show values of names, and what only writes; anything else has to wait for the end of the run."""
         self._echo(line)
-        words = re.findall(r"[A-Za-z][\w$]*", line) if _NAMES.match(line.strip()) else []
-        names = words[1:] if words[:1] == ["write"] and len(words) > 1 else words
-        values = self.app.session.values
+        names = re.findall(r"[A-Za-z][\w$]*", line) if _NAMES.match(line.strip()) else []
+        session, console = self.app.session, self.app.command.console
+        values = session.values
         found = [quantity for name in names if (quantity := values.find(name)) is not None]
         if found and len(found) == len(names):
             text = "\t".join(value_text(values, quantity) for quantity in found)
-            self.app.command.console.add(text, "output")
+            console.add(text, "output")
+            return
+        try:
+            written = session.glance(line)
+        except DesireError as error:
+            self.app.command.problems(error.diagnostics)
+            return
+        if written is None:
+            console.add(DURING_A_RUN, "notice")
         else:
-            self.app.command.console.add(DURING_A_RUN, "notice")
+            console.add(written.rstrip("\n"), "output")
 
     def _echo(self, line: str) -> None:
         self.app.news.flush()

@@ -3,11 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.dialogs import Line
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.places import full, write_safely
+
+if TYPE_CHECKING:
+    from desire_tui.engine.session.charts import Charted
+
+NOT_CHARTED: dict[Charted, str] = {
+    "unknown": "'{name}' has no value: nothing to plot.",
+    "no run": "No run has recorded '{name}' yet: press F5.",
+    "constant": "'{name}' is not changed by the run: its value is among the quantities (Alt+Q).",
+    "changed": "The last run did not record '{name}' and cannot be repeated: add it to dispt, then press F5.",
+    "failed": "The last run fails when repeated to record '{name}': add it to dispt, then press F5.",
+}
 
 
 class GraphActions(Controller):
@@ -135,6 +147,28 @@ class GraphActions(Controller):
             app.complain(f"cannot write {path}: {error.strerror}", code=106)
             return
         app.notify(f"Saved {path}", markup=False, timeout=3)
+
+    def chart(self, argument: str = "") -> None:
+        """Plot a quantity: the named one, the one chosen among the quantities, or the editor's word."""
+        app = self.app
+        chosen = app.quantities.chosen if app.quantities.has_focus_within else None
+        name = argument or (chosen.name if chosen is not None else app.editor.front.word_at_cursor())
+        if not name:
+            app.notify("Choose a quantity to plot, or type: graph x", timeout=3)
+            return
+        if app.engine.is_busy:
+            app.notify(f"'{name}' is plotted when the run is over.", markup=False, timeout=2)
+
+        def plot() -> None:
+            became = app.session.chart(name)
+            if became == "shown":
+                app.call_from_thread(app.show_run)
+            else:
+                app.call_from_thread(
+                    app.notify, NOT_CHARTED[became].format(name=name), markup=False, timeout=4
+                )
+
+        app.engine.submit(plot)
 
     def overlay(self, argument: str = "") -> None:
         """Overlay an older graph (its number, default: the one before) on the one shown."""

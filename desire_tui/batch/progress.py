@@ -29,7 +29,7 @@ class Progress:
             return
         full = round(_BAR * status.progress)
         self._terminal.write(
-            f"\r\x1b[Krun {status.run} {'━' * full}{'╌' * (_BAR - full)} t {status.t:.4g} / "
+            f"\r\x1b[Krun {status.run_text} {'━' * full}{'╌' * (_BAR - full)} t {status.t:.4g} / "
             f"{status.t0 + status.t_max:.4g} · {short(status.steps_per_second)} steps/s"
         )
         self._terminal.flush()

@@ -207,6 +207,16 @@ class Values:
         numbers = tuple((first, self.data[first:last].copy()) for first, last in parts)
         return Saved(numbers, bytes(self.defined), self.random.copy(), self.generation)
 
+    def copied(self) -> Values:
+        """Return quantities of the same names, slots and numbers that share nothing with these."""
+        saved = self.saved()
+        copy = Values(self._arrays - SCALAR_SLOTS + _ALIGN)
+        copy.names = dict(self.names)
+        copy._scalars, copy._arrays, copy.generation = self._scalars, self._arrays, self.generation
+        copy.defined = bytearray(saved.defined)
+        copy.restore(saved)
+        return copy
+
     def restore(self, saved: Saved) -> None:
         """Put numbers back; names made since stay, with the numbers they have."""
         for first, numbers in saved.numbers:

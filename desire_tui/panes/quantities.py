@@ -24,7 +24,7 @@ NAME_CELLS_MAX, VALUE_CELLS = 16, 16
 
 
 class QuantitiesPane(Vertical):
-    """A table with a filter; Enter edits a value, `l` makes a slider."""
+    """A table with a filter; Enter edits a value, `p` plots, `l` makes a slider."""
 
     DEFAULT_CSS = """
     QuantitiesPane Input { height: 1; border: none; padding: 0 1; background: $panel; }
@@ -35,6 +35,7 @@ class QuantitiesPane(Vertical):
     """
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("l", "slider", "Live slider", show=False),
+        Binding("p", "plot", "Plot", show=False),
         Binding("slash", "filter", "Filter", show=False),
         Binding("delete", "remove_slider", "Remove slider", show=False),
         Binding("escape", "done", "Done", show=False),
@@ -55,7 +56,7 @@ class QuantitiesPane(Vertical):
 
     def compose(self) -> ComposeResult:
         """Filter, table, field to edit in, sliders."""
-        yield Input(placeholder="filter · Enter edits · l live slider", id="filter")
+        yield Input(placeholder="filter · Enter edits · p plots · l live slider", id="filter")
         yield DataTable(cursor_type="row", show_header=False, cell_padding=1)
         yield Input(id="edit")
         yield Sliders()
@@ -145,6 +146,20 @@ class QuantitiesPane(Vertical):
         self.action_done()
         if event.value.strip() and not event.value.rstrip().endswith("="):
             self.post_message(self.Edited(event.value))
+
+    # ---------------------------------------------------------------------------------------------- plotting
+
+    class PlotWanted(Message):
+        """A quantity is to be plotted on a page of its own."""
+
+        def __init__(self, name: str) -> None:
+            super().__init__()
+            self.name = name
+
+    def action_plot(self) -> None:
+        """Plot the chosen quantity."""
+        if (quantity := self.chosen) is not None:
+            self.post_message(self.PlotWanted(quantity.name))
 
     # ---------------------------------------------------------------------------------------------- sliders
 

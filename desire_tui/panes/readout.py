@@ -54,5 +54,7 @@ def read(graph: Graph, window: Window, part: float) -> Reading | None:
     shown = (at - window.left) / (window.right - window.left)
     run = [c for c in graph.curves if c.record is curve.record]
     values = [(c.name, c.color, f"{c.samples()[1][number]:.6g}") for c in run if number < c.count]
-    t = curve.record.rows[number, 0]
-    return Reading(float(shown), f"t = {t:.6g}  {curve.x_name} = {x[number]:.6g}", tuple(values))
+    head = f"{curve.x_name} = {x[number]:.6g}"
+    if curve.x_column:
+        head = f"t = {curve.record.rows[number, 0]:.6g}  {head}"
+    return Reading(float(shown), head, tuple(values))

@@ -34,7 +34,7 @@ def run_text(status: Status | None, room: int) -> str:
 
 def _going(status: Status) -> list[str]:
     parts = [
-        f"{status.state.value} {status.run}",
+        f"{status.state.value} {status.run_text}",
         f"{bar(status.progress)} t {status.t:.4g}/{status.t0 + status.t_max:.4g}",
         f"{speed(status.steps_per_second)} steps/s",
         f"DT {status.dt:.3g}",

@@ -8,7 +8,7 @@ from desire_tui.engine.graph.model import Curve, Frame, Graph, ShownArray
 from desire_tui.engine.graph.settings import DisplaySettings
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -102,6 +102,13 @@ class GraphBook:
             page = page or self._page(run_frame(record, request), caption(request))
             page.curves.extend(self._curves(record, request, page.frame, first))
             first = len(page.curves)
+        self._fresh = True
+        return page
+
+    def chart(self, frame: Frame, text: str, curves: Iterable[Curve]) -> Graph:
+        """Show curves on a page of their own. The next run starts another page."""
+        page = self._page(frame, text)
+        page.curves.extend(curves)
         self._fresh = True
         return page
 

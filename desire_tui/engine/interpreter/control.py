@@ -6,6 +6,7 @@ from math import floor
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter import tree as py
+from desire_tui.engine.interpreter.ahead import ROUNDING
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.library import rounded
@@ -17,9 +18,6 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.codes import Operation
     from desire_tui.engine.interpreter.site import Site
-
-_ROUNDING = 1e-9
-"""Added to the number of steps, so that `0 to 1 step 0.1` makes eleven passes."""
 
 
 def if_then(site: Site) -> Operation:
@@ -103,7 +101,7 @@ def for_loop(site: Site) -> Operation:
         s = by() if by is not None else 1.0
         if s == 0.0:
             raise Fault("step-is-zero", node.by)
-        count = floor((b - a) / s + _ROUNDING) + 1
+        count = floor((b - a) / s + ROUNDING) + 1
         if count < 1:
             return after
         slot = slot_of()

@@ -37,6 +37,7 @@ def drun(site: Site) -> Operation:
 
     def action() -> None:
         site.machine.channels.flush()
+        site.machine.run_at = site.code, site.place
         site.host.drun(node.label, site.placed, star=node.star)
         if node.reset:
             site.host.reset()

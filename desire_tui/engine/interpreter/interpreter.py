@@ -66,6 +66,10 @@ class Interpreter:
         code, place = self._machine.codes.locate(self._machine.stopped.address)
         return code.text.placed[min(place, len(code.text.placed) - 1)]
 
+    def runs_ahead(self) -> int | None:
+        """Return how many runs come after the one being made; None: that cannot be told."""
+        return self._machine.runs_ahead()
+
     def run(self) -> None:
         """Run the script from the top; files still connected are closed first."""
         if self.structure.problems:

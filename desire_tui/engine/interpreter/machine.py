@@ -12,6 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.interpreter.ahead import runs_ahead
 from desire_tui.engine.interpreter.builder import Builder
 from desire_tui.engine.interpreter.codes import Code, Codes, Finished, Operation, Statements
 from desire_tui.engine.interpreter.faults import Fault, Origins, explain
@@ -84,6 +85,8 @@ class Machine:
         self._passing: int | None = None
         """The halt from which the script goes on: it does not halt there a second time."""
         self.stepping = False
+        self.run_at: tuple[Code, int] | None = None
+        """Where the `drun` stands that is carried out, or was the last."""
         self._generation = values.generation
 
     # ------------------------------------------------------------------------------- making code
@@ -157,6 +160,12 @@ class Machine:
             code, place = self.codes.locate(address)
             placed = code.text.placed[place]
             raise explain(error, placed, code.text.source, self.origins, self._callers()) from error
+
+    def runs_ahead(self) -> int | None:
+        """Return how many runs come after the one being made, where loops tell."""
+        if self.run_at is None:
+            return None
+        return runs_ahead([self.run_at, *(self.codes.locate(back - 1) for back, _ in reversed(self.returns))])
 
     def _callers(self) -> list[tuple[Placed, Source | None]]:
         """Return the `call` statements that led here, the innermost first."""

@@ -60,6 +60,11 @@ class RunRecord:
         count = self.count
         return self.rows[:count, 0]
 
+    @property
+    def slots(self) -> list[int]:
+        """Where the columns' variables stand among the quantities."""
+        return [column.slot for column in self.columns]
+
     def thin(self, rows_most: int) -> None:
         """Keep only every n-th sample, at most `rows_most` of them: enough for a graph."""
         step = -(-self.count // rows_most)

@@ -92,7 +92,7 @@ class Simulator:
             self._ticker.end()
             self._control.attach(None)
             self.memory = None
-            self._settle(segment, plan, memory, positions, record)
+            self._settle(plan, memory, positions, record)
             record.seconds = perf_counter() - began
             self._began = 0.0
         full = exhausted(ended, segment, plan, memory, self._values)
@@ -122,6 +122,8 @@ class Simulator:
         for states in segment.states:
             if states.count == 1 and states.slot < len(values.defined):
                 values.defined[states.slot] = 1  # states start at 0 (an array's elements always are defined)
+        for slot in (T, *segment.scalars):
+            values.defined[slot] = 1  # who looks while the run goes on finds them
         return memory
 
     def _advance(
@@ -151,14 +153,9 @@ class Simulator:
             else:
                 block = max(1.0, min(block * BLOCK_GROWTH, block * BLOCK_SECONDS / max(took, 1e-6)))
 
-    def _settle(
-        self, segment: Segment, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord
-    ) -> None:
-        """Make the run's results the script's: everything the segment set is defined now."""
+    def _settle(self, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord) -> None:
+        """Make the run's results the script's."""
         values = self._values
-        for slot in segment.scalars:
-            values.defined[slot] = 1
-        values.defined[T] = 1
         if plan.rule != DUMMY:
             values.defined[DT] = 1
         positions.points = int(memory.points_before + memory.point)

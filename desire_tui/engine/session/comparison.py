@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.analysis.slices import full_pass, is_pure
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.lowered import Column, Where
 from desire_tui.engine.runtime.record import RunRecord
 from desire_tui.engine.session.differences import needs_steps_of, table
+from desire_tui.engine.source import Span
 from desire_tui.engine.values import DT, ERMAX
 
 if TYPE_CHECKING:
+    from desire_tui.engine.lowered import Segment
     from desire_tui.engine.session.desk import Desk
     from desire_tui.engine.session.session import Session
     from desire_tui.engine.session.world import World
@@ -69,7 +72,7 @@ def compare_runs(session: Session, world: World, desk: Desk, change: Change) -> 
     if world.runs.run_of != (program.source.text, desk.values.generation):
         raise DesireError(Diagnostic("compare-changed"))
     with world.runs.restored():
-        other = _repeat(world, desk, last, change)
+        other = run_again(world, desk, last, change)
         sampled = _sampled_alike(world, desk, last, other, change)
     page = session.graphs.compare((last, other))
     if page is not None:
@@ -95,16 +98,24 @@ def _sampled_alike(
     repeated, spacing = again
     try:
         if repeated is one:
-            return _repeat(world, desk, one, Change(), spacing), other
-        return one, _repeat(world, desk, one, change, spacing)
+            return run_again(world, desk, one, Change(), spacing), other
+        return one, run_again(world, desk, one, change, spacing)
     except DesireError:
         return one, other  # the runs themselves came to their ends: that is enough to tell
 
 
-def _repeat(
-    world: World, desk: Desk, last: RunRecord, change: Change, spacing: float | None = None
+def run_again(
+    world: World,
+    desk: Desk,
+    last: RunRecord,
+    change: Change,
+    spacing: float | None = None,
+    recorded: tuple[str, int] | None = None,
 ) -> RunRecord:
-    """Run from where the last run began; with `spacing`, samples stand that far apart."""
+    """Run from where the last run began; with `spacing`, samples stand that far apart.
+
+    The variable `recorded` (name, slot) is sampled too. Within `Runs.restored`.
+    """
     is_exact = world.runs.start is not None
     world.runs.go_back()
     rule = last.rule if change.rule is None else change.rule
@@ -115,6 +126,8 @@ def _repeat(
         raise DesireError(Diagnostic("compare-not-integrated", facts={"what": f"rule {rule}", "why": why}))
     if segment.recover:
         segment = desk.segments.recovering(segment, desk.stash_path)
+    if recorded is not None:  # stashed variables are columns and nothing else
+        segment = replace(segment, stash=(*segment.stash, Column(*recorded, _anywhere(segment))))
     for slot, value in ((DT, change.dt), (ERMAX, change.error_max)):
         if value is not None:
             desk.values.assign(slot, value)
@@ -141,6 +154,12 @@ def _repeat(
     if not finished:
         raise Interrupted
     return record
+
+
+def _anywhere(segment: Segment) -> Where:
+    """Return a place for what the program does not ask for, where an infinite value would be reported."""
+    places = [*(states.where for states in segment.states), *(column.where for column in segment.columns)]
+    return places[0] if places else Where(Span(0, 0))
 
 
 class _Deaf:

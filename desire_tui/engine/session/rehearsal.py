@@ -44,7 +44,7 @@ def wrong_jacobians(program: Program) -> tuple[Diagnostic, ...]:
     for name in state_order(program):
         values.scalar(name, is_state=True)
     script = structure(program)
-    world = _EmptyWorld(program, script, values, labels)
+    world = EmptyWorld(program, script, values, labels)
     interpreter = Interpreter(program, script, values, world)
     try:
         interpreter.run()
@@ -59,17 +59,22 @@ def wrong_jacobians(program: Program) -> tuple[Diagnostic, ...]:
     return tuple(world.found)
 
 
-class _EmptyWorld:
+class EmptyWorld:
     """Implements `interpreter.Host`: a script runs in it, but nothing comes of it."""
 
     def __init__(
-        self, program: Program, structure: Structure, values: Values, labels: set[str | None]
+        self,
+        program: Program,
+        structure: Structure,
+        values: Values,
+        labels: set[str | None],
+        seconds: float = SECONDS_MOST,
     ) -> None:
         self.rule = 1
         self.found: list[Diagnostic] = []
         self._program, self._structure, self._values = program, structure, values
         self._wanted = labels
-        self._until = monotonic() + SECONDS_MOST
+        self._until = monotonic() + seconds
 
     def drun(self, label: str | None, placed: Placed, *, star: bool) -> None:
         """Look at the segment's JACOBIAN instead of running it."""

@@ -115,6 +115,7 @@ class Script:
             script = self._desk.structure or structure(program)
             self._interpreter = Interpreter(program, script, self._desk.values, self._world)
             self._world.stop_here = self._interpreter.stop_here
+            self._world.runs_ahead = self._interpreter.runs_ahead
             self._interpreter.halt_at(self._desk.breakpoints)
         return self._interpreter
 

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.graph import Graph
     from desire_tui.engine.nodes import Placed, Program
     from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.session.charts import Charted
     from desire_tui.engine.session.listener import StoppedAt
     from desire_tui.engine.values import Values
 
@@ -38,8 +39,8 @@ class Session:
 
     Threads: `accept erun run go execute new` belong to one thread (the app's engine thread) and return when
     the work is done; they raise DesireError with placed diagnostics when something fails, error 301 when the
-    user ended it. `pause resume end check status snapshot help` may be called from any thread at any time.
-    `values` may be read from any thread; numbers change while a run goes on.
+    user ended it. `pause resume end glance check status snapshot help` may be called from any thread at
+    any time. `values` may be read from any thread; numbers change while a run goes on.
     """
 
     def __init__(
@@ -130,7 +131,7 @@ class Session:
             steps_per_second=runs.simulator.pace(steps, record), dt=cells[DT],
             rule=record.rule if record and memory is not None else world.rule,
             program=self._desk.source.name if self.program else "", edited=self._script.edited,
-            record=record,
+            record=record, runs=world.runs_expected,
         )  # fmt: skip
 
     # ------------------------------------------------------------------ the program
@@ -256,6 +257,17 @@ class Session:
         """Go on after `pause`."""
         self._control.resume()
 
+    def glance(self, text: str) -> str | None:
+        """Return what a command line such as `write 2*x` writes at this moment, also while a run goes on.
+
+        None: it does more than write to the console, or the model is too large for that. DesireError.
+        """
+        if self._desk.program is None or self._desk.structure is None:
+            return None
+        from desire_tui.engine.session.glance import glance
+
+        return glance(text, self._desk.program, self._desk.structure, self.values)
+
     def end(self) -> None:
         """End the run and the script; the samples stay. The waiting call raises error 301."""
         self._control.end()
@@ -275,6 +287,16 @@ class Session:
         write_picture(graph, path)
         self._journal.picture(path)
         return path
+
+    def chart(self, name: str) -> Charted:
+        """Plot `x`, `A` or `A[2,3]` on a page of its own: arrays over the index, others over the last run.
+
+        What that run did not record is recorded by making it once more. Belongs to the session's thread.
+        """
+        from desire_tui.engine.session.charts import chart
+
+        with self._world.working():
+            return chart(self, self._world, self._desk, name)
 
     def help(self, topic: str = "") -> str:
         """Return the help page (Markdown) of a statement, function, command or error number."""

@@ -51,6 +51,14 @@ class Status:
     record: RunRecord | None = None
     """The run that goes on, or the last one: its counters, and why and when it ended."""
 
+    runs: int | None = None
+    """How many runs there will be in all, where the script's loops tell."""
+
+    @property
+    def run_text(self) -> str:
+        """`3 of 5`, or `3` where the end is not known or there is but one run."""
+        return f"{self.run} of {self.runs}" if self.runs is not None and self.runs > 1 else f"{self.run}"
+
     @property
     def progress(self) -> float:
         """Part of TMAX that the run has covered, 0 … 1."""

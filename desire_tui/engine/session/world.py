@@ -41,6 +41,10 @@ class World:
         self.stop_here: Callable[[], None] = _nothing
         self.step_allowed = False
         """The traced script may carry out the statement it stands at (`go` was given)."""
+        self.runs_ahead: Callable[[], int | None] = _nothing
+        """How many runs come after the one being made; None: that cannot be told."""
+        self.runs_expected: int | None = None
+        """How many runs there will be in all."""
         self.carry_out: Callable[[str, str | None], None] = _nothing
         self.write_to_channel: Callable[[int, str], object] = _nothing
 
@@ -56,6 +60,8 @@ class World:
 
     def _run_starts(self, record: RunRecord) -> Lister:
         self.state = State.RUNNING
+        ahead = self.runs_ahead()
+        self.runs_expected = None if ahead is None else record.number + ahead
         return Lister(record, self.write, self.write_to_channel)
 
     @contextmanager
