@@ -59,17 +59,23 @@ def table(
     `sampled` are the same runs, perhaps with samples at other times: the differences are theirs.
     """
     first, second = named(one), named(other)
-    width = max(15, len(first) + 2, len(second) + 2)
     rows = common(*sampled)
     lines = [f"{first}: {one.steps} steps, {second}: {other.steps} steps"]
-    lines.append(f"{'':12s}{'largest':>14s}{'at t':>13s}{first:>{width}s}{second:>{width}s}")
+    cells = [["", "largest", "at t", first, second]]
     for name in dict.fromkeys(column.name for column in one.columns):
         a, b = (run.values(name)[at] for run, at in zip(sampled, rows, strict=True))
         difference = np.abs(a - b)
         at = int(np.nanargmax(difference)) if not np.isnan(difference).all() else 0
-        ends = "".join(f"{run.values(name)[-1]:{width}.8g}" for run in (one, other))
-        lines.append(f"{name:12s}{difference[at]:14.6g}{sampled[0].t[rows[0]][at]:13.6g}{ends}")
+        ends = [f"{run.values(name)[-1]:.8g}" for run in (one, other)]
+        cells.append([name, f"{difference[at]:.6g}", f"{sampled[0].t[rows[0]][at]:.6g}", *ends])
+    lines += _aligned(cells)
     return "\n".join([*lines, *_remarks(one, other, sampled, len(rows[0]))]) + "\n"
+
+
+def _aligned(cells: list[list[str]]) -> list[str]:
+    """Return rows in columns no wider than they need, so that they fit beside a graph."""
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    return ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in cells]
 
 
 def _remarks(
