@@ -89,7 +89,7 @@ COMMANDS = (
     Command("edit.redo", "Redo", "Redo what was undone", "ctrl+y"),
     Command("edit.select_all", "Select all", "Select the whole text of the front tab", "ctrl+a"),
     # -------------------------------------------------------------------------------------------------- graph
-    Command("graph.full", "Full-screen graph", "The graph alone, or all panes again", "f7", ("graph",)),
+    Command("graph.full", "Full-screen graph", "The graph alone, or all panes again", "f7", ("full",)),
     Command("graph.zoom_in", "Zoom in", "Magnify the graph around its middle", "alt+equals_sign,alt+plus"),
     Command("graph.zoom_out", "Zoom out", "Show more of the graph", "alt+minus"),
     Command("graph.left", "Pan left", "Move the graph's window left", "alt+left"),

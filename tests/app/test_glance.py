@@ -39,14 +39,13 @@ async def test_expressions_are_written_while_the_run_goes_on(program):
         assert cells[find("k").slot] == 3
 
 
-@pytest.mark.parametrize(
-    "line", ["k = 4", "write k | k = 4", "drun", "write #1, k", "write k, '", "clear", "input k"]
-)
-async def test_what_does_more_has_to_wait(program, line):
+async def test_what_does_more_has_to_wait(program):
+    lines = ("k = 4", "write k | k = 4", "drun", "write #1, k", "write k, '", "clear", "input k")
     async with desktop(program(PROGRAM)) as desk:
         await running(desk)
-        assert await answer(desk, line) == DURING_A_RUN
-        assert desk.app.session.values.cells[desk.app.session.values.find("k").slot] == 3
+        for line in lines:
+            assert await answer(desk, line) == DURING_A_RUN, line
+            assert desk.app.session.values.cells[desk.app.session.values.find("k").slot] == 3
 
 
 async def test_mistakes_are_told_and_the_run_goes_on(program):
