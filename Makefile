@@ -13,7 +13,7 @@ run: $(STAMP)  ## install if needed, open the IDE with an example loaded
 	$(BIN)/desire examples/ch1/step_response.src
 
 test: $(STAMP)  ## install what the tests need and run them all
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 4 --dist worksteal
 
 check: $(STAMP) lint types contracts test  ## lint + types + import contracts + tests
 
