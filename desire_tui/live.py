@@ -60,5 +60,5 @@ class Live:
                 self.runs_made += 1
                 self.seconds = perf_counter() - began
 
-        app.graph.overlay_next = overlay
+        app.graph.paging.overlay_next = overlay
         app.engine.submit(rerun)

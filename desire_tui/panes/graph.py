@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING, ClassVar
 
 from rich.style import Style
 from textual.binding import Binding, BindingType
-from textual.containers import Container
 from textual.geometry import Region
-from textual.message import Message
 
 from desire_tui.panes import readout
+from desire_tui.panes.gestures import Gestures
+from desire_tui.panes.paging import Paging
 from desire_tui.panes.sheet import Look, Sheet
 from desire_tui.panes.tiles import TILE_COLUMNS, WHITE_STYLE, KeyRow, SheetTile, net_style
 from desire_tui.panes.window import Window
@@ -20,7 +19,6 @@ from desire_tui.panes.window import Window
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from textual import events
     from textual.app import ComposeResult
 
     from desire_tui.engine.graph import Graph
@@ -28,12 +26,10 @@ if TYPE_CHECKING:
     from desire_tui.engine.outputs.frame import TextFrame
     from desire_tui.engine.outputs.painter import Painter
 
-DRAG_CELLS_MIN = 2
 NOTICE_COLUMNS_MIN = 30
-OVERLAYS_MAX = 12
 
 
-class GraphPane(Container, can_focus=True):
+class GraphPane(Gestures, can_focus=True):
     """Shows one page of the session's graphs."""
 
     DEFAULT_CSS = """
@@ -61,24 +57,17 @@ class GraphPane(Container, can_focus=True):
         Binding("shift+right", "arrow(10, 0)", show=False),
     ]
 
-    class PauseWanted(Message):
-        """The graph was clicked twice."""
-
     def __init__(self) -> None:
         super().__init__(id="graph")
-        self.page: Graph | None = None
+        self.paging = Paging()
         self.canvas: Canvas | None = None
         self.frame: TextFrame | None = None
         self.window = Window()
         self.keys_shown = True
-        self.rubber: Region | None = None
         self.reading: readout.Reading | None = None
-        self.overlay_next = False
         self._cursor: float | None = None
         self._painter: Painter | None = None
         self._drawn: tuple[object, ...] = ()
-        self._drag: tuple[int, int] | None = None
-        self._under: list[Graph] = []
         self.sheet = Sheet()
         self._keys: tuple[object, ...] = ()
         self._tiles: list[SheetTile] = []
@@ -92,6 +81,11 @@ class GraphPane(Container, can_focus=True):
         yield KeyRow()
 
     # ---------------------------------------------------------------------------------------------- drawing
+
+    @property
+    def page(self) -> Graph | None:
+        """The graph that is shown."""
+        return self.paging.page
 
     @property
     def is_white(self) -> bool:
@@ -110,15 +104,9 @@ class GraphPane(Container, can_focus=True):
     @property
     def page_mark(self) -> str:
         """Tells which page is shown, if it is not the newest, and whether it is magnified."""
-        marks = []
-        pages = self._pages()
-        if self.page is not None and pages and self.page is not pages[-1]:
-            marks.append(
-                f"page {pages.index(self.page) + 1}/{len(pages)}" if self.page in pages else "old page"
-            )
-        if not self.window.is_whole:
-            marks.append("zoom")
-        return f" {' · '.join(marks)} " if marks else ""
+        marks = [self.paging.place(self._pages()), "" if self.window.is_whole else "zoom"]
+        told = " · ".join(mark for mark in marks if mark)
+        return f" {told} " if told else ""
 
     @property
     def cursor_column(self) -> int | None:
@@ -132,20 +120,11 @@ class GraphPane(Container, can_focus=True):
         if graph is None:
             return
         if graph is self.page:
-            if self._under:
+            if self.paging.under:
                 self._drawn = ()
             self._show_keys()
-        else:
-            before = self.page
-            if before is None or (before.caption, before.frame.kind) != (graph.caption, graph.frame.kind):
-                self.window = Window()
-                self._under.clear()
-            if self.overlay_next and before is not None:
-                self._under = [*self._under, before][-OVERLAYS_MAX:]
-            elif not self.overlay_next:
-                self._under.clear()
-            self.overlay_next = False
-            self.page = graph
+        elif self.paging.follow(graph):
+            self.window = Window()
 
     def tick(self) -> bool:
         """Draw what is new; returns whether anything was.
@@ -171,7 +150,7 @@ class GraphPane(Container, can_focus=True):
         page = self.page
         if page is None:
             return self.paper, self.size
-        under = tuple(len(graph.curves) for graph in self._under)
+        under = tuple(len(graph.curves) for graph in self.paging.under)
         curves = len(page.curves) if under else 0
         look = (page.frame, page.caption, page.net, self.paper, self.window, self.size)
         return id(page), look, under, curves
@@ -197,9 +176,7 @@ class GraphPane(Container, can_focus=True):
         if before is None or canvas is None or place != (before.left, before.columns, before.rows):
             canvas = self.canvas = Canvas(max(frame.columns, 1), max(frame.rows, 1), frame.left)
         self._show_keys()
-        if self._under:
-            page = replace(page, curves=[curve for graph in (*self._under, page) for curve in graph.curves])
-        self._painter = Painter(canvas, page, self.window)
+        self._painter = Painter(canvas, self.paging.with_all_under(page), self.window)
         mark = self.page_mark
         lines = [frame.lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark, *frame.lines[1:]]
         net = ground if page.net is None else ground + net_style(page.net, white=white)
@@ -207,7 +184,7 @@ class GraphPane(Container, can_focus=True):
         self.sheet.lay(columns, rows, look, lines, frame, canvas)
         self._painter.update()  # first: a piece is sent with what stands in it
         canvas.take_dirty()
-        self._mark_cells()
+        self.mark_cells()
 
     def _show_keys(self) -> None:
         """Have the colour keys drawn if they are others than before."""
@@ -239,7 +216,7 @@ class GraphPane(Container, can_focus=True):
                     first = following
             self._tiles[number].refresh(*regions)
 
-    def _mark_cells(self) -> None:
+    def mark_cells(self) -> None:
         """Have the cursor line and the rectangle being marked drawn."""
         frame, column = self.frame, self.cursor_column
         if frame is None:
@@ -253,20 +230,21 @@ class GraphPane(Container, can_focus=True):
 
     def zoom(self, factor: float, x: float = 0.5, y: float = 0.5) -> None:
         """Make the window `factor` times as large, around a point given in parts of it."""
-        self._look(self.window.zoomed(factor, x, y))
+        self.look_at(self.window.zoomed(factor, x, y))
 
     def pan(self, x: float, y: float) -> None:
         """Move the window by parts of itself."""
-        self._look(self.window.panned(x, y))
+        self.look_at(self.window.panned(x, y))
 
     def reset_window(self) -> None:
         """Back to the program's scale; the cursor goes."""
         self._cursor, self.reading = None, None
-        self._look(Window())
-        self._mark_cells()
+        self.look_at(Window())
+        self.mark_cells()
         self.query_one(KeyRow).refresh()
 
-    def _look(self, window: Window) -> None:
+    def look_at(self, window: Window) -> None:
+        """Show another part of the page; a picture has no parts."""
         if self.page is not None and self.page.frame.kind != "picture":
             self.window = window
             self.tick()
@@ -277,7 +255,7 @@ class GraphPane(Container, can_focus=True):
         """Show or hide the cursor."""
         self._cursor = 0.5 if self._cursor is None else None
         self._read()
-        self._mark_cells()
+        self.mark_cells()
 
     def action_arrow(self, x: int, y: int) -> None:
         """Move the cursor if it is shown, else the window."""
@@ -294,7 +272,13 @@ class GraphPane(Container, can_focus=True):
             self.reading = readout.read(self.page, self.window, self._cursor)
         if self.reading != before:
             self.query_one(KeyRow).refresh()
-            self._mark_cells()
+            self.mark_cells()
+
+    def set_cursor(self, x: float) -> None:
+        """Move the cursor, if it is shown, to x (part of the window)."""
+        if self._cursor is not None:
+            self._cursor = x
+            self._read()
 
     def toggle_keys(self) -> None:
         """Show or hide the colour keys."""
@@ -308,95 +292,14 @@ class GraphPane(Container, can_focus=True):
 
     def turn(self, step: int) -> bool:
         """Show an older (-1) or newer (1) page; False if there is none."""
-        pages = self._pages()
-        at = pages.index(self.page) if self.page in pages else len(pages)
-        if not 0 <= at + step < len(pages):
+        if not self.paging.turn(self._pages(), step):
             return False
-        self.page = pages[at + step]
         self.window = Window()
-        self._under.clear()
         self.tick()
         return True
 
     def overlay(self, number: int | None) -> bool:
-        """Lay page `number` (from 1.
-
-        Default: the one before) under the one shown; again: take overlays away.
-        """
-        if self._under and number is None:
-            self._under.clear()
-            self.tick()
-            return True
-        pages = self._pages()
-        at = (
-            (pages.index(self.page) - 1 if self.page in pages else len(pages) - 1)
-            if number is None
-            else number - 1
-        )
-        if self.page is None or not 0 <= at < len(pages) or pages[at] is self.page:
-            return False
-        self._under.append(pages[at])
+        """Lay a page under the one shown (`Paging.lay_under`); False if there is none."""
+        done = self.paging.lay_under(self._pages(), number)
         self.tick()
-        return True
-
-    # ------------------------------------------------------------------------------------------------- mouse
-
-    def _cell(self, event: events.MouseEvent) -> tuple[int, int] | None:
-        """Cell of the canvas under the mouse."""
-        if self.frame is None or self.canvas is None:
-            return None
-        origin = self.content_region
-        x = int(event.screen_x) - origin.x - self.frame.left
-        y = int(event.screen_y) - origin.y - self.frame.top
-        return min(max(x, 0), self.canvas.columns - 1), min(max(y, 0), self.canvas.rows - 1)
-
-    def on_mouse_down(self, event: events.MouseDown) -> None:
-        """Begin a rectangle to zoom into."""
-        if event.button == 1 and (cell := self._cell(event)) is not None:
-            self._drag = cell
-            self.capture_mouse()
-
-    def on_mouse_move(self, event: events.MouseMove) -> None:
-        """Show the rectangle."""
-        if self._drag is None or (cell := self._cell(event)) is None:
-            return
-        (x1, x2), (y1, y2) = sorted((self._drag[0], cell[0])), sorted((self._drag[1], cell[1]))
-        self.rubber = Region(x1, y1, x2 - x1 + 1, y2 - y1 + 1)
-        self._mark_cells()
-
-    def on_mouse_up(self, event: events.MouseUp) -> None:
-        """Zoom into the rectangle; a mere click puts the cursor there."""
-        self.release_mouse()
-        box, self.rubber = self.rubber, None
-        drag, self._drag = self._drag, None
-        if self.canvas is None or drag is None:
-            return
-        if box is not None and box.width > DRAG_CELLS_MIN and box.height > 1:
-            columns, rows = self.canvas.columns, self.canvas.rows
-            self._look(
-                self.window.part(
-                    box.x / columns, box.right / columns, 1 - box.bottom / rows, 1 - box.y / rows
-                )
-            )
-        elif (cell := self._cell(event)) is not None and self._cursor is not None:
-            self._cursor = (cell[0] + 0.5) / self.canvas.columns
-            self._read()
-        self._mark_cells()
-
-    def on_click(self, event: events.Click) -> None:
-        """Two clicks pause the run."""
-        if event.chain == 2:
-            self.post_message(self.PauseWanted())
-
-    def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Zoom in at the mouse."""
-        self._wheel(event, 0.8)
-
-    def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Zoom out at the mouse."""
-        self._wheel(event, 1.25)
-
-    def _wheel(self, event: events.MouseEvent, factor: float) -> None:
-        event.stop()
-        if (cell := self._cell(event)) is not None and self.canvas is not None:
-            self.zoom(factor, (cell[0] + 0.5) / self.canvas.columns, 1 - (cell[1] + 0.5) / self.canvas.rows)
+        return done

@@ -1,0 +1,68 @@
+"""Which of the session's graphs is shown, and which older ones lie under it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.graph import Graph
+
+OVERLAYS_MAX = 12
+
+
+class Paging:
+    """The page shown; `overlay_next`: the next new one is laid over it."""
+
+    def __init__(self) -> None:
+        self.page: Graph | None = None
+        self.under: list[Graph] = []
+        self.overlay_next = False
+
+    def follow(self, graph: Graph) -> bool:
+        """Show a graph that was just begun; tell whether it draws other variables than the one before."""
+        before = self.page
+        others = before is None or (before.caption, before.frame.kind) != (graph.caption, graph.frame.kind)
+        if self.overlay_next and before is not None:
+            self.under = [*([] if others else self.under), before][-OVERLAYS_MAX:]
+        elif others or not self.overlay_next:
+            self.under = []
+        self.overlay_next = False
+        self.page = graph
+        return others
+
+    def turn(self, pages: Sequence[Graph], step: int) -> bool:
+        """Show an older (-1) or newer (1) page; False if there is none."""
+        at = pages.index(self.page) if self.page in pages else len(pages)
+        if not 0 <= at + step < len(pages):
+            return False
+        self.page, self.under = pages[at + step], []
+        return True
+
+    def lay_under(self, pages: Sequence[Graph], number: int | None) -> bool:
+        """Lay page `number` (from 1; None: the one before) under the one shown; None again takes all away."""
+        if self.under and number is None:
+            self.under = []
+            return True
+        if number is not None:
+            at = number - 1
+        else:
+            at = (pages.index(self.page) if self.page in pages else len(pages)) - 1
+        if self.page is None or not 0 <= at < len(pages) or pages[at] is self.page:
+            return False
+        self.under.append(pages[at])
+        return True
+
+    def place(self, pages: Sequence[Graph]) -> str:
+        """Tell which page is shown if it is not the newest."""
+        if self.page is None or not pages or self.page is pages[-1]:
+            return ""
+        return f"page {pages.index(self.page) + 1}/{len(pages)}" if self.page in pages else "old page"
+
+    def with_all_under(self, page: Graph) -> Graph:
+        """Return a page with the curves of those under it."""
+        if not self.under:
+            return page
+        return replace(page, curves=[curve for graph in (*self.under, page) for curve in graph.curves])
