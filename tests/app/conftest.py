@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 from contextlib import asynccontextmanager
+from time import monotonic
 from typing import TYPE_CHECKING
 
 import pytest
@@ -39,6 +41,22 @@ def own_places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delenv(name, raising=False)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("desire_tui.dialogs.GRACE_SECONDS", 0.0)
+    for module in ("app", "pilot"):
+        monkeypatch.setattr(f"textual.{module}.wait_for_idle", settled)
+
+
+async def settled(min_sleep: float = 0.0, max_sleep: float = 1.0) -> None:
+    """Wait until the app has nothing to do.
+
+    Textual's own `wait_for_idle` asks for the processor time of the whole process: while a simulation runs in another
+    thread, each key would take a second. What the event loop has ready is what counts.
+    """
+    loop = asyncio.get_running_loop()
+    end = monotonic() + max_sleep
+    for _ in range(3):
+        await asyncio.sleep(max(0.003, min_sleep / 3))
+        while loop._ready and monotonic() < end:
+            await asyncio.sleep(0)
 
 
 async def until(pilot: Pilot[None], condition: Callable[[], object], *, tries: int = 1500) -> None:
