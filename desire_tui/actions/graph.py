@@ -113,9 +113,9 @@ class GraphActions(Controller):
             try:
                 written = app.session.snapshot(path, page)
             except DesireError as error:
-                app.call_from_thread(app.show_problems, error.diagnostics)
+                app.call_later(app.show_problems, error.diagnostics)
             else:
-                app.call_from_thread(app.snapshot_written, written)
+                app.call_later(app.snapshot_written, written)
 
         app.in_background(write)
 
@@ -162,9 +162,9 @@ class GraphActions(Controller):
         def plot() -> None:
             became = app.session.chart(name)
             if became == "shown":
-                app.call_from_thread(app.show_run)
+                app.call_later(app.show_run)
             else:
-                app.call_from_thread(
+                app.call_later(
                     app.notify, NOT_CHARTED[became].format(name=name), markup=False, timeout=4
                 )
 
