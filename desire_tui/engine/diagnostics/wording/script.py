@@ -212,6 +212,9 @@ MESSAGES: dict[str, Wording] = {
     "fft-array-short": Wording(
         61, "'{name}' has {size} elements, fewer than {n}", "declare it at least that long"
     ),
+    "fft-arrays-overlap": Wording(
+        61, "'{name}' and '{other}' share elements", "give each part an array of its own"
+    ),
     "fft-length": Wording(72, "a transform of length {n} is not possible", "the length is 2 or more"),
     # ------------------------------------------------------------------------------ devices
     "no-such-rule": Wording(86, "there is no integration rule {rule}", "rules are 0 … 5 and 7 … 16"),
