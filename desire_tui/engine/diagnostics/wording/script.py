@@ -207,6 +207,7 @@ MESSAGES: dict[str, Wording] = {
     "not-in-array-expression": Wording(
         75, "rows A# of a matrix can be taken in DYNAMIC segments only", "use elements: A[i,k]"
     ),
+    "takes-no-array": Wording(75, "'{name}' cannot take arrays", "use their elements: {name}(x[i])"),
     "script-dot-term": Wording(75, "a DOT term is u*v, u*1, u*A*v or u*A%*v", "operands are names"),
     "fft-array": Wording(61, "'{name}' is not a vector", "FFT works on one-dimensional arrays"),
     "fft-array-short": Wording(
