@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.session.overrides import parts
@@ -35,6 +36,8 @@ def from_mapping(values: Mapping[str, Any]) -> dict[str, float]:
     settings: dict[str, float] = {}
     for name, value in values.items():
         numbers = np.asarray(value, dtype=np.float64)
+        if not np.isfinite(numbers).all():
+            raise ValueError(f"{name} cannot be {value!r}")
         if numbers.ndim == 0:
             settings.update(_elements(name, [[float(numbers)]]))
             continue
@@ -60,6 +63,9 @@ def _elements(name: str, rows: list[list[float]]) -> dict[str, float]:
 
 def _number(text: str, whole: str) -> float:
     try:
-        return float(text)
+        number = float(text)
     except ValueError:
         raise ValueError(whole) from None
+    if not isfinite(number):
+        raise ValueError(whole)
+    return number

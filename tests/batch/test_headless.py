@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from io import StringIO
 from pathlib import Path
 from time import monotonic
 
@@ -59,6 +60,16 @@ def test_problems_to_stderr_and_status_1(tmp_path):
     assert out == "before\n"
     assert err.startswith(f"{path}:5:11: error 200: ")
     assert "^^" in err
+
+
+def test_each_csv_column_stands_once():
+    import desire_tui
+    from desire_tui.engine.outputs.tables import write_csv
+
+    text = "NN = 2\ndrun\ndrun b\nDYNAMIC\ny = 2*t\ndispxy t, y, y\nlabel b\nz = 3*t\nDISPXY z, t, y, z\n"
+    file = StringIO()
+    write_csv(desire_tui.run(text), file)
+    assert file.getvalue().split("\n")[:3] == ["run,t,y,z", "1,1.0,2.0,", "1,2.0,4.0,"]
 
 
 def test_all_files_at_once(decay, tmp_path):
@@ -259,7 +270,7 @@ def test_set_arrays_from_the_command_line_and_from_python(tmp_path):
     result = desire_tui.run(path, set={"A": np.array([[1, 2], [3, 4]]), "v": [5, 6], "v[1]": 0})
     assert result.console == "1\t2\t4\t6\n"
     assert result["v"].tolist() == [0, 6]
-    for wrong in ({"3": 1}, {"a b": 1}, {"v[1]": [1, 2]}, {"v": "many"}):
+    for wrong in ({"3": 1}, {"a b": 1}, {"v[1]": [1, 2]}, {"v": "many"}, {"v[1]": np.inf}):
         with pytest.raises(ValueError):
             desire_tui.run(path, set=wrong)
 
@@ -299,6 +310,24 @@ def test_a_setting_the_program_has_no_use_for(tmp_path, setting, words):
     assert "error 409" in err
     assert all(word in err for word in words)
     assert desire("run", path, "--set", "DT=0.1")[0] == 0  # the system's own names are always known
+
+
+@pytest.mark.parametrize(("name", "code"), [("PI", 55), ("f", 73), ("p", 73)])
+def test_constants_functions_and_procedures_cannot_be_set(name, code):
+    import desire_tui
+
+    text = "FUNCTION f(x) = x\nPROCEDURE p(x)\ny = x\nend\nwrite PI, f(1)\ncall p(1)\n"
+    result = desire_tui.run(text, set={name: 3})
+    assert [problem.code for problem in result.problems] == [code]
+    assert result.console == ""
+
+
+@pytest.mark.parametrize("value", ["inf", "nan", "1e999", "1,nan", "1,2;3,-inf"])
+def test_only_numbers_can_be_set(value):
+    from desire_tui.batch.settings import from_texts
+
+    with pytest.raises(ValueError, match="a="):
+        from_texts([f"a={value}"])
 
 
 def test_a_subscript_beyond_the_array_is_told_at_its_declaration(tmp_path):

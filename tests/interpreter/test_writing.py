@@ -62,6 +62,16 @@ def test_files_keep_their_numbers(tmp_path):
     assert (tmp_path / "numbers.dat").read_text().endswith("text5\n")
 
 
+def test_machine_readable_arrays_are_lines_and_values_alone(tmp_path):
+    run(
+        "ARRAY A[2,2], v[3]\nconnect 'raw' as output 3\nwrite ##3, 1, A, v, 7\nwrite ##3, v\n"
+        "write ##3, v; v;\nwrite ##3, 8\ndisconnect 3",
+        folder=tmp_path,
+    )
+    v = "0\t0\t0\n"
+    assert (tmp_path / "raw.dat").read_text() == f"1\t0\t0\n0\t0\n{v}7\n{v}{v}{v}8\n"
+
+
 def test_input_files_may_hold_expressions_with_any_separator(tmp_path):
     (tmp_path / "in.txt").write_text("1, 2*3\t4\n\n5 6 7\n sqrt(16)\n")
     world = run("ARRAY x[7]\nconnect 'in.txt' as input 2\ninput #2, x", folder=tmp_path)

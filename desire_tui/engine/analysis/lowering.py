@@ -12,6 +12,7 @@ from desire_tui.engine.analysis.scope import LiveScope
 from desire_tui.engine.analysis.segments import lower_segment
 from desire_tui.engine.analysis.structure import structure as find_structure
 from desire_tui.engine.analysis.unknown import misplaced, unknown_names
+from desire_tui.engine.analysis.uses import unfit_uses
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.nodes import Bare, Call, Derivative, Function, Invoke, Name
 
@@ -66,11 +67,12 @@ def check(program: Program) -> tuple[Diagnostic, ...]:
         scope = survey.scope_for(text)
         problems.extend(lower_segment(text, scope, program.source, functions, found.submodels)[1])
     problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
+    problems.extend(unfit_uses(program, found))
     broken = _names_in_broken_lines(program)
     return tuple(in_order(p for p in problems if p.code not in _MISSING or p.facts.get("name") not in broken))
 
 
-_MISSING = frozenset({19, 59, 70, 200, 201})
+_MISSING = frozenset({19, 59, 70, 200, 201, 215})
 """A name is unknown."""
 
 

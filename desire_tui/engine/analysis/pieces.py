@@ -49,6 +49,8 @@ def lower_long(context: Context, node: Binary, extent: Extent) -> Value:
         if step.op == "&":
             return context.report("ampersand-here", step)
         result = Op(expressions.OPERATIONS[step.op], (result, right))
+    if extent and draws(result) and levels_of(result) > LEVELS_MOST:
+        return context.report("expression-too-deep", node, limit=LEVELS_MOST)
     return result
 
 

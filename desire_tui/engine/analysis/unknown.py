@@ -38,8 +38,8 @@ def unknown_names(
 
     `assigned`: every name that could be, `arrays`: those declared as arrays.
     """
-    if any(isinstance(p.node, nodes.Simple) and p.node.word in {"STOP", "go"} for p in program.script):
-        return []  # commands typed at a STOP may assign anything
+    if may_be_stopped(program):
+        return []  # commands may assign anything
     known = {*assigned, *SYSTEM_VARIABLES, *_SCRIPT_CONSTANTS}
     functions = {*LIBRARY, *structure.functions, "$In", "$Tr"}
     in_bodies = {id(p) for s in structure.submodels.values() for p in s.body}
@@ -51,7 +51,7 @@ def unknown_names(
     for placed in program.script:
         if id(placed) in in_bodies or isinstance(placed.node, _NAMES_ARE_NOT_READ + _SEGMENT_ONLY):
             continue
-        for part in _reads(placed.node):
+        for part in parts_read(placed.node):
             name = part.name
             if name in complained:
                 continue
@@ -66,6 +66,11 @@ def unknown_names(
             complained.add(name)
             problems.append(_problem(program, placed, part, functions if is_call else known))
     return problems
+
+
+def may_be_stopped(program: Program) -> bool:
+    """Whether a script stops for commands."""
+    return any(isinstance(p.node, nodes.Simple) and p.node.word in {"STOP", "go"} for p in program.script)
 
 
 def misplaced(program: Program, structure: Structure) -> list[Diagnostic]:
@@ -85,12 +90,13 @@ def misplaced(program: Program, structure: Structure) -> list[Diagnostic]:
 def _problem(
     program: Program, placed: Placed, part: Name | Element | Call, known: Collection[str]
 ) -> Diagnostic:
-    key = "undefined-function" if isinstance(part, Call) else "undefined-variable"
+    keys = {Call: "undefined-function", Element: "not-an-array"}
+    key = keys.get(part.__class__, "undefined-variable")
     facts = {"name": part.name, "close": closest(part.name, known)}
     return Diagnostic(key, placed.span(part), facts, program.source)
 
 
-def _reads(statement: Statement) -> Iterator[Name | Element | Call]:
+def parts_read(statement: Statement) -> Iterator[Name | Element | Call]:
     """Every name, element and call of a statement; FUNCTION bodies without their dummies.
 
     Targets are among them, which does no harm: they are assigned.

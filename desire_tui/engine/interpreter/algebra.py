@@ -43,7 +43,7 @@ def matrix(site: Site) -> Operation:
         raise Fault("not-a-matrix", Name(node.name, node.start, node.end), name=node.name)
     rows, columns = target.shape
     expressions = ArrayExpressions(site, true_products=True)
-    value = expressions.evaluator(node.value)
+    value = expressions.assigned(node.value, target.shape)
     bounds = [site.real(b) if b is not None else None for b in (node.lower, node.upper)]
     mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
     view = site.numbers(target)
@@ -77,7 +77,7 @@ def vector(site: Site) -> Operation:
     target = site.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 1:
         raise Fault("not-a-vector", Name(node.name, node.start, node.end), name=node.name)
-    value = ArrayExpressions(site, true_products=False).evaluator(node.value)
+    value = ArrayExpressions(site, true_products=False).assigned(node.value, target.shape)
     mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
     view = site.numbers(target)
 

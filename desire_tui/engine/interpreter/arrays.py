@@ -12,11 +12,16 @@ import numpy as np
 
 from desire_tui.engine.chains import OPERATORS, chain
 from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.interpreter.elements import (
+    ELEMENTS_AT_ONCE,
+    ElementExpressions,
+    Shapes,
+    by_elements,
+)
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.patience import patiently
 from desire_tui.engine.library import LIBRARY, integer_power, power
-from desire_tui.engine.nodes import Binary, Call, Name, RowOf, Shifted, Transposed, Unary
-from desire_tui.engine.values import Quantity
+from desire_tui.engine.nodes import Binary, Call, Name, Shifted, Transposed, Unary
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,11 +30,10 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.site import Site
     from desire_tui.engine.nodes import Expr, Node
+    from desire_tui.engine.values import Quantity
 
     Evaluator = Callable[[], Any]
 
-ELEMENTS_AT_ONCE = 10_000
-"""Elements that a function is applied to before the user is let in."""
 _SINGULAR = 1e-15
 """A matrix whose reciprocal condition number (1-norm) is below this is called singular."""
 
@@ -40,11 +44,28 @@ class ArrayExpressions:
     def __init__(self, site: Site, *, true_products: bool) -> None:
         self._site = site
         self._true_products = true_products
+        self._shapes = Shapes(site, true_products=true_products)
+        self._elements = ElementExpressions(site, self._shapes, self)
+
+    def assigned(self, node: Expr, shape: tuple[int, ...]) -> Evaluator:
+        """Return a function that evaluates what is assigned to an array of this shape.
+
+        An expression that draws random numbers draws for each element, a number alone is not spread.
+        """
+        if self._elements.needed(node) and not self._elements.is_whole(node):
+            return self._elements.evaluator(node, shape)
+        return self.evaluator(node)
 
     def evaluator(self, node: Expr) -> Evaluator:
         """Return a function that evaluates an expression to a float, a vector or a matrix."""
-        if not self._has_array(node):
+        shape = self._shapes.of(node)
+        if not shape:
             return self._site.real(node)
+        if self._elements.needed(node):
+            if not self._elements.is_whole(node):
+                return self._elements.evaluator(node, shape)
+            if isinstance(node, Binary):
+                return self._whole(node)
         match node:
             case Name():
                 view = self._site.numbers(self._site.array(node))
@@ -62,25 +83,6 @@ class ArrayExpressions:
             case Call():
                 return self._call(node)
         raise Fault("not-in-array-expression", node)
-
-    def _has_array(self, node: Expr) -> bool:
-        match node:
-            case Name():
-                meaning = self._site.scope.find(node.name)
-                return isinstance(meaning, Quantity) and bool(meaning.shape)
-            case Transposed() | Shifted() | RowOf():
-                return True
-            case Unary(_, operand):
-                return self._has_array(operand)
-            case Binary():
-                first, steps = chain(node)
-                parts = [first, *(step.right for step in steps)] if steps else [node.left, node.right]
-                return any(map(self._has_array, parts))
-            case Call(name, args):
-                return name.startswith("$") or (
-                    name not in {"func1", "func2"} and any(map(self._has_array, args))
-                )
-        return False
 
     def _matrix(self, node: Expr) -> Quantity:
         quantity = self._site.array(node)
@@ -106,8 +108,8 @@ class ArrayExpressions:
         """Evaluate sums and products; what stands before the first array is a scalar expression."""
         first, steps = chain(node)
         begin: Expr = first
-        if not self._has_array(first):
-            scalars = next(i for i, step in enumerate(steps) if self._has_array(step.right))
+        if not self._shapes.of(first):
+            scalars = next(i for i, step in enumerate(steps) if self._shapes.of(step.right))
             begin = steps[scalars - 1] if scalars else first
             steps = steps[scalars:]
         start, check = self.evaluator(begin), self._site.machine.check
@@ -121,6 +123,11 @@ class ArrayExpressions:
             return result
 
         return evaluate
+
+    def _whole(self, node: Binary) -> Evaluator:
+        """Evaluate a product whose operands draw, each for itself."""
+        left, right, operation = self.evaluator(node.left), self.evaluator(node.right), self._operation(node)
+        return lambda: operation(left(), right())
 
     def _operation(self, node: Binary) -> Callable[[Any, Any], Any]:
         match node.op:
@@ -137,7 +144,8 @@ class ArrayExpressions:
     def _power(self, node: Binary) -> Evaluator:
         a, b = self.evaluator(node.left), self.evaluator(node.right)
         check = self._site.machine.check
-        return lambda: _elementwise(check, _whole_or_real_power, *self._same(a(), b(), node))
+        function, domain = _whole_or_real_power, "power-argument"
+        return lambda: _elementwise(check, function, node, domain, *self._same(a(), b(), node))
 
     def _same(self, a: Any, b: Any, node: Node) -> tuple[Any, Any]:
         if np.ndim(a) and np.ndim(b) and np.shape(a) != np.shape(b):
@@ -169,19 +177,14 @@ class ArrayExpressions:
         if entry is None and node.name not in own:
             close = closest(node.name, [*LIBRARY, *own])
             raise Fault("undefined-function", node, name=node.name, close=close)
-        if entry is None or entry.value is None or entry.kind == "table":
-            raise Fault("not-in-array-expression", node)
+        if entry is None or entry.value is None or entry.gives_complex:
+            raise Fault("takes-no-array", node, name=node.name)
         if not entry.fewest <= len(args) <= entry.most:
             raise Fault("argument-count", node, name=node.name, given=len(args), needed=entry.parameters)
         function, check = entry.value, self._site.machine.check
 
-        def evaluate() -> Any:
-            try:
-                return _elementwise(check, function, *(_finite(arg(), node) for arg in args))
-            except ValueError:
-                raise Fault(entry.domain_error, node, function=node.name) from None
-
-        return evaluate
+        domain = entry.domain_error
+        return lambda: _elementwise(check, function, node, domain, *(_finite(arg(), node) for arg in args))
 
     def _own_function(self, node: Call, args: list[Evaluator]) -> Evaluator:
         """Apply the program's FUNCTION to each element, from the last to the first as random draws go."""
@@ -194,34 +197,34 @@ class ArrayExpressions:
             for other in arrays[1:]:
                 self._same(arrays[0], other, node)
             shape = np.shape(arrays[0]) if arrays else ()
-            columns = [np.broadcast_to(value, shape).ravel().tolist()[::-1] for value in values]
-            backwards = self._each(function, columns) if columns else [function()]
-            return np.array(backwards[::-1], dtype=np.float64).reshape(shape)[()]
+            return by_elements(function, values, shape, self._site.machine.check)
 
         return evaluate
 
-    def _each(self, function: Callable[..., float], columns: list[list[float]]) -> list[float]:
-        values: list[float] = []
-        for first in range(0, len(columns[0]), ELEMENTS_AT_ONCE):
-            pieces = [column[first : first + ELEMENTS_AT_ONCE] for column in columns]
-            values += [function(*row) for row in zip(*pieces, strict=True)]
-            self._site.machine.check()
-        return values
 
-
-def _elementwise(check: Callable[[], None], function: Callable[..., complex], *args: Any) -> Any:
-    """Apply a function to each element, some thousand at a time."""
+def _elementwise(
+    check: Callable[[], None],
+    function: Callable[..., complex],
+    node: Node,
+    domain: str,
+    *args: Any,
+) -> Any:
+    """Apply a library function to each element, some thousand at a time; `domain` names its ValueErrors."""
     each = np.vectorize(function, otypes=[np.float64])
-    columns = np.broadcast_arrays(*args)
-    if columns[0].size <= ELEMENTS_AT_ONCE:
-        return each(*args)
-    flat = [column.ravel() for column in columns]
-    result = np.empty(columns[0].size)
-    for first in range(0, len(result), ELEMENTS_AT_ONCE):
-        piece = slice(first, first + ELEMENTS_AT_ONCE)
-        result[piece] = each(*(column[piece] for column in flat))
-        check()
-    return result.reshape(columns[0].shape)
+    flat = [column.ravel() for column in np.broadcast_arrays(*args)]
+    result = np.empty(flat[0].size)
+    try:
+        for first in range(0, len(result), ELEMENTS_AT_ONCE):
+            piece = slice(first, first + ELEMENTS_AT_ONCE)
+            result[piece] = each(*(column[piece] for column in flat))
+            check()
+    except ZeroDivisionError:
+        raise Fault("division-by-zero", node) from None
+    except OverflowError:
+        raise Fault("overflow", node) from None
+    except ValueError:
+        raise Fault(domain, node, function=getattr(node, "name", "")) from None
+    return result.reshape(np.broadcast_shapes(*map(np.shape, args)))[()]
 
 
 def _whole_or_real_power(x: float, y: float) -> complex:

@@ -41,8 +41,8 @@ class CallTranslator:
             known = [*LIBRARY, *self.functions.definitions]
             raise Fault("undefined-function", node, name=node.name, close=closest(node.name, known))
         if not entry.fewest <= len(node.args) <= entry.most:
-            needed = entry.parameters or "no arguments"
-            raise Fault("argument-count", node, name=node.name, given=len(node.args), needed=needed)
+            facts = {"given": len(node.args), "needed": entry.parameters}
+            raise Fault("argument-count", node, name=node.name, **facts)
         match entry.kind:
             case "random":
                 return Typed(at(py.call(node.name), node), Kind.REAL)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import deque
+from math import inf
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -29,11 +30,16 @@ class Entries:
         self._read_line = read_line
         self._origin = origin
         self._prompt: str | None = None
+        self._fits: Callable[[complex], Diagnostic | None] = lambda _: None
         self._waiting: deque[str] = deque()
 
-    def ask(self, name: str) -> None:
-        """Take values from the console from now on, prompting with a name."""
+    def ask(self, name: str, fits: Callable[[complex], Diagnostic | None]) -> None:
+        """Take values from the console from now on, prompting with a name.
+
+        `fits` tells what is wrong with a value that the name cannot take.
+        """
         self._prompt = f"{name} ? "
+        self._fits = fits
 
     def next(self) -> complex:
         """Return the next value; errors 18 and 197."""
@@ -42,10 +48,10 @@ class Entries:
                 line = self._ask_line() if self._prompt is not None else self._read_line()
                 self._waiting.extend(split_entries(line))
             text = self._waiting.popleft()
-            if _NUMBER.fullmatch(text):
-                return float(text)
+            if self._prompt is not None and text == "!":
+                raise DesireError(Diagnostic("input-broken-off"))
             try:
-                return self._evaluate(text)
+                return self._value(text)
             except DesireError as problem:
                 if self._prompt is None:
                     facts = {"entry": text, "origin": self._origin, "reason": problem.diagnostics[0].message}
@@ -56,12 +62,20 @@ class Entries:
     def _ask_line(self) -> str:
         assert self._prompt is not None
         try:
-            line = self._site.host.ask(self._prompt)
+            return self._site.host.ask(self._prompt)
         except EOFError:
             raise DesireError(Diagnostic("input-ended")) from None
-        if line.strip() == "!":
-            raise DesireError(Diagnostic("input-broken-off"))
-        return line
+
+    def _value(self, text: str) -> complex:
+        """Return the value of an entry; DesireError of one that is no value, or none that fits."""
+        value: complex = float(text) if _NUMBER.fullmatch(text) else inf
+        if abs(value) == inf:
+            value = self._evaluate(text)
+        wrong = self._fits(value)
+        if wrong is not None:
+            source = Source(text, f"<{self._origin}>")
+            raise DesireError(Diagnostic(wrong.key, Span(0, len(text)), wrong.facts, source))
+        return value
 
     def _evaluate(self, text: str) -> complex:
         from desire_tui.engine.syntax import parse_command
@@ -77,7 +91,7 @@ class Entries:
         machine = self._site.machine
         known = len(machine.origins)
         try:
-            code, _ = self._site.translator.expression(placed.node.value)
+            code, _ = self._site.translator.finite(placed.node.value)
             value: complex = machine.build.evaluate(code, placed, source)
         except Interrupted:
             raise

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +26,7 @@ _ROOM_PER_ELEMENT = 8
 
 
 def fft(site: Site) -> Operation:
-    """Make the operation of an FFT statement; errors 61 (not a vector) and 72 (length)."""
+    """Make the operation of an FFT statement; errors 61 (not a vector), 72 (length), 3 (overflow)."""
     node = site.node
     assert isinstance(node, Fft)
     count = site.whole(node.args[0])
@@ -42,13 +43,23 @@ def fft(site: Site) -> Operation:
         for argument, quantity in zip(node.args[1:], quantities, strict=True):
             if quantity.size < n:
                 raise Fault("fft-array-short", argument, name=quantity.name, size=quantity.size, n=n)
+        for first, second in combinations(quantities, 2):
+            if abs(first.slot - second.slot) < n:
+                raise Fault("fft-arrays-overlap", node, name=first.name, other=second.name)
         site.needs_room(_ROOM_PER_ELEMENT * n, node.args[0])
         parts = [view[:n].copy() for view in views]
-        patiently(WORK_PER_ELEMENT * n, lambda: _TRANSFORMS[node.kind](*parts), site.machine.check)
+        patiently(WORK_PER_ELEMENT * n, lambda: _transform(node.kind, parts), site.machine.check)
+        if not all(np.isfinite(part).all() for part in parts):
+            raise Fault("overflow", node)
         for view, part in zip(views, parts, strict=True):
             view[:n] = part
 
     return site.then(action)
+
+
+def _transform(kind: str, parts: list[NDArray[np.float64]]) -> None:
+    with np.errstate(all="ignore"):  # the result is looked at
+        _TRANSFORMS[kind](*parts)
 
 
 def _forward(x: NDArray[np.float64], y: NDArray[np.float64]) -> None:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from functools import partial
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.interpreter.assignment import storer
+from desire_tui.engine.interpreter.builder import WHOLE_LIMIT
 from desire_tui.engine.interpreter.entries import Entries
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.interpreter.translate import literal
@@ -147,10 +150,23 @@ def get_input(site: Site) -> Operation:
 
         return site.then(from_file)
 
+    kinds = [
+        (site.scope.assigned(t) if isinstance(t, Name) else site.scope.array(t)).kind for t in node.targets
+    ]
+
     def from_console() -> None:
         entries = Entries(site, lambda: "", "console")
-        for target, fill in zip(node.targets, fillers, strict=True):
-            entries.ask(target.name)
+        for target, kind, fill in zip(node.targets, kinds, fillers, strict=True):
+            entries.ask(target.name, partial(_misfit, target.name, kind))
             fill(entries.next)
 
     return site.then(from_console)
+
+
+def _misfit(name: str, kind: Kind, value: complex) -> Diagnostic | None:
+    """Return what keeps a target of this kind from taking a value: errors 84 and 20."""
+    if kind is not Kind.COMPLEX and value.imag != 0.0:
+        return Diagnostic("complex-to-real", facts={"name": name})
+    if kind is Kind.INTEGER and abs(value.real) > WHOLE_LIMIT:
+        return Diagnostic("integer-overflow", facts={"value": f"{value.real:g}"})
+    return None

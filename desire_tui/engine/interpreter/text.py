@@ -54,8 +54,8 @@ def raw_array_text(values: Values, quantity: Quantity) -> Iterator[str]:
     for first in range(0, quantity.size, row):
         for piece in range(first, first + row, _PIECE):
             numbers = elements(values, quantity, piece, min(_PIECE, first + row - piece))
-            yield "\t".join(raw_text(v, quantity.kind) for v in numbers)
-            yield "\t" if piece + _PIECE < first + row else "\n"
+            ending = "\t" if piece + _PIECE < first + row else "\n"
+            yield "\t".join(raw_text(v, quantity.kind) for v in numbers) + ending
 
 
 def elements(values: Values, quantity: Quantity, first: int, count: int) -> Sequence[complex]:

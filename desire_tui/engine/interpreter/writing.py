@@ -72,14 +72,18 @@ def line_of(site: Site, items: tuple[WriteItem, ...], *, raw: bool = False) -> P
     pieces = [(_item(site, item, raw=raw), _SEPARATORS[item.separator]) for item in items]
     stays_open = bool(items) and items[-1].separator != ""
 
+    def ends_line(piece: str) -> bool:
+        """Whether a piece is the last line of an array (`$10` is a line end of the user's own)."""
+        return piece.endswith("\n") and len(piece) > 1
+
     def line() -> Iterator[str]:
         last = ""
         for piece, separator in pieces:
             for last in piece():
                 yield last
-            if separator:
+            if separator and not (raw and ends_line(last)):
                 yield separator
-        if not stays_open and not (last.endswith("\n") and len(last) > 1):
+        if not stays_open and not ends_line(last):
             yield "\n"
 
     return line

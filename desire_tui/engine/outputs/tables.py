@@ -40,7 +40,8 @@ def _plain(value: Any) -> Any:
 
 def write_csv(result: Result, file: IO[str]) -> None:
     """Write one row for each sample: `run, t, names…`; empty where a run did not show a variable."""
-    names = list(dict.fromkeys(curve.name for run in result.runs for curve in run.curves))
+    shown = dict.fromkeys(curve.name for run in result.runs for curve in run.curves)
+    names = [name for name in shown if name != "t"]  # it has its column
     file.write(",".join(["run", "t", *(_quoted(name) for name in names)]) + "\n")
     for number, run in enumerate(result.runs, 1):
         have = {curve.name: curve.values for curve in run.curves}

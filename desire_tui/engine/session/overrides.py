@@ -53,7 +53,7 @@ def overridden(program: Program, structure: Structure, overrides: Mapping[str, f
 
 
 def problems_of(program: Program, structure: Structure, overrides: Mapping[str, float]) -> list[Diagnostic]:
-    """Return errors 409: settings of names that the program does not know, or that are no such thing."""
+    """Return errors 409, 55, 73: settings of names that the program does not know or that take no value."""
     from desire_tui.engine.analysis.declared import Survey
     from desire_tui.engine.syntax.words import KEYWORDS
     from desire_tui.engine.values import SYSTEM_VARIABLES
@@ -68,6 +68,11 @@ def problems_of(program: Program, structure: Structure, overrides: Mapping[str, 
         if name not in known:
             facts["close"] = closest(name, known)
             problems.append(Diagnostic("set-unknown", None, facts, program.source))
+        elif name == "PI":
+            problems.append(Diagnostic("constant-assigned", None, facts, program.source))
+        elif name in structure.functions or name in structure.procedures:
+            facts["what"] = "a FUNCTION" if name in structure.functions else "a PROCEDURE"
+            problems.append(Diagnostic("name-of-something-else", None, facts, program.source))
         elif (name in survey.array_names) != bool(subscripts):
             key = "set-no-array" if subscripts else "set-array"
             problems.append(Diagnostic(key, None, facts, program.source))

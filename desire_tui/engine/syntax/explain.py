@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.syntax.chunk import CLASSES, LETTER, NAME, NUMBER, OCTAL, STRING, Fault, shown
 from desire_tui.engine.syntax.words import CLOSERS, OPENERS, RELATIONS, keyword_like
 
@@ -50,7 +51,7 @@ class _Stuck:
         self.after_operand = self.previous in _OPERAND_END
         self.wants_operand = NUMBER in expected
         self.facts: dict[str, object] = {
-            "text": shown(self.text), "word": self.word, "first": shown(chunk.texts[0]),
+            "text": _bare(shown(self.text)), "word": self.word, "first": _bare(shown(chunk.texts[0])),
             "closer": {"(": ")", "{": "}"}.get(self.opened, "]"),
             "before": f" before {_quoted(shown(self.text))}" if self.text else "",
         }  # fmt: skip
@@ -76,12 +77,14 @@ def _relation_spelling(s: _Stuck) -> str:
 
 
 def _brackets(s: _Stuck) -> str:
-    if s.opened == "(" and ")" in s.expected and (s.ended or s.kind in ("]", "}", "=")):
+    too_many = s.kind in (",", ";") and s.after_operand and "," not in s.expected
+    if s.opened == "(" and ")" in s.expected and (s.ended or too_many or s.kind in ("]", "}", "=")):
         s.facts["at"] = s.text
         return "parenthesis-unclosed"
     if s.kind == ")" and s.opened != "(":
         return "parenthesis-stray" if s.opened == "" else "bracket-unclosed"
-    if s.opened in ("[", "{") and (s.ended or s.kind in CLOSERS or s.kind == "=") and s.after_operand:
+    ends = s.ended or too_many or s.kind in (*CLOSERS, "=")
+    if s.opened in ("[", "{") and ends and s.after_operand:
         return "bracket-unclosed"
     if s.kind in ("]", "}") and s.opened != OPENERS.get(s.kind, ""):
         return "bracket-stray"
@@ -183,7 +186,7 @@ def _expressions(s: _Stuck) -> str:
     if s.wants_operand and not s.after_operand:
         return "operand-missing"
     if (s.kind in _OPERANDS or s.kind in OPENERS.values()) and s.after_operand and "*" in s.expected:
-        return "operator-missing"
+        return _operator_missing(s)
     if s.opened == "[" and "," in s.expected and "]" not in s.expected:
         return "pair-form"
     if NAME in s.expected and not s.wants_operand:
@@ -193,9 +196,24 @@ def _expressions(s: _Stuck) -> str:
     return ""
 
 
+def _operator_missing(s: _Stuck) -> str:
+    """`2 x`, and `sin x` where parentheses are meant."""
+    name = s.texts[s.at - 1]
+    if s.previous != NAME or name not in LIBRARY or s.kind not in _OPERANDS:
+        return "operator-missing"
+    s.place(s.at - 1)
+    s.facts["name"] = name
+    return "argument-bare"
+
+
 _RULES: tuple[Callable[[_Stuck], str], ...] = (
     _relation_spelling, _brackets, _matrix_function, _own_form, _first_words, _assignments, _expressions,
 )  # fmt: skip
+
+
+def _bare(text: str) -> str:
+    """Return a token without quotes of its own, to be put into quotes."""
+    return text.strip("'\"") or text if text[:1] in ("'", '"') else text
 
 
 def _quoted(text: str) -> str:

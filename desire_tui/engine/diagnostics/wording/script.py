@@ -207,10 +207,14 @@ MESSAGES: dict[str, Wording] = {
     "not-in-array-expression": Wording(
         75, "rows A# of a matrix can be taken in DYNAMIC segments only", "use elements: A[i,k]"
     ),
+    "takes-no-array": Wording(75, "'{name}' cannot take arrays", "use their elements: {name}(x[i])"),
     "script-dot-term": Wording(75, "a DOT term is u*v, u*1, u*A*v or u*A%*v", "operands are names"),
     "fft-array": Wording(61, "'{name}' is not a vector", "FFT works on one-dimensional arrays"),
     "fft-array-short": Wording(
         61, "'{name}' has {size} elements, fewer than {n}", "declare it at least that long"
+    ),
+    "fft-arrays-overlap": Wording(
+        61, "'{name}' and '{other}' share elements", "give each part an array of its own"
     ),
     "fft-length": Wording(72, "a transform of length {n} is not possible", "the length is 2 or more"),
     # ------------------------------------------------------------------------------ devices

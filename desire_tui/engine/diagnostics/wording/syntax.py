@@ -60,6 +60,9 @@ _SENTENCES: dict[str, Wording] = {
     "octal-too-large": Wording(
         57, "'{text}' does not fit into 16 bits", "the largest are &177777 and &&FFFF"
     ),
+    "argument-bare": Wording(
+        60, "'{name}' is a function: its arguments stand in parentheses", "write {name}(…)"
+    ),
     "operator-missing": Wording(60, "an operator is missing before '{text}'", "a product is written with *"),
     "fft-form": Wording(
         61, "FFT is not written like this", "write: FFT F, n, x, y (or I, C; R with x, y, u, v)"
