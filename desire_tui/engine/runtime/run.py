@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.runtime.faults import exhausted, fault
 from desire_tui.engine.runtime.history import History
 from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
-from desire_tui.engine.runtime.plan import DUMMY, Defaults
+from desire_tui.engine.runtime.plan import DUMMY
 from desire_tui.engine.runtime.ticker import Ticker
 from desire_tui.engine.values import DT, T
 
