@@ -16,9 +16,12 @@ from desire_tui.engine.values import SCALAR_SLOTS
 Actions = tuple["Action", ...]
 
 
-def needed(actions: Actions) -> Actions:
-    """Leave out what no derivative, no persistent variable and no other kept statement uses."""
-    return _backward(actions, _Reads())
+def needed(actions: Actions, wanted: frozenset[int] = frozenset()) -> Actions:
+    """Leave out what no derivative, no persistent variable and no other kept statement uses.
+
+    `wanted` are the ids of statements that are kept in any case.
+    """
+    return _backward(actions, Memory(), wanted)
 
 
 def draws(action: Action) -> bool:
@@ -31,23 +34,22 @@ def with_bodies(guard: Guard, body: Actions, orelse: Actions) -> Guard:
     return Guard(guard.kind, body, guard.where, guard.condition, orelse, guard.every)
 
 
-class _Reads:
-    """Numbers that kept statements read: scalars by slot, arrays and their elements as intervals."""
+class Memory:
+    """A set of numbers: scalars by slot, arrays and their elements as intervals."""
 
     def __init__(self) -> None:
         self._scalars: set[int] = set()
         self._ranges = Intervals()
 
-    def add(self, action: Action) -> None:
-        """Add what a kept statement reads (a guard: its condition)."""
-        for slot, count in reads(action):
-            if count == 1 and slot < SCALAR_SLOTS:
-                self._scalars.add(slot)
-            else:
-                self._ranges.add(slot, count)
+    def add(self, slot: int, count: int) -> None:
+        """Add `count` numbers from `slot` on."""
+        if count == 1 and slot < SCALAR_SLOTS:
+            self._scalars.add(slot)
+        else:
+            self._ranges.add(slot, count)
 
     def touch(self, slot: int, count: int) -> bool:
-        """Whether any of `count` numbers from `slot` on is read."""
+        """Whether any of `count` numbers from `slot` on belongs to the set."""
         if self._ranges.touches(slot, count):
             return True
         if count == 1:
@@ -55,24 +57,25 @@ class _Reads:
         return slot < SCALAR_SLOTS and any(slot <= s < slot + count for s in self._scalars)
 
 
-def _backward(actions: Actions, seen: _Reads) -> Actions:
+def _backward(actions: Actions, seen: Memory, wanted: frozenset[int]) -> Actions:
     kept: list[Action] = []
     for action in reversed(actions):
         if isinstance(action, Guard):
-            orelse = _backward(action.orelse, seen)
-            body = _backward(action.body, seen)
+            orelse = _backward(action.orelse, seen, wanted)
+            body = _backward(action.body, seen, wanted)
             if not (body or orelse):
                 continue
             kept.append(with_bodies(action, body, orelse))
-        elif _is_needed(action, seen):
+        elif id(action) in wanted or _is_needed(action, seen):
             kept.append(action)
         else:
             continue
-        seen.add(kept[-1])
+        for slot, count in reads(kept[-1]):  # of a guard the condition's
+            seen.add(slot, count)
     return tuple(reversed(kept))
 
 
-def _is_needed(action: Action, seen: _Reads) -> bool:
+def _is_needed(action: Action, seen: Memory) -> bool:
     if not isinstance(action, Set | SetVec | SetMat | SetDot) or action.persistent or draws(action):
         return True
     return any(seen.touch(slot, count) for slot, count in writes(action))

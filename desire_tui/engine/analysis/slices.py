@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.analysis.needs import draws, needed, with_bodies
+from desire_tui.engine.analysis.needs import needed, with_bodies
+from desire_tui.engine.analysis.tails import computes, early, tail
 from desire_tui.engine.lowered import (
     DelayLine,
     Deriv,
@@ -16,9 +17,6 @@ from desire_tui.engine.lowered import (
     Get,
     Guard,
     Set,
-    SetDot,
-    SetMat,
-    SetVec,
     Store,
     Terminate,
 )
@@ -38,7 +36,8 @@ def full_pass(segment: Segment) -> Actions:
 
 def step_slice(segment: Segment) -> Actions:
     """STEP without COMM: the start of a step inside a communication interval."""
-    return needed(_resolve(segment.body, comm=False, step=True))
+    actions = _resolve(segment.body, comm=False, step=True)
+    return needed(actions, early(actions))
 
 
 def derivative_slice(segment: Segment) -> Actions:
@@ -47,13 +46,8 @@ def derivative_slice(segment: Segment) -> Actions:
 
 
 def tail_pass(segment: Segment) -> Actions:
-    """COMM without STEP, after `term` fired between communication points.
-
-    The STEP pass has just been made with the same t and states. So only what it left out is caught up: pure
-    defined variables are computed, OUT code runs; unguarded persistent assignments, random draws,
-    derivatives, `sample` and `step` code are not repeated.
-    """
-    return _tail(segment.body)
+    """COMM without STEP, after `term` fired between communication points: see `tails`."""
+    return tail(segment.body, early(_resolve(segment.body, comm=False, step=True)))
 
 
 def jacobian_pass(segment: Segment, stride: int) -> Actions:
@@ -79,8 +73,7 @@ def is_pure(actions: Actions) -> bool:
     return all(
         is_pure(a.body) and is_pure(a.orelse)
         if isinstance(a, Guard)
-        else isinstance(a, Deriv | DerivVec)
-        or (isinstance(a, Set | SetVec | SetMat | SetDot) and not a.persistent and not draws(a))
+        else isinstance(a, Deriv | DerivVec) or computes(a)
         for a in actions
     )
 
@@ -117,39 +110,5 @@ def _resolve(actions: Iterable[Action], *, comm: bool, step: bool) -> Actions:
             if step if action.per_step else comm:
                 kept.append(action)
         elif not isinstance(action, Store | Get) or comm:
-            kept.append(action)
-    return tuple(kept)
-
-
-def _tail(actions: Iterable[Action]) -> Actions:
-    kept: list[Action] = []
-    for action in actions:
-        if isinstance(action, Guard):
-            if action.kind == "out":
-                kept.extend(_without_derivatives(_resolve(action.body, comm=True, step=False)))
-            elif action.kind == "if":
-                body, orelse = _tail(action.body), _tail(action.orelse)
-                if body or orelse:
-                    kept.append(with_bodies(action, body, orelse))
-        elif isinstance(action, Store | Get):
-            kept.append(action)
-        elif isinstance(action, DelayLine):
-            if not action.per_step:
-                kept.append(action)
-        elif (
-            isinstance(action, Set | SetVec | SetMat | SetDot) and not action.persistent and not draws(action)
-        ):
-            kept.append(action)
-    return tuple(kept)
-
-
-def _without_derivatives(actions: Iterable[Action]) -> Actions:
-    kept: list[Action] = []
-    for action in actions:
-        if isinstance(action, Guard):
-            if action.kind == "if":
-                body, orelse = _without_derivatives(action.body), _without_derivatives(action.orelse)
-                kept.append(with_bodies(action, body, orelse))
-        elif not isinstance(action, Deriv | DerivVec):
             kept.append(action)
     return tuple(kept)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.runtime.memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
@@ -51,6 +52,11 @@ class FixedStep:
         dt = driver.storage.load(DT)
         text.branch(driver.lanes.compare("une", dt, driver.get("dt_base")), "step.changed", "step.same")
         text.begin("step.changed")
+        forward = driver.lanes.compare("ogt", dt, driver.lanes.const(0.0))
+        text.branch(forward, "step.forward", "stalled")
+        text.begin("stalled")
+        driver.leave(Ended.STALLED, Phase.ENDED)
+        text.begin("step.forward")
         driver.put("t_base", driver.storage.load(T))
         driver.put("k", "0")
         driver.put("dt_base", dt)

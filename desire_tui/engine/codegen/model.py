@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.analysis.slices import derivative_slice, full_pass, step_slice, tail_pass
+from desire_tui.engine.analysis.tails import holds_term
 from desire_tui.engine.codegen.context import PASSES, Context
 from desire_tui.engine.codegen.loopcode import array_loop, register_loop
 from desire_tui.engine.codegen.scope import survey
 from desire_tui.engine.codegen.tables import Tables
-from desire_tui.engine.lowered import Deriv, Guard, Terminate
+from desire_tui.engine.lowered import Deriv
 from desire_tui.engine.runtime.faults import first_not_finite
 from desire_tui.engine.runtime.memory import Ended, RunMemory
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
     from desire_tui.engine.codegen.backend import NativeBackend
     from desire_tui.engine.codegen.store import Compiled
@@ -128,16 +129,8 @@ def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:
         "step": step_slice(segment),
         "full": full_pass(segment),
         # made only after a `term` has fired
-        "tail": tail_pass(segment) if _holds_term(segment.body) else (),
+        "tail": tail_pass(segment) if holds_term(segment.body) else (),
     }
-
-
-def _holds_term(actions: Iterable[Action]) -> bool:
-    return any(
-        isinstance(a, Terminate)
-        or (isinstance(a, Guard) and (_holds_term(a.body) or _holds_term(a.orelse)))
-        for a in actions
-    )
 
 
 def _state_slots(segment: Segment) -> np.ndarray[tuple[int], np.dtype[np.int64]]:

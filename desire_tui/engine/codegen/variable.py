@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.tableaus import STILL_MOST
 from desire_tui.engine.runtime.memory import Ended, Phase
 from desire_tui.engine.values import DT, ERRMAX, T
 
@@ -93,10 +94,16 @@ class VariableStep:
     def _accept(self, difference: str, dt: str) -> None:
         text, lanes, driver, storage = self.text, self.lanes, self.driver, self.storage
         text.begin("accept")
+        lands, here = driver.get("lands"), driver.get("t_here")
+        there = lanes.add(here, dt)
+        self._stall(lands, lanes.compare("ogt", there, here), dt)
+        storage.restore()
+        storage.store(T, here)
+        driver.leave(Ended.STALLED, Phase.ENDED)
+        text.begin("forward")
         storage.advance(self.tableau.b, dt, last=True)
         driver.count("steps")
-        lands = driver.get("lands")
-        storage.store(T, lanes.choose(lands, driver.get("t_next"), lanes.add(driver.get("t_here"), dt)))
+        storage.store(T, lanes.choose(lands, driver.get("t_next"), there))
         self._note_extremes(dt)
         small = lanes.compare("olt", difference, driver.memory.load("error_min"))
         whole = text.op(f"xor i1 {driver.get('cut')}, 1")
@@ -107,6 +114,20 @@ class VariableStep:
         wider = lanes.choose(lanes.compare("olt", doubled, most), doubled, most)
         storage.store(DT, lanes.choose(grows, wider, now))
         driver.arrived(lands)
+
+    def _stall(self, lands: str, moves: str, dt: str) -> None:
+        """End the run if DT is not above 0, or if t has stood still for too long; `k` counts such steps.
+
+        For some steps it may: before a state becomes infinite, DT falls below what t can resolve.
+        """
+        text, driver = self.text, self.driver
+        moves = text.op(f"or i1 {lands}, {moves}")
+        still = text.op(f"add i64 {driver.get('k')}, 1")
+        driver.put("k", text.op(f"select i1 {moves}, i64 0, i64 {still}"))
+        short = text.op(f"icmp slt i64 {driver.get('k')}, {STILL_MOST}")
+        positive = text.op(f"or i1 {lands}, {self.lanes.compare('ogt', dt, self.lanes.const(0.0))}")
+        text.branch(text.op(f"and i1 {short}, {positive}"), "forward", "stalled")
+        text.begin("stalled")
 
     def _note_extremes(self, dt: str) -> None:
         """Smallest and largest step so far; 0 means none yet."""

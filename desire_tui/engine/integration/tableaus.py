@@ -16,6 +16,9 @@ from fractions import Fraction
 
 Row = tuple[Fraction, ...]
 
+STILL_MOST = 4096
+"""So many variable steps too short to move t end a run; some precede a state that becomes infinite."""
+
 
 @dataclass(frozen=True, slots=True)
 class Tableau:

@@ -217,7 +217,7 @@ class Expressions:
 def _shifted(x: Array, by: int) -> Array:
     result = np.zeros(len(x))
     if by >= 0:
-        result[: len(x) - by] = x[by:]
+        result[: max(len(x) - by, 0)] = x[by:]
     elif -by < len(x):
         result[-by:] = x[:by]
     return result

@@ -117,10 +117,8 @@ class ReferenceModel:
     def _step(self, memory: RunMemory) -> Ended | None:
         assert self.tableau is not None
         memory.phase = Phase.IN_STEP
-        if self.tableau.variable:
-            return variable_step(self, self.tableau, memory)
-        fixed_step(self, self.tableau, memory)
-        return None
+        step = variable_step if self.tableau.variable else fixed_step
+        return step(self, self.tableau, memory)
 
     def _pass(self, statements: Run, memory: RunMemory) -> None:
         self.statements.fired = None

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.integration.tableaus import STILL_MOST
 from desire_tui.engine.reference.states import weighted
 from desire_tui.engine.runtime.memory import Ended, Phase
 from desire_tui.engine.values import DT, ERRMAX, T
@@ -20,10 +21,13 @@ if TYPE_CHECKING:
 TOLERANCE = 1e-9
 
 
-def fixed_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> None:
+def fixed_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> Ended | None:
     """Move the states by one step of DT: t = t_base + k·dt_base as long as DT does not change."""
     cells, states = model.cells, model.states
     if tableau.dt_may_change and cells[DT] != memory.dt_base:
+        if not cells[DT] > 0.0:
+            memory.phase = Phase.ENDED
+            return Ended.STALLED
         memory.t_base, memory.dt_base, memory.k = cells[T], cells[DT], 0
     dt, base, k = memory.dt_base, memory.t_base, memory.k
     start = states.fetch()
@@ -38,6 +42,7 @@ def fixed_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> No
     _note_extremes(memory, dt)
     if cells[T] >= memory.t_start + memory.point * memory.comint - TOLERANCE * dt:
         memory.phase = Phase.AT_POINT
+    return None
 
 
 def variable_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> Ended | None:
@@ -67,6 +72,11 @@ def variable_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) ->
         memory.rejected += 1
         cells[DT] = dt
         lands = cut = False
+    memory.k = 0 if lands or here + dt > here else memory.k + 1
+    if memory.k >= STILL_MOST or not (lands or dt > 0.0):
+        states.put(start)
+        cells[T], memory.phase = here, Phase.ENDED
+        return Ended.STALLED
     states.move(tableau.stages, start, dt)
     memory.steps += 1
     cells[T] = next_point if lands else here + dt

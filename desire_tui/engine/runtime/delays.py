@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.library import LIBRARY, func1
-from desire_tui.engine.lowered import Const, DelayLine, Load, Op, Set, Table1
+from desire_tui.engine.lowered import Const, DelayLine, Guard, Load, Op, Set, Table1
+from desire_tui.engine.lowered.reading import walk
 from desire_tui.engine.runtime.faults import actions
 from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP
 from desire_tui.engine.values import DT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
-    from desire_tui.engine.lowered import Segment, Value
+    from desire_tui.engine.lowered import Action, Segment, Value
     from desire_tui.engine.runtime.plan import Plan
     from desire_tui.engine.values import Values
 
@@ -31,32 +33,67 @@ _OPERATIONS: dict[str, Callable[..., float]] = {
 """What is no library function."""
 
 
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A delay line, and the statements before it that its time depends on, in their order."""
+
+    action: DelayLine
+    before: tuple[Set, ...]
+
+
 class Delays:
     """The delay lines of segments, looked for once."""
 
     def __init__(self) -> None:
-        self._found: dict[int, tuple[Segment, tuple[DelayLine, ...], bool]] = {}
+        self._found: dict[int, tuple[Segment, tuple[Line, ...], bool]] = {}
 
     def lags(self, segment: Segment, plan: Plan, values: Values) -> dict[int, int]:
         """Return each delay line's lag by its counter. DesireError 105: buffer too short; 122: DT varies."""
         known = self._found.get(id(segment))
         if known is None or known[0] is not segment:
-            lines = tuple(a for a in actions(segment.body) if isinstance(a, DelayLine))
             changes_dt = any(isinstance(a, Set) and a.slot == DT for a in actions(segment.body))
-            known = self._found[id(segment)] = (segment, lines, changes_dt)
+            known = self._found[id(segment)] = (segment, tuple(_lines(segment.body, [])), changes_dt)
         _, lines, changes_dt = known
         return _lags(segment, lines, changes_dt, plan, values) if lines else {}
 
 
+def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[Line]:
+    """Find delay lines; `before` are the numbers set up to here whatever the conditions are."""
+    for action in body:
+        match action:
+            case Set():
+                before.append(action)
+            case DelayLine():
+                yield Line(action, _needed(action.tau, before))
+            case Guard(kind="step" | "out"):
+                yield from _lines(action.body, before)
+            case Guard():
+                yield from _lines(action.body, before.copy())
+                yield from _lines(action.orelse, before.copy())
+
+
+def _needed(tau: Value, before: list[Set]) -> tuple[Set, ...]:
+    """Return those statements that a time depends on."""
+    slots = {node.slot for node in walk(tau) if isinstance(node, Load)}
+    needed: list[Set] = []
+    for action in reversed(before) if slots else ():
+        if action.slot in slots:
+            needed.append(action)
+            slots.discard(action.slot)
+            slots.update(node.slot for node in walk(action.value) if isinstance(node, Load))
+    return tuple(reversed(needed))
+
+
 def _lags(
-    segment: Segment, lines: tuple[DelayLine, ...], changes_dt: bool, plan: Plan, values: Values
+    segment: Segment, lines: tuple[Line, ...], changes_dt: bool, plan: Plan, values: Values
 ) -> dict[int, int]:
     found: dict[int, int] = {}
-    for line in lines:
+    for known in lines:
+        line = known.action
         if line.per_step and (changes_dt or plan.rule in VARIABLE_STEP | VARIABLE_ORDER):
             raise _error("delay-variable-step", segment, line, rule=plan.rule)
         per_step = line.per_step and plan.rule != DUMMY
-        tau = _evaluate(line.tau, values)
+        tau = _time(known, values)
         if not (math.isfinite(tau) and tau >= 0.0):
             raise _error("delay-negative", segment, line, tau=tau)
         lag = math.floor(tau / (plan.dt if per_step else plan.comint) + ROUNDING)
@@ -67,20 +104,29 @@ def _lags(
     return found
 
 
-def _evaluate(value: Value, values: Values) -> float:
-    """Return a time; nan where it has none, which is then refused."""
+def _time(line: Line, values: Values) -> float:
+    """Return a delay's time, as the run's first pass finds it; nan, which is refused, where it has none."""
+    own: dict[int, float] = {}
+    for action in line.before:
+        own[action.slot] = _evaluate(action.value, values, own)
+    return _evaluate(line.action.tau, values, own)
+
+
+def _evaluate(value: Value, values: Values, own: dict[int, float]) -> float:
     match value:
         case Const():
             return value.value
         case Load():
-            return values.cells[value.slot]
+            return own.get(value.slot, values.cells[value.slot])
         case Table1():
-            return func1(_evaluate(value.x, values), values.cells[value.slot : value.slot + 2 * value.count])
+            table = values.cells[value.slot : value.slot + 2 * value.count]
+            return func1(_evaluate(value.x, values, own), table)
         case Op():
             function = _OPERATIONS.get(value.name) or LIBRARY[value.name].value
             if function is not None:  # ran() and gauss() have none: a time that is drawn is no time
+                numbers = (_evaluate(a, values, own) for a in value.args)
                 try:
-                    return float(function(*(_evaluate(a, values) for a in value.args)))  # type: ignore[arg-type]
+                    return float(function(*numbers))  # type: ignore[arg-type]
                 except (ArithmeticError, ValueError):
                     return math.nan
     return math.nan

@@ -53,6 +53,8 @@ def fault(ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values:
             "t": t, "state": name, "difference": cells[ERRMAX], "ermax": plan.error_max, "dt": cells[DT],
         }  # fmt: skip
         return _placed("variable-step-deadlock", facts, segment, where)
+    if ended is Ended.STALLED:
+        return _placed("time-stalled", {"t": t, "dt": cells[DT]}, segment, _defining(segment, DT))
     if ended is Ended.SOLVER:
         name, where = state_name(segment, int(memory.suspect))
         facts = {"t": t, "dt": cells[DT], "rule": plan.rule, "state": name, "flag": which}

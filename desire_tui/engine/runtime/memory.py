@@ -42,6 +42,8 @@ class Ended(IntEnum):
     """Variable step: error 94, state number `which`."""
     SOLVER = 6
     """CVODE gave up: `which` is its flag."""
+    STALLED = 7
+    """A step of DT would not take t any further."""
 
 
 class RunMemory(ctypes.Structure):

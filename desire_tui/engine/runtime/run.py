@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.runtime.faults import exhausted, fault
 from desire_tui.engine.runtime.history import History
 from desire_tui.engine.runtime.memory import Ended, Phase, RunMemory
-from desire_tui.engine.runtime.plan import DUMMY, Defaults
+from desire_tui.engine.runtime.plan import DUMMY
 from desire_tui.engine.runtime.ticker import Ticker
 from desire_tui.engine.values import DT, T
 
@@ -86,13 +87,14 @@ class Simulator:
         self.memory = memory
         self._control.attach(memory)
         self._ticker.begin()
+        ended = Ended.STOPPED
         try:
             ended = self._advance(model, segment, memory, record, observer)
         finally:
             self._ticker.end()
             self._control.attach(None)
             self.memory = None
-            self._settle(plan, memory, positions, record)
+            self._settle(plan, memory, positions, record, sampled=ended in {Ended.TMAX, Ended.TERM})
             record.seconds = perf_counter() - began
             self._began = 0.0
         full = exhausted(ended, segment, plan, memory, self._values)
@@ -153,8 +155,10 @@ class Simulator:
             else:
                 block = max(1.0, min(block * BLOCK_GROWTH, block * BLOCK_SECONDS / max(took, 1e-6)))
 
-    def _settle(self, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord) -> None:
-        """Make the run's results the script's."""
+    def _settle(
+        self, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord, *, sampled: bool
+    ) -> None:
+        """Make the run's results the script's; `sampled`: it ended with a sample."""
         values = self._values
         if plan.rule != DUMMY:
             values.defined[DT] = 1
@@ -163,8 +167,7 @@ class Simulator:
         if memory.steps and not memory.dt_most:  # a constant step need not be measured
             record.dt_least = record.dt_most = plan.dt
         # Dummy integration leaves t at the next point: nothing is there twice
-        whole = memory.phase == Phase.ENDED and memory.point == memory.nn and plan.rule != DUMMY
-        positions.end = values.cells[T] if whole else float("nan")
+        positions.end = values.cells[T] if sampled and plan.rule != DUMMY else float("nan")
         self.defaults.follow()
         record.end_time = values.cells[T]
         if plan.rule == DUMMY and record.count:

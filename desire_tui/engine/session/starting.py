@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
+    from desire_tui.engine.runtime.defaults import Wishes
     from desire_tui.engine.runtime.history import History
     from desire_tui.engine.runtime.run import Simulator
     from desire_tui.engine.values import Saved, Values
@@ -22,7 +21,7 @@ class Situation:
 
     saved: Saved
     history: History
-    defaults: Mapping[int, float]
+    defaults: Wishes
 
     @classmethod
     def now(cls, values: Values, simulator: Simulator) -> Situation:

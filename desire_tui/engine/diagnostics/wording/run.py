@@ -65,6 +65,11 @@ MESSAGES: dict[str, Wording] = {
         "Rules 4, 7 and 8 halve DT until the test difference is below ERMAX, but never below DTMIN (DT/16 if"
         " it is not set). The difference that could not be reduced is in ERRMAX.",
     ),
+    "time-stalled": Wording(
+        87,
+        "t stays at {t:.6g}: a step of DT = {dt:.3g} does not go forward",
+        "DT must stay above 0, and large enough to change t",
+    ),
     "not-finite": Wording(
         3,
         "'{name}' became {what} at t = {t:.6g}",

@@ -1,0 +1,203 @@
+"""The settings of a run and their defaults at drun (language.md 8.1; book 1.2.4, 4.1, 8.2.1, A.2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP, Plan
+from desire_tui.engine.values import (
+    CHECKN,
+    DT,
+    DTMAX,
+    DTMIN,
+    ERMAX,
+    ERMIN,
+    IROW,
+    MM,
+    NN,
+    SCALE,
+    TMAX,
+    T,
+)  # fmt: skip
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.source import Source, Span
+from desire_tui.engine.values import Values
+
+POINTS_DEFAULT = 251
+_ROUNDING_NN = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """The DT that the program last set, the one a run began with, the one it left if that is another."""
+
+    wished: float | None = None
+    begun: float | None = None
+    left: float | None = None
+
+    def least(self, dt: float) -> float:
+        """Return what DTMIN follows: `dt`, or the program's own DT if a run has made that larger."""
+        return dt if self.wished is None else min(dt, self.wished)
+
+
+Wishes = tuple[dict[int, float], Steps]
+"""Defaults by their slots, and what became of DT."""
+
+
+class Defaults:
+    """Makes plans, and remembers which system variables hold a default rather than the program's own number.
+
+    Defaults are written into the values, so that scripts can read them after the run, but count as *not set*
+    at the next drun as long as nobody changed them: with TMAX changed, DT follows again. A DT that a run made
+    of the program's own is no wish either: the next run goes on with it, but does not complain about it.
+    """
+
+    def __init__(self, values: Values) -> None:
+        self._values = values
+        self._supplied: dict[int, float] = {}
+        self._steps = Steps()
+        self._generation = values.generation
+
+    def plan(self, segment: Segment, rule: int, source: Source, at: Span | None) -> Plan:
+        """Return the plan of a run of `segment` under `irule` (1 if never set). Errors 87, 93, 110, 124."""
+        if segment.row_chosen is not None and not self._values.cells[IROW] >= 1.0:
+            facts = {"value": self._values.cells[IROW]}
+            raise DesireError(Diagnostic("row-not-chosen", segment.row_chosen.span, facts, segment.source))
+        if self._values.generation != self._generation:
+            self._supplied.clear()
+            self._steps = Steps()
+            self._generation = self._values.generation
+        try:
+            return self._plan(segment, rule if segment.order else DUMMY)
+        except DesireError as error:
+            placed = [Diagnostic(d.key, at, d.facts, source) for d in error.diagnostics]
+            raise DesireError(*placed) from None
+
+    def _plan(self, segment: Segment, rule: int) -> Plan:
+        cells = self._values.cells
+        t0 = self._own(T)
+        if t0 is None:
+            t0 = 0.0 if segment.order else 1.0
+            self._values.assign(T, t0)
+        nn = self._points()
+        t_max = self._own(TMAX)
+        if t_max is None:
+            if segment.order:
+                raise _error("tmax-missing")
+            t_max = self._supply(TMAX, float(nn - 1))
+        if not (isfinite(t_max) and t_max > 0.0):
+            raise _error("tmax-not-positive", value=t_max)
+        comint = t_max / (nn - 1)
+        dt = self._step(rule, comint)
+        step_rule = rule in VARIABLE_STEP
+        least = self._steps.least(dt) if step_rule else 0.0
+        error_max = self._tolerance(rule)
+        every = self._own(MM)
+        return Plan(
+            rule=rule, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
+            dt_max=self._largest_step(rule, comint),
+            dt_min=self._or_default(DTMIN, least / 16, supply=step_rule),
+            error_max=error_max,
+            error_min=self._or_default(ERMIN, error_max / 100, supply=step_rule),
+            every=max(int(every), 1) if every is not None and isfinite(every) else 1,
+            checked=self._checked(segment.order) if step_rule else 0,
+            scale=cells[SCALE],
+        )  # fmt: skip
+
+    def saved(self) -> Wishes:
+        """Return what is nobody's wish now, for `restore`."""
+        return self._supplied.copy(), self._steps
+
+    def restore(self, saved: Wishes) -> None:
+        """Take up what was a default when `saved` was called; the values have been put back too."""
+        supplied, self._steps = saved
+        self._supplied = supplied.copy()
+
+    def follow(self) -> None:
+        """Note, after a run or reset, that the DT which it left is still nobody's wish."""
+        now = self._values.cells[DT]
+        if DT in self._supplied:
+            self._supplied[DT] = now
+        elif now != self._steps.begun or self._steps.left == self._steps.begun:
+            self._steps = replace(self._steps, left=now)
+
+    def _points(self) -> int:
+        nn = self._own(NN)
+        if nn is not None and not isfinite(nn):
+            raise _error("nn-not-a-number", value=nn)
+        if nn is not None and int(nn + _ROUNDING_NN) > 1:
+            return int(nn + _ROUNDING_NN)  # TMAX/DT + 1 may be a little less than whole
+        points = POINTS_DEFAULT
+        t_max, dt = self._own(TMAX), self._own(DT)
+        if dt is not None and dt == self._steps.left:
+            dt = self._steps.wished
+        if nn is None and t_max is not None and dt is not None and dt > 0.0:
+            points = max(int(min(float(points), t_max / dt * (1 + ROUNDING) + 1.0)), 2)
+        self._supply(NN, float(points))
+        return points
+
+    def _step(self, rule: int, comint: float) -> float:
+        if rule == DUMMY:
+            return comint
+        dt = self._own(DT)
+        if dt is None:
+            return self._supply(DT, comint / 2)
+        if not (isfinite(dt) and dt > 0.0):
+            raise _error("dt-not-positive", value=dt)
+        left = dt == self._steps.left
+        if dt > comint * (1 + ROUNDING):
+            if not left:
+                raise _error("dt-above-comint", dt=dt, comint=comint)
+            dt = comint
+            self._values.assign(DT, dt)
+        wished = self._steps.wished if left else dt
+        self._steps = Steps(wished=wished, begun=dt, left=dt if left else None)
+        return dt
+
+    def _largest_step(self, rule: int, comint: float) -> float:
+        own = self._own(DTMAX)
+        if own is not None and rule in VARIABLE_STEP | VARIABLE_ORDER and not own >= 0.0:
+            raise _error("dtmax-not-positive", value=own)
+        return self._or_default(DTMAX, comint, supply=rule in VARIABLE_STEP)
+
+    def _tolerance(self, rule: int) -> float:
+        own = self._own(ERMAX)
+        if own is None and rule in VARIABLE_ORDER:
+            raise _error("ermax-missing", rule=rule)
+        if own is not None and rule in VARIABLE_STEP | VARIABLE_ORDER and not (isfinite(own) and own > 0.0):
+            raise _error("ermax-not-positive", value=own)
+        return self._or_default(ERMAX, 0.001, supply=rule in VARIABLE_STEP)
+
+    def _checked(self, order: int) -> int:
+        checked = self._own(CHECKN) or 0.0
+        if not (isfinite(checked) and 0 <= int(checked) <= order):
+            raise _error("checkn-out-of-range", value=checked, order=order)
+        return int(checked)
+
+    def _or_default(self, slot: int, default: float, *, supply: bool) -> float:
+        own = self._own(slot)
+        if own is not None:
+            return own
+        return self._supply(slot, default) if supply else default
+
+    def _own(self, slot: int) -> float | None:
+        """Return what the program itself set, None where it set nothing."""
+        value = self._values.cells[slot]
+        if not self._values.defined[slot] or self._supplied.get(slot) == value:
+            return None
+        self._supplied.pop(slot, None)
+        return value
+
+    def _supply(self, slot: int, value: float) -> float:
+        self._supplied[slot] = value
+        self._values.assign(slot, value)
+        return value
+
+
+def _error(key: str, **facts: object) -> DesireError:
+    return DesireError(Diagnostic(key, facts=facts))
