@@ -33,6 +33,7 @@ class LineHighlights(dict[int, "list[Range]"]):
         super().__init__()
         self.document: DocumentBase | None = None
         self.marks: Mapping[int, Sequence[Mark]] = {}
+        self.found: Mapping[int, Sequence[tuple[int, int]]] = {}
 
     def __bool__(self) -> bool:
         return self.document is not None
@@ -46,6 +47,7 @@ class LineHighlights(dict[int, "list[Range]"]):
         assert self.document is not None
         line = self.document.get_line(row)
         ranges = list(_colours(line)) if len(line) <= LINE_MAX and self.are_on() else []
+        ranges += [(_bytes(line, a), _bytes(line, b), "found") for a, b in self.found.get(row, ()) if a < b]
         for mark in self.marks.get(row, ()):
             start = min(mark.start, max(len(line) - 1, 0))
             end = max(mark.end, start + 1)

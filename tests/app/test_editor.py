@@ -63,6 +63,16 @@ def test_completion_offers_own_names_functions_and_statements():
     assert offers("om", [text], {"omega": "= 2"})[0].about == "= 2"
 
 
+def test_the_likeliest_completion_comes_first():
+    def words(prefix: str, *texts: str) -> list[str]:
+        return [offer.word for offer in offers(prefix, texts, {"sizes": "= 3"})]
+
+    assert words("si", "")[:3] == ["sizes", "sin", "sinc"]
+    assert words("si", "sigmoid(x) | six = 1")[:3] == ["six", "sizes", "sigmoid"]
+    assert words("Si", "Silent = 1 | si = 2")[:2] == ["Silent", "si"]
+    assert words("dr", "")[:2] == ["drun", "drunr"]
+
+
 def test_no_completion_inside_comments_and_strings():
     assert prefix_of("x = sig", 7) == "sig"
     assert prefix_of("-- sig", 6) == ""
