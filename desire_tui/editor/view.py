@@ -70,7 +70,8 @@ class ProgramView(TextArea):
         self._common: tuple[object, ...] = ()
         self._is_due = False
         super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
-        self._highlights = LineHighlights()
+        self._coloured = LineHighlights()
+        self._highlights = self._coloured
         self.indent_width = indent.WIDTH
         self.views = [*twin.views, self] if twin else [self]
         for view in self.views:
@@ -266,8 +267,8 @@ class ProgramView(TextArea):
         partner_here = bracket if bracket is not None and bracket[0] == row else None
         problems = (*self.marks.problems.get(row, ()), *self.marks.found.get(row, ()))
         return (
-            common, row, self.document.get_line(row), self._sign(row), problems, selected, cursor,
-            partner_here,
+            common, row, self.document.get_line(row), self._coloured.before(row), self._sign(row), problems,
+            selected, cursor, partner_here,
         )  # fmt: skip
 
     def _signed(self, strip: Strip, sign: str | None) -> Strip:

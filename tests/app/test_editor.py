@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import given
@@ -15,6 +16,9 @@ from desire_tui.editor.completion import offers, prefix_of
 from desire_tui.editor.highlighting import LineHighlights
 
 from .conftest import OSCILLATOR, desktop
+
+if TYPE_CHECKING:
+    from desire_tui.editor.area import CodeArea
 
 # ----------------------------------------------------------------------------------------------- text alone
 
@@ -94,6 +98,20 @@ def test_highlight_ranges_are_bytes():
 
 
 # ---------------------------------------------------------------------------------------------- on screen
+
+
+async def test_a_row_is_coloured_anew_when_the_one_above_goes_on_in_it(program):
+    def style(area: CodeArea, row: int, word: str) -> object:
+        return next(s.style and s.style.bold for s in area.render_line(row) if word in s.text)
+
+    async with desktop(program("x = 1\nnext = 2\nnext\n")) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        assert style(area, 2, "next")
+        area.go_to(1, 8)
+        await desk.press("+", "_")
+        await desk.pilot.pause()
+        assert not style(area, 2, "next")
 
 
 async def test_typing_indents_and_dedents(program):
