@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from desire_tui.watchdog import watched
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -20,11 +22,12 @@ def is_possible() -> bool:
 def open_desktop(files: tuple[str, ...]) -> NoReturn:
     """Open the desktop with files in tabs; ends the process."""
     gc.disable()  # what is made from here on stays; `settle` ends this
-    with _without("ssl"):
-        import asyncio  # noqa: F401 - here it must do without
-    from desire_tui.app import DesireApp
+    with watched():
+        with _without("ssl"):
+            import asyncio  # noqa: F401 - here it must do without
+        from desire_tui.app import DesireApp
 
-    status = DesireApp([Path(file) for file in files]).run()
+        status = DesireApp([Path(file) for file in files]).run()
     patience = sys.modules.get("desire_tui.engine.interpreter.patience")
     if patience is not None:
         patience.leave_at_once(0)

@@ -46,6 +46,9 @@ _COLOURS = {
 _CHOSEN = {"dark": "#2a3a50", "light": "#dbe8f5", "contrast": "#303030", "publication": "#d8d8d8"}
 """What selected text stands on: the colours of words stay as they are."""
 
+_FOUND = {"dark": "#3a311a", "light": "#f2dc98", "contrast": "#403200", "publication": "#cccccc"}
+"""What stands behind text that a search found."""
+
 
 def quiet(theme: Theme) -> str:
     """Return the colour of text that matters less; it can be read all the same."""
@@ -65,5 +68,5 @@ def editor_theme(theme: Theme) -> TextAreaTheme:
     chosen = Style(bgcolor=_CHOSEN[name])
     styles["error"] = Style(underline=True, color=str(theme.error))
     styles["warning"] = Style(underline=True)
-    styles["found"] = Style(reverse=True)
+    styles["found"] = Style(bgcolor=_FOUND[name])
     return TextAreaTheme(name=f"desire-{theme.name}", syntax_styles=styles, selection_style=chosen)

@@ -13,9 +13,9 @@ class EditActions(Controller):
     def _open_bar(self, wanted: str, *, replace: bool) -> None:
         area = self.app.editor.front
         selected = area.selected_text
-        if not wanted and selected and "\n" not in selected:
+        if not wanted and selected and "\n" not in selected and not self._bar.finder.has_selected(area):
             wanted = selected
-        self.app.editor.query_one(FindBar).open(area, wanted, replace=replace)
+        self._bar.open(area, wanted, replace=replace)
 
     def find(self, argument: str = "") -> None:
         """Open the find bar."""
@@ -29,19 +29,57 @@ class EditActions(Controller):
             return
         self._open_bar(argument, replace=True)
 
+    @property
+    def _bar(self) -> FindBar:
+        return self.app.editor.query_one(FindBar)
+
+    def _step(self, step: int) -> None:
+        bar = self._bar
+        bar.follow(self.app.editor.front)
+        bar.action_step(step)
+
     def find_next(self, argument: str = "") -> None:
         """Go to the next occurrence."""
         del argument
-        bar = self.app.editor.query_one(FindBar)
-        bar.area = self.app.editor.front
-        bar.action_step(1)
+        self._step(1)
 
     def find_previous(self, argument: str = "") -> None:
         """Go to the occurrence before."""
         del argument
-        bar = self.app.editor.query_one(FindBar)
-        bar.area = self.app.editor.front
-        bar.action_step(-1)
+        self._step(-1)
+
+    def _switch(self, name: str) -> None:
+        if not self._bar.display:
+            self._open_bar("", replace=False)
+        self._bar.switch(name)
+
+    def match_case(self, argument: str = "") -> None:
+        """Tell capitals from small letters in a search, or not."""
+        del argument
+        self._switch("case")
+
+    def whole_words(self, argument: str = "") -> None:
+        """Find whole names and numbers only, or not."""
+        del argument
+        self._switch("word")
+
+    def expression(self, argument: str = "") -> None:
+        """Take what is searched for as a regular expression, or as it stands."""
+        del argument
+        self._switch("regex")
+
+    def in_selection(self, argument: str = "") -> None:
+        """Search inside the selection only, or everywhere."""
+        del argument
+        self._switch("within")
+
+    def replace_all(self, argument: str = "") -> None:
+        """Replace every occurrence; opens the bar if it is not there."""
+        del argument
+        if self._bar.display and self._bar.has_class("-replace"):
+            self._bar.replace_all()
+        else:
+            self._open_bar("", replace=True)
 
     async def goto(self, argument: str = "") -> None:
         """Go to a row, or `row:column`."""

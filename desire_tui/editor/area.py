@@ -14,6 +14,7 @@ from desire_tui.editor.view import ProgramView
 
 if TYPE_CHECKING:
     from textual import events
+    from textual.document._document import Location
 
     from desire_tui.editor.buffer import Buffer
 
@@ -71,7 +72,8 @@ class CodeArea(ProgramView):
             event.stop()
             event.prevent_default()
             return
-        if event.key == "escape":  # TextArea would move the focus
+        if event.key == "escape":
+            event.prevent_default()  # TextArea would move the focus
             return
         if event.key == "enter":
             event.stop()
@@ -130,6 +132,12 @@ class CodeArea(ProgramView):
             self.selection = Selection((top, 0), (top + len(lines) - 1, len(lines[-1])))
         else:
             self.move_cursor((row, min(column, len(lines[0]))))
+
+    def replace_as_one(self, text: str, start: Location, end: Location) -> None:
+        """Replace a piece of the text as one undoable edit."""
+        self.history.checkpoint()
+        self.replace(text, start, end)
+        self.history.checkpoint()
 
     def action_shift_lines(self, levels: int) -> None:
         """Indent or dedent the selected rows."""

@@ -54,8 +54,10 @@ def offers(
     commands: bool = False,
     complete: bool = False,
 ) -> list[Offer]:
-    """Return completions of `prefix`, the program's own names first; itself before all if it is `complete`.
+    """Return completions of `prefix`, the likeliest first; itself before all if it is `complete`.
 
+    Capitals as typed come before others, the program's names before the language's, words that it uses
+    already before the rest, short ones before long ones.
     `texts` are programs whose names count, `known` are names with a line about each (quantities with their
     values); with `commands` the command line's words are offered too.
     """
@@ -65,12 +67,16 @@ def offers(
         for word in _names(text):
             own.setdefault(word, "")
     found = [
-        Offer(word, own[word] or OWN_NAME)
-        for word in sorted(own)
-        if _fits(prefix, word) and word not in about
+        Offer(word, about.get(word) or own[word] or OWN_NAME)
+        for word in {**about, **own}
+        if _fits(prefix, word)
     ]
-    found += [Offer(word, line) for word, line in sorted(about.items()) if _fits(prefix, word)]
-    found.sort(key=lambda offer: not offer.word.startswith(prefix))
+
+    def rank(offer: Offer) -> tuple[object, ...]:
+        word = offer.word
+        return not word.startswith(prefix), word in about, word not in own, len(word), word
+
+    found.sort(key=rank)
     if complete:
         found.insert(0, Offer(prefix, own.get(prefix) or about.get(prefix) or OWN_NAME))
     return found[:OFFERED_MAX]

@@ -1,38 +1,57 @@
-"""Find and replace: one row below the text."""
+"""The find bar below the text: what is searched for, how, and what it is replaced by."""
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, ClassVar
 
 from textual.binding import Binding, BindingType
-from textual.containers import Horizontal
+from textual.containers import Horizontal, Vertical
 from textual.message import Message
 from textual.widgets import Input, Label
 
+from desire_tui.editor.finder import Finder
+from desire_tui.editor.searching import HITS_MAX, Unsearchable
+
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from textual import events
     from textual.app import ComposeResult
-    from textual.widgets.text_area import Location
+    from textual.timer import Timer
 
     from desire_tui.editor.area import CodeArea
 
+SWITCHES = {
+    "case": ("Aa", "Match case · Alt+C"),
+    "word": ("W", "Whole words · Alt+W"),
+    "regex": (".*", "Regular expression · Alt+X"),
+    "within": ("≡", "In the lines selected · Alt+M"),
+}
+"""Ways of searching: what is shown for each."""
+COUNT_AFTER_S = 0.15
+"""Occurrences are counted again when nobody changed the text for so long."""
 
-class FindBar(Horizontal):
-    """Searches a text as it is typed. Capital letters in the search make it case-sensitive."""
+
+class FindBar(Vertical):
+    """Searches a text as it is typed."""
 
     DEFAULT_CSS = """
-    FindBar { height: 1; display: none; background: $panel; }
+    FindBar { height: auto; display: none; background: $panel; }
+    FindBar Horizontal { height: 1; }
     FindBar Input { border: none; height: 1; width: 1fr; padding: 0 1; background: $surface; }
     FindBar Input:focus { border: none; background: $boost; }
     FindBar Label { width: auto; padding: 0 1; color: $text-muted; }
-    FindBar #replacement { display: none; }
-    FindBar.-replace #replacement { display: block; }
+    FindBar .switch:hover, FindBar .button:hover { background: $primary; color: $background; }
+    FindBar .switch.-on { background: $primary; color: $background; text-style: bold; }
+    FindBar .button { color: $foreground; }
+    FindBar #replacing, FindBar #wrong { display: none; }
+    FindBar.-replace #replacing { display: block; }
+    FindBar.-wrong #wrong { display: block; width: 1fr; color: $text-error; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "close", "Close", show=False),
         Binding("down", "step(1)", "Next", show=False),
         Binding("up", "step(-1)", "Previous", show=False),
-        Binding("alt+a", "replace_all", "Replace all", show=False),
     ]
 
     class Closed(Message):
@@ -40,99 +59,156 @@ class FindBar(Horizontal):
 
     def __init__(self) -> None:
         super().__init__()
-        self.area: CodeArea | None = None
+        self.finder = Finder()
+        self._timer: Timer | None = None
+        self._counted = ""
+        """The text whose occurrences are counted."""
 
     def compose(self) -> ComposeResult:
-        """Two fields and a count."""
-        yield Input(placeholder="find", id="wanted", select_on_focus=True)
-        yield Input(placeholder="replace by · Enter one · Alt+A all", id="replacement", select_on_focus=True)
-        yield Label("", id="found", markup=False)
+        """Two rows, each a field and what can be clicked; a third if something is wrong."""
+        with Horizontal():
+            yield Input(placeholder="find", id="wanted", select_on_focus=True)
+            for name, (sign, tip) in SWITCHES.items():
+                yield Label(sign, id=f"find-{name}", classes="switch", markup=False).with_tooltip(tip)
+            yield Label("", id="found", markup=False)
+        with Horizontal(id="replacing"):
+            yield Input(placeholder="replace by", id="replacement", select_on_focus=True)
+            yield Label("Enter one", id="replace-one", classes="button", markup=False)
+            yield Label("Alt+A all", id="replace-all", classes="button", markup=False)
+        yield Label("", id="wrong", markup=False)
+
+    # ------------------------------------------------------------------------------------ opening and closing
 
     def open(self, area: CodeArea, wanted: str = "", *, replace: bool = False) -> None:
-        """Show the bar for a text."""
-        self.area = area
+        """Show the bar for a text; several lines that are selected are where it searches."""
+        finder = self.finder
+        finder.look_at(area)
+        if area.selection.start[0] != area.selection.end[0]:
+            finder.limit_to_selection()
+        elif not self.display:
+            finder.limit_to_nothing()
         self.display = True
         self.set_class(replace, "-replace")
         field = self.query_one("#wanted", Input)
         if wanted:
             field.value = wanted
         self.screen.set_focus(field)  # at once: the letters typed next are for it
-        self._count()
+        self._show()
 
-    def places(self) -> list[tuple[Location, Location]]:
-        """Return start and end of each occurrence in the text, in order."""
-        wanted = self.query_one("#wanted", Input).value
-        if self.area is None or not wanted:
-            return []
-        pattern = re.compile(re.escape(wanted), 0 if wanted != wanted.lower() else re.IGNORECASE)
-        return [
-            ((row, hit.start()), (row, hit.end()))
-            for row, line in enumerate(self.area.document.lines)
-            for hit in pattern.finditer(line)
-        ]
+    def follow(self, area: CodeArea) -> None:
+        """Search another text from now on: another tab came to the front."""
+        if self.finder.area is not area:
+            self.finder.look_at(area)
+            if self.display:
+                self._show()
+
+    def text_changed(self) -> None:
+        """Count anew, once nobody types."""
+        area = self.finder.area
+        if not self.display or area is None or area.text is self._counted:  # changed by the bar itself
+            return
+        if self._timer is not None:
+            self._timer.stop()
+        self._timer = self.set_timer(COUNT_AFTER_S, self._show)
+
+    def action_close(self) -> None:
+        """Hide the bar."""
+        finder = self.finder
+        if finder.area is not None:
+            self.screen.set_focus(finder.area)  # at once: letters typed next belong there
+        finder.limit_to_nothing()
+        finder.show_hits(())
+        self.display = False
+        self.post_message(self.Closed())
+
+    # --------------------------------------------------------------------------------------------- searching
+
+    def switch(self, name: str) -> None:
+        """Turn a way of searching (a key of SWITCHES) on or off."""
+        if not self.finder.switch(name):
+            self.notify("Select some lines first: then only these are searched.", timeout=3)
+        self._from_here()
 
     def action_step(self, step: int) -> None:
         """Select the next (1) or the previous (-1) occurrence, going round at the end."""
-        found = self.places()
-        if self.area is None or not found:
-            self._count()
+        self._go(lambda: self.finder.step(step))
+
+    def _from_here(self) -> None:
+        self._go(self.finder.first)
+
+    def _go(self, move: Callable[[], int | None]) -> None:
+        try:
+            number = move()
+        except Unsearchable as why:
+            self._show(wrong=str(why))
             return
-        start, end = sorted(self.area.selection)
-        if step > 0:
-            number = next((n for n, (at, _) in enumerate(found) if at >= end and (at, _) != (start, end)), 0)
-        else:
-            number = next((n for n in reversed(range(len(found))) if found[n][0] < start), len(found) - 1)
-        self._select(found, number)
+        self._show(number)
 
-    def _select(self, found: list[tuple[Location, Location]], number: int) -> None:
-        assert self.area is not None
-        start, end = found[number]
-        self.area.move_cursor(start, center=True)
-        self.area.move_cursor(end, select=True)
-        self.query_one("#found", Label).update(f"{number + 1} of {len(found)}")
-
-    def _count(self) -> None:
-        found = len(self.places())
-        self.query_one("#found", Label).update(f"{found} found" if found else "not found")
+    def _show(self, number: int | None = None, *, told: str = "", wrong: str = "") -> None:
+        """Show the switches, and how much was found or why nothing can be."""
+        finder = self.finder
+        for name in SWITCHES:
+            self.query_one(f"#find-{name}").set_class(finder.is_on(name), "-on")
+        try:
+            hits = finder.hits()
+        except Unsearchable as why:
+            hits, wrong = [], str(why)
+        finder.show_hits(hits if self.display else ())
+        self._counted = finder.area.text if finder.area is not None else ""
+        count = f"{len(hits)}+" if len(hits) == HITS_MAX else str(len(hits))
+        if number is not None:
+            told = f"{number + 1} of {count}"
+        elif not told and finder.wanted.text and not wrong:
+            told = f"{count} found" if hits else "not found"
+        self.query_one("#found", Label).update(" ".join(filter(None, (told, finder.place))))
+        self.query_one("#wrong", Label).update(wrong)
+        self.set_class(bool(wrong), "-wrong")
 
     def on_input_changed(self, event: Input.Changed) -> None:
         """Go to the first occurrence from the cursor on."""
         event.stop()
-        if event.input.id != "wanted" or self.area is None:
-            return
-        found = self.places()
-        if not found:
-            self._count()
-            return
-        here = min(self.area.selection)
-        self._select(found, next((n for n, (start, _) in enumerate(found) if start >= here), 0))
+        if event.input.id == "wanted":
+            self.finder.search_for(event.value)
+            self._from_here()
+
+    # --------------------------------------------------------------------------------------------- replacing
+
+    @property
+    def _by(self) -> str:
+        return self.query_one("#replacement", Input).value
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
         """Enter: next occurrence; in the second field, replace this one first."""
         event.stop()
-        if event.input.id == "replacement" and self.area is not None:
-            selected = tuple(sorted(self.area.selection))
-            if selected in self.places():
-                self.area.replace(event.value, *selected)
-        self.action_step(1)
+        if event.input.id == "replacement":
+            self._replace_one()
+        else:
+            self.action_step(1)
 
-    def action_replace_all(self) -> None:
+    def _replace_one(self) -> None:
+        def replace() -> int | None:
+            self.finder.replace_one(self._by)
+            return self.finder.step(1)
+
+        self._go(replace)
+
+    def replace_all(self) -> None:
         """Replace every occurrence, as one undoable change."""
-        found = self.places()
-        if self.area is None or not found:
+        if not self.has_class("-replace"):
             return
-        by = self.query_one("#replacement", Input).value
-        lines = list(self.area.document.lines)
-        for (row, start), (_, end) in reversed(found):
-            lines[row] = lines[row][:start] + by + lines[row][end:]
-        top, bottom = found[0][0][0], found[-1][0][0]
-        self.area.rewrite_rows(top, bottom, lines[top : bottom + 1])
-        self.area.move_cursor((top, 0))
-        self.query_one("#found", Label).update(f"{len(found)} replaced")
+        try:
+            places = self.finder.replace_all(self._by)
+        except Unsearchable as why:
+            self._show(wrong=str(why))
+            return
+        self._show(told=f"{places} replaced" if places else "")
 
-    def action_close(self) -> None:
-        """Hide the bar."""
-        if self.area is not None:
-            self.screen.set_focus(self.area)  # at once: letters typed next belong there
-        self.display = False
-        self.post_message(self.Closed())
+    def on_click(self, event: events.Click) -> None:
+        """Turn a switch, press a button."""
+        name = (event.widget.id or "") if event.widget is not None else ""
+        if name.startswith("find-"):
+            self.switch(name.removeprefix("find-"))
+        elif name == "replace-one":
+            self._replace_one()
+        elif name == "replace-all":
+            self.replace_all()

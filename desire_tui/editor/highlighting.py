@@ -12,6 +12,8 @@ import sys
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from desire_tui.editor.document import Lines
+
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
@@ -33,6 +35,7 @@ class LineHighlights(dict[int, "list[Range]"]):
         super().__init__()
         self.document: DocumentBase | None = None
         self.marks: Mapping[int, Sequence[Mark]] = {}
+        self.found: Mapping[int, Sequence[tuple[int, int]]] = {}
 
     def __bool__(self) -> bool:
         return self.document is not None
@@ -42,10 +45,22 @@ class LineHighlights(dict[int, "list[Range]"]):
         """Whether there are colours: not before the engine is imported."""
         return _ENGINE in sys.modules
 
+    def before(self, row: int) -> str:
+        """Return the rows of a statement that goes on in this one; an empty text if none does."""
+        if not self.are_on() or not isinstance(self.document, Lines):
+            return ""
+        try:
+            from desire_tui.engine.syntax import before
+
+            return before(self.document.lines, row)
+        except Exception:  # noqa: BLE001 - colours are an ornament, as below
+            return ""
+
     def __missing__(self, row: int) -> list[Range]:
         assert self.document is not None
         line = self.document.get_line(row)
-        ranges = list(_colours(line)) if len(line) <= LINE_MAX and self.are_on() else []
+        ranges = list(_colours(self.before(row), line)) if len(line) <= LINE_MAX and self.are_on() else []
+        ranges += [(_bytes(line, a), _bytes(line, b), "found") for a, b in self.found.get(row, ()) if a < b]
         for mark in self.marks.get(row, ()):
             start = min(mark.start, max(len(line) - 1, 0))
             end = max(mark.end, start + 1)
@@ -54,11 +69,16 @@ class LineHighlights(dict[int, "list[Range]"]):
 
 
 @lru_cache(maxsize=4096)
-def _colours(line: str) -> tuple[Range, ...]:
+def _colours(before: str, line: str) -> tuple[Range, ...]:
     try:
         from desire_tui.engine.syntax import highlight
 
-        return tuple((_bytes(line, start), _bytes(line, end), name) for start, end, name in highlight(line))
+        skipped = len(before)
+        return tuple(
+            (_bytes(line, start - skipped), _bytes(line, end - skipped), name)
+            for start, end, name in highlight(before + line)
+            if start >= skipped
+        )
     except Exception:  # noqa: BLE001 - colours are an ornament: a fault in them must not take the text away
         return ()
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections import deque
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -11,6 +12,9 @@ if TYPE_CHECKING:
     from textual.document._document import Location
 
     from desire_tui.engine.diagnostics import Diagnostic
+
+CHANGES_KEPT = 500
+"""For so many changes it is known which breakpoints they took away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +45,11 @@ class Move:
     end: Location
 
     @property
+    def rows(self) -> tuple[int, int]:
+        """First and last row of what is replaced."""
+        return self.top[0], self.bottom[0]
+
+    @property
     def is_idle(self) -> bool:
         """Whether every row stays where it was."""
         return self.top[0] == self.bottom[0] == self.end[0]
@@ -69,6 +78,16 @@ class Move:
         return next((at for at in (row, row - self.below) if at >= 0 and self.new(at) == row), None)
 
 
+@dataclass(frozen=True, slots=True)
+class Change:
+    """The breakpoints of the rows that a replacement concerned, before and after it."""
+
+    inverse: Move
+    """The replacement that takes it back."""
+    before: frozenset[int]
+    after: frozenset[int]
+
+
 @dataclass
 class Marks:
     """All marks of one editor."""
@@ -76,7 +95,12 @@ class Marks:
     problems: dict[int, list[Mark]] = field(default_factory=dict)
     breakpoints: set[int] = field(default_factory=set)
     traced: int | None = None
+    found: dict[int, list[tuple[int, int]]] = field(default_factory=dict)
+    """What a search found: columns for each row."""
     _moves: list[Move] = field(default_factory=list)
+    takes_back: bool = False
+    """Whether changes are being undone, or done again."""
+    _changes: deque[Change] = field(default_factory=lambda: deque(maxlen=CHANGES_KEPT))
 
     def set_problems(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Replace the problems."""
@@ -91,9 +115,14 @@ class Marks:
     def replaced(self, top: Location, bottom: Location, end: Location) -> None:
         """Follow a replacement of what stood from `top` to `bottom`, up to `end`: marks stay with lines."""
         move = Move(top, bottom, end)
+        self.found = {
+            row: places
+            for at, places in self.found.items()
+            if not top[0] <= at <= bottom[0] and (row := move.new(at)) is not None
+        }
         if move.is_idle:
             return
-        self.breakpoints = {row for at in self.breakpoints if (row := move.new(at)) is not None}
+        self._move_breakpoints(move)
         self.problems = {
             row: marks for at, marks in self.problems.items() if (row := move.new(at)) is not None
         }
@@ -101,12 +130,32 @@ class Marks:
             self.traced = move.new(self.traced)
         self._moves.append(move)
 
+    def _move_breakpoints(self, move: Move) -> None:
+        """Let breakpoints follow; where a change is taken back, those come back that it took away."""
+        before = self._breakpoints_in(move.top[0], move.bottom[0])
+        moved = {row for at in self.breakpoints if (row := move.new(at)) is not None}
+        if self.takes_back:
+            fitting = (c for c in reversed(self._changes) if c.inverse == move and c.after == before)
+            if (undone := next(fitting, None)) is not None:
+                self._changes.remove(undone)
+                moved -= set(range(move.top[0], move.end[0] + 1))
+                moved |= undone.before
+        self.breakpoints = moved
+        after = self._breakpoints_in(move.top[0], move.end[0])
+        if before or after:
+            self._changes.append(Change(Move(move.top, move.end, move.bottom), before, after))
+
+    def _breakpoints_in(self, first: int, last: int) -> frozenset[int]:
+        return frozenset(row for row in self.breakpoints if first <= row <= last)
+
     def rotated(self, first: int, last: int, step: int) -> None:
         """Follow rows that moved up (-1) or down (1) by one; the row they passed went to the other end."""
         rows = last - first + 1
         self.breakpoints = {
             first + (at - first + step) % rows if first <= at <= last else at for at in self.breakpoints
         }
+        if self._changes and self._changes[-1].inverse.rows == (first, last):  # by it the rows were moved
+            self._changes[-1] = replace(self._changes[-1], after=self._breakpoints_in(first, last))
 
     def accepted(self) -> None:
         """From now on rows are told with respect to the text as it is."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from textual import on
+from textual.binding import Binding
 from textual.containers import Horizontal, Vertical
 from textual.message import Message
 from textual.widgets import Label, TextArea
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from textual.app import ComposeResult
+    from textual.binding import BindingType
     from textual.timer import Timer
 
     from desire_tui.engine.diagnostics import Diagnostic
@@ -41,6 +43,8 @@ class EditorPane(Vertical):
     EditorPane #ok { width: auto; background: $primary; color: $background; text-style: bold; }
     EditorPane #ok:hover { background: $accent; }
     """
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "close_find", "Close find bar", show=False)]
 
     class Wanted(Message):
         """The pane wants an action carried out (`id` of the command table)."""
@@ -134,6 +138,7 @@ class EditorPane(Vertical):
         if area is self._second:
             self._second = self._front
         self._front = area
+        self.query_one(FindBar).follow(area)
         views = self._views
         if self._second is area or self._second not in views:
             self._second = None
@@ -290,6 +295,7 @@ class EditorPane(Vertical):
         self.refresh_tabs()
         area.aid.moved(area)
         self._ask_check(area)
+        self.query_one(FindBar).text_changed()
 
     def _ask_check(self, area: CodeArea) -> None:
         if self._check_timer is not None:
@@ -346,6 +352,12 @@ class EditorPane(Vertical):
         focused = self.screen.focused
         if isinstance(focused, CodeArea) and focused is not self._front and focused in self._views:
             self.show(focused)
+
+    def action_close_find(self) -> None:
+        """Hide the find bar."""
+        bar = self.query_one(FindBar)
+        if bar.display:
+            bar.action_close()
 
     @on(FindBar.Closed)
     def _find_closed(self, event: FindBar.Closed) -> None:

@@ -42,9 +42,9 @@ class Leftover:
     tabs: tuple[SavedTab, ...]
 
 
-def recovery_file() -> Path:
-    """Return this process's recovery file."""
-    return state_folder() / f"recovery-{os.getpid()}.json"
+def recovery_file(pid: int | None = None) -> Path:
+    """Return a process's recovery file; this one's if none is named."""
+    return state_folder() / f"recovery-{pid or os.getpid()}.json"
 
 
 def session_file() -> Path:

@@ -70,7 +70,8 @@ class ProgramView(TextArea):
         self._common: tuple[object, ...] = ()
         self._is_due = False
         super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
-        self._highlights = LineHighlights()
+        self._coloured = LineHighlights()
+        self._highlights = self._coloured
         self.indent_width = indent.WIDTH
         self.views = [*twin.views, self] if twin else [self]
         for view in self.views:
@@ -115,6 +116,7 @@ class ProgramView(TextArea):
         ):  # TextArea's own constructor comes here before ours is in place
             highlights.document = self.document
             highlights.marks = self.marks.problems
+            highlights.found = self.marks.found
 
     def _set_document(self, text: str, language: str | None) -> None:
         del language
@@ -157,20 +159,20 @@ class ProgramView(TextArea):
             return super().edit(edit)
 
     def _undo_batch(self, edits: Sequence[Edit]) -> None:
-        with self._changing():
+        with self._changing(takes_back=True):
             super()._undo_batch(edits)
 
     def _redo_batch(self, edits: Sequence[Edit]) -> None:
-        with self._changing():
+        with self._changing(takes_back=True):
             super()._redo_batch(edits)
 
     @contextmanager
-    def _changing(self) -> Iterator[None]:
-        self._is_changing = True
+    def _changing(self, *, takes_back: bool = False) -> Iterator[None]:
+        self._is_changing, self.marks.takes_back = True, takes_back
         try:
             yield
         finally:
-            self._is_changing = False
+            self._is_changing = self.marks.takes_back = False
         for view in self.views:
             if view is not self:
                 view.follow_text()
@@ -263,10 +265,10 @@ class ProgramView(TextArea):
         if self.cursor_location[0] == row:
             cursor = (self._draw_cursor, self.cursor_location, bracket is not None)
         partner_here = bracket if bracket is not None and bracket[0] == row else None
-        problems = tuple(self.marks.problems.get(row, ()))
+        problems = (*self.marks.problems.get(row, ()), *self.marks.found.get(row, ()))
         return (
-            common, row, self.document.get_line(row), self._sign(row), problems, selected, cursor,
-            partner_here,
+            common, row, self.document.get_line(row), self._coloured.before(row), self._sign(row), problems,
+            selected, cursor, partner_here,
         )  # fmt: skip
 
     def _signed(self, strip: Strip, sign: str | None) -> Strip:

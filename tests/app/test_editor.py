@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import given
@@ -15,6 +16,9 @@ from desire_tui.editor.completion import offers, prefix_of
 from desire_tui.editor.highlighting import LineHighlights
 
 from .conftest import OSCILLATOR, desktop
+
+if TYPE_CHECKING:
+    from desire_tui.editor.area import CodeArea
 
 # ----------------------------------------------------------------------------------------------- text alone
 
@@ -63,6 +67,16 @@ def test_completion_offers_own_names_functions_and_statements():
     assert offers("om", [text], {"omega": "= 2"})[0].about == "= 2"
 
 
+def test_the_likeliest_completion_comes_first():
+    def words(prefix: str, *texts: str) -> list[str]:
+        return [offer.word for offer in offers(prefix, texts, {"sizes": "= 3"})]
+
+    assert words("si", "")[:3] == ["sizes", "sin", "sinc"]
+    assert words("si", "sigmoid(x) | six = 1")[:3] == ["six", "sizes", "sigmoid"]
+    assert words("Si", "Silent = 1 | si = 2")[:2] == ["Silent", "si"]
+    assert words("dr", "")[:2] == ["drun", "drunr"]
+
+
 def test_no_completion_inside_comments_and_strings():
     assert prefix_of("x = sig", 7) == "sig"
     assert prefix_of("-- sig", 6) == ""
@@ -84,6 +98,20 @@ def test_highlight_ranges_are_bytes():
 
 
 # ---------------------------------------------------------------------------------------------- on screen
+
+
+async def test_a_row_is_coloured_anew_when_the_one_above_goes_on_in_it(program):
+    def style(area: CodeArea, row: int, word: str) -> object:
+        return next(s.style and s.style.bold for s in area.render_line(row) if word in s.text)
+
+    async with desktop(program("x = 1\nnext = 2\nnext\n")) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        assert style(area, 2, "next")
+        area.go_to(1, 8)
+        await desk.press("+", "_")
+        await desk.pilot.pause()
+        assert not style(area, 2, "next")
 
 
 async def test_typing_indents_and_dedents(program):

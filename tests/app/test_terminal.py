@@ -36,7 +36,9 @@ PATIENCE_S = 30
 class Terminal:
     """Desire in a pseudo-terminal, its screen followed by pyte."""
 
-    def __init__(self, folder: Path, *files: str, rows: int = 30, columns: int = 100) -> None:
+    def __init__(
+        self, folder: Path, *files: str, rows: int = 30, columns: int = 100, shell: tuple[str, ...] = ()
+    ) -> None:
         env = {
             **os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", "XDG_CONFIG_HOME": str(folder / "config"),
             "XDG_STATE_HOME": str(folder / "state"), "PYTHONPATH": str(ROOT),
@@ -46,9 +48,8 @@ class Terminal:
         self.screen = pyte.Screen(columns, rows)
         self.stream = pyte.ByteStream(self.screen)
         self.raw = bytearray()
-        self.child = pexpect.spawn(
-            sys.executable, ["-m", "desire_tui", *files], env=env, cwd=str(folder), dimensions=(rows, columns)
-        )
+        command, *arguments = *shell, sys.executable, "-m", "desire_tui", *files
+        self.child = pexpect.spawn(command, arguments, env=env, cwd=str(folder), dimensions=(rows, columns))
         self.child.delaybeforesend = None
         self.child.ptyproc.delayafterterminate = 0.5  # on a machine with much to do even SIGKILL takes its time
         self.modes_before = termios.tcgetattr(self.child.child_fd)
@@ -98,8 +99,8 @@ class Terminal:
 def terminal(tmp_path: Path) -> Iterator[Callable[..., Terminal]]:
     opened: list[Terminal] = []
 
-    def start(*files: str, **size: int) -> Terminal:
-        opened.append(Terminal(tmp_path, *files, **size))
+    def start(*files: str, shell: tuple[str, ...] = (), **size: int) -> Terminal:
+        opened.append(Terminal(tmp_path, *files, shell=shell, **size))
         return opened[-1]
 
     yield start
@@ -168,7 +169,8 @@ def test_a_session(terminal: Callable[..., Terminal], tmp_path: Path):
     screen.raw += screen.child.before or b""
     screen.child.wait()
     assert screen.child.exitstatus == 0
-    assert children == children_of(screen.child.pid) == []
+    assert len(children) == 1  # the watchdog
+    assert not Path(f"/proc/{children[0]}").exists()
     assert_restored(bytes(screen.raw))
 
 
@@ -221,19 +223,28 @@ def test_a_signal_restores_the_terminal_and_keeps_the_work(
     again.until(lambda: "precious = 1" in again.text)
 
 
-def test_a_kill_loses_at_most_a_checkpoint(terminal: Callable[..., Terminal], tmp_path: Path):
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSEGV])
+def test_a_kill_loses_at_most_a_checkpoint(
+    terminal: Callable[..., Terminal], tmp_path: Path, number: signal.Signals
+):
     (tmp_path / "config" / "desire-tui").mkdir(parents=True)
     (tmp_path / "config" / "desire-tui" / "config.toml").write_text("checkpoint_seconds = 1\n")
     (tmp_path / "kept.src").write_text("")
-    screen = terminal("kept.src")
+    screen = terminal("kept.src", shell=("sh", "-c", '"$@"; read line', "sh"))
     screen.until(lambda: "kept.src" in screen.text and "F5" in screen.text)
     screen.read(0.3)
     screen.send("precious = 1")
     state = tmp_path / "state" / "desire-tui"
     screen.until(lambda: any("precious = 1" in f.read_text() for f in state.glob("recovery-*.json")))
-    screen.child.kill(signal.SIGKILL)
-    screen.child.expect(pexpect.EOF, timeout=PATIENCE_S)
-    screen.child.wait()
+    modes = termios.tcgetattr(screen.child.child_fd)
+    os.kill(int(children_of(screen.child.pid)[0]), number)
+
+    # the watchdog restores the terminal and tells where the work is
+    screen.until(lambda: b"Desire was killed, or crashed." in screen.raw and screen.raw.endswith(b"\r\n"))
+    assert_restored(bytes(screen.raw))
+    assert str(next(state.glob("recovery-*.json"))) in screen.raw.decode()
+    assert modes != screen.modes_before == termios.tcgetattr(screen.child.child_fd)
+
     again = terminal()
     again.until(lambda: "Unsaved work found" in again.text)
     again.read_question()

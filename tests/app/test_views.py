@@ -280,6 +280,28 @@ async def test_a_click_beside_a_line_sets_a_breakpoint_where_the_script_can_stop
         assert area.marks.breakpoints == set()
 
 
+async def test_undo_brings_breakpoints_back(program):
+    async with desktop(program("a = 1\nb = 2\nc = 3\nd = 4\n")) as desk:
+        area, marks = desk.app.editor.front, desk.app.editor.front.marks
+        area.focus()
+        marks.breakpoints = {1, 3}
+        area.go_to(1)
+        await desk.press("ctrl+shift+k")
+        assert (area.text, marks.breakpoints) == ("a = 1\nc = 3\nd = 4\n", {2})
+        await desk.press("alt+shift+down", "alt+shift+down")  # c goes below d
+        assert (area.text, marks.breakpoints) == ("a = 1\nd = 4\n\nc = 3", {1})
+        await desk.press("ctrl+z", "ctrl+z")
+        assert (area.text, marks.breakpoints) == ("a = 1\nc = 3\nd = 4\n", {2})
+        await desk.press("ctrl+z")
+        assert marks.breakpoints == {1, 3}
+        await desk.press("ctrl+y")
+        assert marks.breakpoints == {2}
+        await desk.press("ctrl+y", "ctrl+y")
+        assert marks.breakpoints == {1}
+        await desk.press(*["ctrl+z"] * 3)
+        assert marks.breakpoints == {1, 3}
+
+
 async def test_breakpoints_count_at_once_even_in_an_edited_text(program):
     """The program that runs is the one accepted; a mark is where its line is now."""
     async with desktop(program("x = 1\nSTOP\nx = 2\nx = 3\nx = 4\n")) as desk:

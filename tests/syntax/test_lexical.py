@@ -6,7 +6,7 @@ import pytest
 
 from desire_tui.engine.nodes import Assign, Binary, Name, Number, Text
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import format_statement, highlight, parse, parse_command
+from desire_tui.engine.syntax import before, format_statement, highlight, parse, parse_command
 
 JOINED = {
     "x = a + _\n3": ["x = a + 3"],
@@ -131,6 +131,37 @@ HIGHLIGHTED = {
 @pytest.mark.parametrize("line", HIGHLIGHTED)
 def test_highlighting(line: str) -> None:
     assert " ".join(f"{line[start:end]}={cls}" for start, end, cls in highlight(line)) == HIGHLIGHTED[line]
+
+
+CONTINUED = """\
+x = 1 + _
+  step * 2 +
+  -- a comment between; step
+  input
+step 3
+y =
+for i = 1 to 2
+30 z = y *
+40 + 1
+-- ends in _
+next"""
+
+
+def test_a_row_in_which_a_statement_goes_on_begins_none() -> None:
+    lines = CONTINUED.split("\n")
+    rows = [before(lines, row).count("\n") for row in range(len(lines))]
+    assert rows == [0, 1, 2, 3, 0, 0, 0, 0, 1, 0, 0]  # `y =` only seems to go on
+
+    def classes(row: int) -> dict[str, str]:
+        text = before(lines, row)
+        whole = text + lines[row]
+        return {whole[a:b]: name for a, b, name in highlight(whole) if a >= len(text)}
+
+    assert classes(1)["step"] == classes(3)["input"] == "name"
+    assert classes(2) == {"-- a comment between; step": "comment"}
+    assert classes(4)["step"] == classes(6)["for"] == classes(10)["next"] == "keyword"
+    assert classes(8)["40"] == "number"
+    assert before(["x = _"] * 300, 250).count("\n") == 100  # no key waits for a statement without end
 
 
 @pytest.mark.parametrize("word", ["else", "proceed"])

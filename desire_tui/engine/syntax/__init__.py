@@ -12,9 +12,14 @@ from desire_tui.engine.syntax.parse import parse, parse_command
 
 if TYPE_CHECKING:
     from desire_tui.engine.syntax.format import format_program, format_statement
-    from desire_tui.engine.syntax.highlighting import highlight
+    from desire_tui.engine.syntax.highlighting import before, highlight
 
-_LATER = {"format_program": "format", "format_statement": "format", "highlight": "highlighting"}
+_LATER = {
+    "before": "highlighting",
+    "format_program": "format",
+    "format_statement": "format",
+    "highlight": "highlighting",
+}
 
 
 def __getattr__(name: str) -> object:
@@ -27,4 +32,4 @@ def __getattr__(name: str) -> object:
     return value
 
 
-__all__ = ["format_program", "format_statement", "highlight", "parse", "parse_command"]
+__all__ = ["before", "format_program", "format_statement", "highlight", "parse", "parse_command"]

@@ -125,6 +125,11 @@ def _number_before(text: str, end: int) -> Span:
     return Span(start, end)
 
 
+def would_spoil(rows: list[str]) -> bool:
+    """Whether the first of some rows only seems to go on in the others: `x =` before a good statement."""
+    return _swallowed(rows[0], _parse_line("\n".join(rows)), rows)
+
+
 def _swallowed(line: str, whole: Entry, parts: list[str]) -> bool:
     """Whether a line that only seems to go on (`x =`) would spoil a good statement in the next one."""
     if line.rstrip().endswith("_") or not _has_fault(whole):
