@@ -92,7 +92,9 @@ def declarations(draw):
     kind = draw(st.sampled_from(["ARRAY", "STATE", "INTEGER", "COMPLEX"]))
     dimensions = _some(expressions, least=1 if kind == "ARRAY" else 0)
     part = st.builds(n.Declared, names, dimensions)
-    return n.Declare(kind, draw(_some(st.builds(n.DeclaredGroup, _some(part), st.none() | names))))
+    alone = st.builds(n.DeclaredGroup, st.tuples(part), st.none())
+    joined = st.builds(n.DeclaredGroup, _some(part), names)
+    return n.Declare(kind, draw(_some(alone | joined)))
 
 
 @st.composite

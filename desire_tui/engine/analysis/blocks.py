@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine import nodes as n
 from desire_tui.engine.analysis.outline import ProcedureText, Structure, SubmodelText
 from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.values import SYSTEM_VARIABLES
 
 if TYPE_CHECKING:
     from desire_tui.engine.source import Source
@@ -198,6 +199,8 @@ class Survey:
         twice = next((d for d in dummies if dummies.count(d) > 1), None)
         if twice is not None:
             self.report("dummy-twice", placed, name=twice)
+        if name in SYSTEM_VARIABLES or name == "PI":
+            self.report("system-variable-declared", placed, name=name)
         first = self.defined.setdefault(name, place)
         if first != place:
             self.report("defined-twice", placed, self.also("first-definition", first), name=name)

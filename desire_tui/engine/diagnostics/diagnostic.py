@@ -39,7 +39,7 @@ class Diagnostic:
     @property
     def message(self) -> str:
         """What is wrong, in plain words, one sentence without a full stop."""
-        return _counted(wording_of(self.key).message.format_map(_Facts(self.facts)))
+        return _visible(_counted(wording_of(self.key).message.format_map(_Facts(self.facts))))
 
     @property
     def hint(self) -> str | None:
@@ -48,7 +48,7 @@ class Diagnostic:
         if close:
             return f"did you mean '{close}'?"
         text = wording_of(self.key).hint
-        return _counted(text.format_map(_Facts(self.facts))) if text else None
+        return _visible(_counted(text.format_map(_Facts(self.facts)))) if text else None
 
     def within(self, source: Source) -> Diagnostic:
         """Return the same problem, placed in `source` if it has no source yet."""
@@ -114,6 +114,13 @@ def _counted(sentence: str) -> str:
     if "(s)" not in sentence:
         return sentence
     return re.sub(r"\b1 ([a-z ]+)\(s\)", r"1 \1", sentence).replace("(s)", "s")
+
+
+def _visible(sentence: str) -> str:
+    r"""Return the sentence with control characters as `\x1b`: they would steer the terminal."""
+    if sentence.isprintable():
+        return sentence
+    return "".join(char if char.isprintable() else repr(char)[1:-1] for char in sentence)
 
 
 class _Facts(dict[str, object]):

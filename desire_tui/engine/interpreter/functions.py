@@ -111,11 +111,31 @@ class Functions:
             raise
         finally:
             self._open.pop()
+        if self._calls_in(definition.body) > 1:  # such FUNCTIONs may take for ever: 2, 4, 8 … calls
+            code = py.last([py.call("check"), code])
         parameters = tuple(m.variable for m in meanings if isinstance(m, Local))
         made = self._build.function([py.give(code)], placed, source, parameters)
         name = self._build.share("u", made)
         self._compiled[key] = name, kind
         return name, kind
+
+
+    def _calls_in(self, body: Expr) -> int:
+        """Return how often an expression calls the program's FUNCTIONs."""
+        match body:
+            case Call(name, args):
+                return (name in self.definitions) + sum(map(self._calls_in, args))
+            case Element(_, subscripts):
+                return sum(map(self._calls_in, subscripts))
+            case Binary():
+                first, steps = chain(body)
+                parts = [body.left, body.right] if not steps else [first, *(step.right for step in steps)]
+                return sum(map(self._calls_in, parts))
+            case Pair(left, right):
+                return self._calls_in(left) + self._calls_in(right)
+            case Unary(_, operand):
+                return self._calls_in(operand)
+        return 0
 
 
 def _is_used_as_array(dummy: str, body: Expr) -> bool:

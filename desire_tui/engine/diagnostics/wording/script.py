@@ -128,7 +128,7 @@ MESSAGES: dict[str, Wording] = {
         40, "no room for {elements} elements of '{name}'", "this machine has room for about {room}"
     ),
     "system-variable-declared": Wording(73, "'{name}' is a system variable", "choose another name"),
-    "overlay-not-real": Wording(32, "only real arrays can lie over each other", "declare them one by one"),
+    "overlay-not-real": Wording(202, "only real arrays can lie over each other", "declare them one by one"),
     # ------------------------------------------------------------------------------ control
     "step-is-zero": Wording(23, "the step is 0, so the loop would never end", "give a step that is not 0"),
     "loop-variable": Wording(48, "'{name}' cannot count a loop", "loop variables are real"),

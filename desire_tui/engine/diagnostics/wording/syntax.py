@@ -60,6 +60,9 @@ _SENTENCES: dict[str, Wording] = {
     "octal-too-large": Wording(
         57, "'{text}' does not fit into 16 bits", "the largest are &177777 and &&FFFF"
     ),
+    "overlay-nameless": Wording(
+        29, "arrays joined by + need a name for the whole", "write: ARRAY a[n] + b[m] = ab"
+    ),
     "argument-bare": Wording(
         60, "'{name}' is a function: its arguments stand in parentheses", "write {name}(…)"
     ),

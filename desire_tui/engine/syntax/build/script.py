@@ -77,6 +77,8 @@ class Script:
 
     def declared_group(self, kids: Kids, first: int, last: int) -> n.Node:
         whole = kids[-1] if isinstance(kids[-1], Token) else None
+        if whole is None and len(nodes_in(kids)) > 1:
+            raise Misuse("overlay-nameless", first, last)
         return n.DeclaredGroup(nodes_in(kids), whole, first, last)
 
     def declared(self, kids: Kids, first: int, last: int) -> n.Node:
