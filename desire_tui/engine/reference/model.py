@@ -72,9 +72,9 @@ class ReferenceModel:
         if memory.stop:
             return Ended.STOPPED
         cells = self.cells
+        if memory.point and self._wild(memory):
+            return Ended.NOT_FINITE  # before the pass: defined variables keep their last finite values
         self._pass(self.full, memory)
-        if self._wild(memory):
-            return Ended.NOT_FINITE
         fired = self.statements.fired
         if self.tableau is None:
             over = memory.point >= memory.nn - 1
