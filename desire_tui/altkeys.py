@@ -1,8 +1,8 @@
 """Alt with a digit or a sign, as terminals without kitty's protocol send it: Escape and the character.
 
-Textual takes most of these for what a Mac's Option key makes of them (Alt+0 was `º`, Alt+= `≠`, Alt+- `–`), the
-others for the bare sign, and Alt+Backspace for Ctrl+W, which closes a tab here. Alt+F and Alt+B stay word by
-word to the right and left: some terminals send them for Alt with an arrow.
+Textual takes most of these for what a Mac's Option key makes of them (Alt+0 was `º`, Alt+= `≠`, Alt+- `–`),
+the others for the bare sign, and Alt+Backspace for Ctrl+W, which closes a tab here. Alt+F and Alt+B stay word
+by word to the right and left: some terminals send them for Alt with an arrow.
 """
 
 from __future__ import annotations
