@@ -15,7 +15,7 @@ from textual import on
 from textual.app import SystemCommand
 from textual.screen import ModalScreen
 
-from desire_tui import commands, config, places, themes
+from desire_tui import altkeys, commands, config, places, themes
 from desire_tui.actions.edit import EditActions
 from desire_tui.actions.file import FileActions
 from desire_tui.actions.graph import GraphActions
@@ -76,6 +76,7 @@ class DesireApp(Shell):
     ENABLE_COMMAND_PALETTE = True
 
     def __init__(self, files: Sequence[Path] = (), *, permissions: Permissions | None = None) -> None:
+        altkeys.teach()
         super().__init__()
         self.files = [Path(file) for file in files]
         self.settings, self._complaints = config.load()

@@ -36,9 +36,11 @@ class HeldScreen(Screen[None]):
         """Send what has changed in some widgets at once: Textual's own way takes up to 20 ms longer."""
         if self.is_current:
             self.is_held = False
+            others = self._dirty_widgets.difference(parts)
             self._compositor.update_widgets({*parts} & self._compositor.visible_widgets.keys())
-            self._compositor_refresh()
-            self.check_idle()  # what else has changed comes next
+            self._compositor_refresh()  # and forgets whatever else has changed
+            self._dirty_widgets |= others
+            self.check_idle()  # they come next
 
     def _compositor_refresh(self) -> None:
         if not self.is_held:

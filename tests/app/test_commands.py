@@ -5,10 +5,13 @@ from __future__ import annotations
 import pytest
 from textual.screen import ModalScreen
 
-from desire_tui import commands
+from desire_tui import altkeys, commands
 from desire_tui.commands import BY_ID, COMMANDS, parse_line
 
 from .conftest import OSCILLATOR, desktop
+
+ARROWS = ("left", "right", "up", "down", "pageup", "pagedown")
+"""Their keys are longer sequences, which all terminals agree on."""
 
 
 def test_ids_and_words_and_keys_are_unique():
@@ -105,6 +108,22 @@ def test_bindings_have_priority_and_ids():
     for binding in commands.bindings():
         assert binding.priority
         assert binding.id
+
+
+def test_every_key_with_alt_arrives_from_terminals_without_kittys_protocol():
+    """There Alt+0 is Escape and 0, which Textual took for `º`; some never arrived, Alt+Backspace closed the tab."""
+    from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
+    from textual._xterm_parser import XTermParser
+
+    altkeys.teach()
+    wanted = {key for command in COMMANDS for key in command.keys.split(",") if key.startswith("alt+")}
+    for key in (wanted | {"alt+backspace"}) - {f"alt+{arrow}" for arrow in ARROWS}:
+        name = key.removeprefix("alt+")
+        character = {"backspace": "\x7f", "minus": "-", "plus": "+", "equals_sign": "="}.get(name, name)
+        if len(name) > 1 or name.isdigit():
+            assert [event.key for event in XTermParser().feed(f"\x1b{character}")] == [key]
+        else:  # letters: whatever the table does not name is taken as it stands
+            assert f"\x1b{character}" not in ANSI_SEQUENCES_KEYS, key
 
 
 def test_the_page_of_keys_is_up_to_date():

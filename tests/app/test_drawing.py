@@ -120,3 +120,12 @@ def test_the_garbage_collector_works_again_once_the_desktop_is_there():
         "count = gc.get_freeze_count()\nopening.settle()\nassert gc.get_freeze_count() == count\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+async def test_what_is_sent_at_once_leaves_nothing_else_out(program):
+    """The answer to `input`, and what the program then wrote, were not seen in half of all cases."""
+    async with desktop(program(OSCILLATOR)) as desk:
+        screen, console = desk.app.desk, desk.app.command.console
+        screen._dirty_widgets.add(console)
+        screen.send_only(*desk.app.graph.children)
+        assert console in screen._dirty_widgets

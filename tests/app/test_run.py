@@ -229,7 +229,7 @@ async def test_output_can_be_searched_and_copied(program, monkeypatch):
         await desk.idle()
         console = desk.app.command.console
         assert desk.output.splitlines()[-1] == "line \t200".expandtabs(8)
-        await desk.press("alt+f")
+        await desk.press("alt+y")
         field = desk.app.command.query_one("#output-search")
         field.value = "17 "
         assert not console.search("no such text")

@@ -1,0 +1,25 @@
+"""Alt with a digit or a sign, as terminals without kitty's protocol send it: Escape and the character.
+
+Textual takes most of these for what a Mac's Option key makes of them (Alt+0 was `º`, Alt+= `≠`, Alt+- `–`),
+the others for the bare sign, and Alt+Backspace for Ctrl+W, which closes a tab here. Alt+F and Alt+B stay word
+by word to the right and left: some terminals send them for Alt with an arrow.
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
+from textual.keys import _character_to_key
+
+SIGNS = "0123456789-=+,.;:/'`~!@#$%&*()<>?|{}"
+"""Not those that begin longer sequences."""
+
+
+def teach() -> None:
+    """Let Textual's parser know these keys."""
+    table = cast("dict[str, Any]", ANSI_SEQUENCES_KEYS)
+    for character in SIGNS:
+        table[f"\x1b{character}"] = (SimpleNamespace(value=f"alt+{_character_to_key(character)}"),)
+    table["\x1b\x7f"] = (SimpleNamespace(value="alt+backspace"),)
