@@ -246,6 +246,10 @@ class DesireApp(Shell):
         """Do something slow that is not the engine's, such as drawing a picture."""
         threading.Thread(target=job, daemon=True, name="desire-picture").start()
 
+    def on_screen(self, act: Callable[..., object], *args: object, **options: object) -> None:
+        """Have the app's thread tell what another thread found out; nobody once the desktop closes."""
+        self.call_later(lambda: self.desk.is_running and act(*args, **options))
+
     # ------------------------------------------------------------------------------ what panes ask for
 
     @on(EngineMessage)

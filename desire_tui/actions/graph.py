@@ -113,9 +113,9 @@ class GraphActions(Controller):
             try:
                 written = app.session.snapshot(path, page)
             except DesireError as error:
-                app.call_later(app.show_problems, error.diagnostics)
+                app.on_screen(app.show_problems, error.diagnostics)
             else:
-                app.call_later(app.snapshot_written, written)
+                app.on_screen(app.snapshot_written, written)
 
         app.in_background(write)
 
@@ -162,11 +162,9 @@ class GraphActions(Controller):
         def plot() -> None:
             became = app.session.chart(name)
             if became == "shown":
-                app.call_later(app.show_run)
+                app.on_screen(app.show_run)
             else:
-                app.call_later(
-                    app.notify, NOT_CHARTED[became].format(name=name), markup=False, timeout=4
-                )
+                app.on_screen(app.notify, NOT_CHARTED[became].format(name=name), markup=False, timeout=4)
 
         app.engine.submit(plot)
 

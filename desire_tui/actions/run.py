@@ -48,7 +48,7 @@ class RunActions(Controller):
             app.send_breakpoints()
             problems = app.session.accept(source)
             if not problems:
-                app.call_later(app.notify, f"{name} is the active program.", timeout=2, markup=False)
+                app.on_screen(app.notify, f"{name} is the active program.", timeout=2, markup=False)
 
         app.engine.submit(accept)
 
