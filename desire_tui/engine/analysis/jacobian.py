@@ -58,6 +58,9 @@ def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
             context.report("second-jacobian", target, name=quantity.name, first=matrix)
             continue
         matrix, slot = quantity.name, quantity.slot
+        if len(target.subscripts) != 2:
+            context.report("subscript-count", target, name=matrix, count=2)
+            continue
         value = lower(context, node.value)
         builder.body += context.before
         context.before.clear()

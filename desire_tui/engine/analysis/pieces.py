@@ -49,9 +49,7 @@ def lower_long(context: Context, node: Binary, extent: Extent) -> Value:
         if step.op == "&":
             return context.report("ampersand-here", step)
         result = Op(expressions.OPERATIONS[step.op], (result, right))
-    if extent and draws(result) and levels_of(result) > LEVELS_MOST:
-        return context.report("expression-too-deep", node, limit=LEVELS_MOST)
-    return result
+    return _bounded(context, node, result) if extent and draws(result) else result
 
 
 def _kept(context: Context, node: Expr, value: Value, extent: Extent) -> Value:
@@ -65,9 +63,7 @@ def _kept(context: Context, node: Expr, value: Value, extent: Extent) -> Value:
     if UNKNOWN in extent:
         return BAD  # a check before the run: nothing is computed
     if extent and draws(value):
-        if levels_of(value) > LEVELS_MOST:
-            return context.report("expression-too-deep", node, limit=LEVELS_MOST)
-        return value
+        return _bounded(context, node, value)
     count, where = prod(extent), context.where(node)
     slot = context.scope.hidden(count)
     if not extent:
@@ -78,3 +74,10 @@ def _kept(context: Context, node: Expr, value: Value, extent: Extent) -> Value:
     else:
         context.before.append(SetMat(slot, extent[0], extent[1], value, where))
     return Vec(slot, count)
+
+
+def _bounded(context: Context, node: Expr, value: Value) -> Value:
+    """Return what cannot be cut into pieces. Error 401: it is too deep."""
+    if levels_of(value) > LEVELS_MOST:
+        return context.report("expression-too-deep", node, limit=LEVELS_MOST)
+    return value

@@ -48,6 +48,7 @@ class StiffModel:
         self._passes = passes = passes_of(segment)
         self._advised = False
         extra, directions, array = _jacobian_passes(segment, rule, values)
+        self._extra = extra
         self._array = array
         inner = {"derivative": passes["derivative"]} | extra
         if acts_at_steps(segment):
@@ -128,7 +129,8 @@ class StiffModel:
             self._functions.call("jacobian", memory)
             return values[self._array : self._array + order * order].reshape(order, order).copy()
 
-        return advice(self.rule, self._segment, Probe(kept, derivatives, jacobian if self._array else None))
+        sure = self._array and is_pure(self._extra["jacobian"])  # what it draws or remembers must stay
+        return advice(self.rule, self._segment, Probe(kept, derivatives, jacobian if sure else None))
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on (`runtime.memory`)."""

@@ -134,9 +134,8 @@ class StiffReferenceModel(ReferenceModel):
         def jacobian() -> Array:
             return self.jacobian(t, kept).reshape(self.order, self.order).copy()
 
-        return advice(
-            self.system.rule, self._segment, Probe(kept, derivatives, jacobian if self._array else None)
-        )
+        sure = self._array and is_pure(jacobian_pass(self._segment, self.order))
+        return advice(self.system.rule, self._segment, Probe(kept, derivatives, jacobian if sure else None))
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on; see `ReferenceModel`."""
