@@ -20,9 +20,9 @@ SUFFIX = ".src"
 
 def numbered(text: str) -> str:
     """Return a program with line numbers, by tens, as `edit` and `keep+` write it."""
-    lines = text.removesuffix("\n").split("\n")
-    width = len(str(10 * len(lines)))
-    return "\n".join(f"{10 * (n + 1):>{width}} {line}".rstrip() for n, line in enumerate(lines)) + "\n"
+    from desire_tui.engine.syntax.numbering import with_numbers
+
+    return with_numbers(text)
 
 
 class FileActions(Controller):

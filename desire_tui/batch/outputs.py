@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 STANDARD_OUTPUT = "-"
 _PLOT_ROWS = 24
+_COPY, _TEXT = 1, 16
+"""Numbers' worth of memory that a number takes on its way into a file: copied, and as text in one piece."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,10 @@ class Wanted:
         return STANDARD_OUTPUT in (self.png, self.svg, self.pdf, self.csv, self.json, self.npz)
 
     def write(self, session: Session, result: Callable[[], Result]) -> None:
-        """Write everything. DesireError 106: something cannot be written; 471: no graph for a picture."""
+        """Write everything.
+
+        DesireError 106: something cannot be written; 471: no graph for a picture; 40: too much for a file.
+        """
         for kind in ("png", "svg", "pdf"):
             name = getattr(self, kind)
             if name is not None:
@@ -46,15 +51,25 @@ class Wanted:
         if self.csv is not None:
             from desire_tui.engine.outputs.tables import write_csv
 
+            _needs_room(session, _COPY)
             _text(self.csv, lambda file: write_csv(result(), file))
         if self.json is not None:
             from desire_tui.engine.outputs.tables import as_json
 
+            _needs_room(session, _TEXT)
             _text(self.json, lambda file: file.write(as_json(result())))
         if self.npz is not None:
+            _needs_room(session, _COPY)
             _archive(self.npz, result())
         if self.plot:
             _plot(session)
+
+
+def _needs_room(session: Session, each: int) -> None:
+    """Refuse to copy quantities that would fill the machine's memory."""
+    numbers = sum(quantity.size for quantity in session.values)
+    if each * numbers > session.values.spare:
+        raise DesireError(Diagnostic("out-of-memory", facts={"elements": numbers}))
 
 
 def _text(name: str, write) -> None:  # type: ignore[no-untyped-def]  # noqa: ANN001

@@ -526,3 +526,15 @@ def test_the_quick_way_into_the_desktop_knows_all_commands():
     from desire_tui import __main__, cli
 
     assert set(cli.main.commands) == __main__.COMMANDS
+
+
+def test_quantities_too_many_for_a_json_file_are_refused(tmp_path):
+    """An array takes hardly any memory until it is used, its text does."""
+    from desire_tui.engine.values import Values
+
+    path = tmp_path / "p.src"
+    path.write_text(f"ARRAY A[{Values().spare // 4}]\n")
+    status, _, err = desire("run", path, "--json", tmp_path / "p.json")
+    assert status == 1
+    assert "error 40: no room for" in err
+    assert not (tmp_path / "p.json").exists()

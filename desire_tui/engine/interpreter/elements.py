@@ -13,13 +13,14 @@ import numpy as np
 from desire_tui.engine.chains import OPERATORS, chain
 from desire_tui.engine.interpreter import tree as py
 from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.functions import is_used_as_array
 from desire_tui.engine.interpreter.scope import Local, Meaning
 from desire_tui.engine.interpreter.translate import Translator, literal
 from desire_tui.engine.nodes import Binary, Call, Element, Function, Name, RowOf, Shifted, Transposed, Unary
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Collection, Sequence
 
     from desire_tui.engine.interpreter.arrays import ArrayExpressions, Evaluator
     from desire_tui.engine.interpreter.site import Site
@@ -154,10 +155,21 @@ class ElementExpressions:
             case Binary():
                 return self._chain(node, wholes, dummies)
             case Call(name, args):
-                count = _TABLES.get(name, len(args))
-                elements = [self._of_elements(arg, wholes, dummies) for arg in args[:count]]
-                return Call(name, (*elements, *args[count:]), node.start, node.end)
+                by_name = self._passed_by_name(name, len(args))
+                elements = [
+                    arg if place in by_name else self._of_elements(arg, wholes, dummies)
+                    for place, arg in enumerate(args)
+                ]
+                return Call(name, tuple(elements), node.start, node.end)
         return node
+
+    def _passed_by_name(self, name: str, count: int) -> Collection[int]:
+        """Return which arguments of a call are arrays as such: tables, and what a FUNCTION uses as one."""
+        placed = self._site.machine.functions.definitions.get(name)
+        if placed is None or not isinstance(placed.node, Function):
+            return range(_TABLES.get(name, count), count)
+        body = placed.node.body
+        return [at for at, dummy in enumerate(placed.node.dummies) if is_used_as_array(dummy, body)]
 
     def _chain(self, node: Binary, wholes: list[Evaluator], dummies: dict[str, Meaning]) -> Expr:
         """Rewrite a chain; its longest beginning that can be had as a whole is one dummy."""

@@ -74,7 +74,7 @@ class Functions:
         definition, placed = self._definition(node)
         meanings: list[Meaning] = []
         for number, (argument, dummy) in enumerate(zip(node.args, definition.dummies, strict=True)):
-            whole = _whole_array(argument, scope) if _is_used_as_array(dummy, definition.body) else None
+            whole = _whole_array(argument, scope) if is_used_as_array(dummy, definition.body) else None
             meanings.append(whole if whole is not None else Local(f"p{number}", Kind.REAL))
         name, kind = self._function(definition, placed, meanings)
         if kind is Kind.COMPLEX:
@@ -138,22 +138,22 @@ class Functions:
         return 0
 
 
-def _is_used_as_array(dummy: str, body: Expr) -> bool:
+def is_used_as_array(dummy: str, body: Expr) -> bool:
     """Whether an expression subscripts a name or passes it to a table function."""
     match body:
         case Element(name, subscripts):
-            return name == dummy or any(_is_used_as_array(dummy, part) for part in subscripts)
+            return name == dummy or any(is_used_as_array(dummy, part) for part in subscripts)
         case Call(name, args):
             tables = args[{"func1": 1, "func2": 2}.get(name, len(args)) :]
-            return Name(dummy) in tables or any(_is_used_as_array(dummy, part) for part in args)
+            return Name(dummy) in tables or any(is_used_as_array(dummy, part) for part in args)
         case Binary():
             first, steps = chain(body)
             parts = [body.left, body.right] if not steps else [first, *(step.right for step in steps)]
-            return any(_is_used_as_array(dummy, part) for part in parts)
+            return any(is_used_as_array(dummy, part) for part in parts)
         case Pair(left, right):
-            return _is_used_as_array(dummy, left) or _is_used_as_array(dummy, right)
+            return is_used_as_array(dummy, left) or is_used_as_array(dummy, right)
         case Unary(_, operand):
-            return _is_used_as_array(dummy, operand)
+            return is_used_as_array(dummy, operand)
     return False
 
 

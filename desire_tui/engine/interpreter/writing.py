@@ -93,7 +93,7 @@ def _item(site: Site, item: WriteItem, *, raw: bool) -> Piece:
     node, values = item.value, site.values
     if isinstance(node, Text):
         return lambda: iter((node.value,))
-    if isinstance(node, Name):
+    if isinstance(node, Name) and not item.form:
         meaning = site.scope.find(node.name)
         if isinstance(meaning, Quantity) and meaning.shape:
             if raw:

@@ -117,10 +117,12 @@ class Commands:
         program = self._session.program
         if program is None:
             raise DesireError(Diagnostic("no-program"))
-        lines = program.source.text.rstrip("\n").split("\n")
-        if numbered:
-            lines = [f"{10 * number:5d} {line}" for number, line in enumerate(lines, 1)]
-        return "\n".join(lines) + "\n"
+        text = program.source.text.rstrip("\n") + "\n"
+        if not numbered:
+            return text
+        from desire_tui.engine.syntax.numbering import with_numbers
+
+        return with_numbers(text)
 
     def _compare(self, argument: str | None) -> None:
         change = Change.parse(argument or "")

@@ -58,7 +58,7 @@ def parse(source: Source) -> Program:
     main: list[Placed] | None = None
     alone: list[Span] = []
     is_numbered = False
-    for entry, at, number in _logical_lines(source.text):
+    for entry, at, number, _ in logical_lines(source.text):
         if number is not None:
             is_numbered = is_numbered or bool(entry[0])
             if not entry[0] and body is not None:
@@ -101,7 +101,7 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
     """Parse a command line: statements, and problems. A bare expression is a `Bare` node. Never raises."""
     placed: list[Placed] = []
     problems: list[Diagnostic] = []
-    for entry, at, _ in _logical_lines(source.text, command=True):
+    for entry, at, _, _ in logical_lines(source.text, command=True):
         for item, offset in entry[0]:
             if isinstance(item, Fault):
                 problems.append(_diagnostic(item, at + offset, source))
@@ -162,14 +162,23 @@ def _diagnostic(fault: Fault, at: int, source: Source) -> Diagnostic:
     return Diagnostic(fault.key, Span(at + fault.start, at + fault.end), fault.facts, source)
 
 
-def _logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, int, int | None]]:
-    """Yield each line (with its continuations), the offset of its text, its line number if it has one."""
+def is_header(line: str) -> bool:
+    """Whether a line is one of those that the original's editor put around a program."""
+    return _HEADER.match(line) is not None
+
+
+def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, int, int | None, range]]:
+    """Yield each line (with its continuations), the offset of its text, its line number if any, its rows.
+
+    Lines without statements are left out, unless they are numbered. Rows are counted from 0.
+    """
     known = _lines.get
     rows = text.split("\n")
     count = len(rows)
     at = i = 0
     while i < count:
         line = rows[i]
+        first = i
         i += 1
         number = None
         next_at = at + len(line) + 1
@@ -203,7 +212,7 @@ def _logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry,
             else:
                 entry = whole
         if entry[0] or number is not None:
-            yield entry, at, number
+            yield entry, at, number, range(first, i)
         at = next_at
 
 
