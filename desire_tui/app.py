@@ -185,8 +185,8 @@ class DesireApp(Shell):
         self.news.show(diagnostics)
 
     def checkpoint(self) -> None:
-        """Write unsaved work to the recovery file."""
-        if not self.keeper.checkpoint():
+        """Write unsaved work to the recovery file, as soon as there can be any."""
+        if hasattr(self, "keeper") and not self.keeper.checkpoint():
             folder = places.state_folder()
             self.notify(
                 f"Unsaved work cannot be kept safe: {folder} cannot be written.",
@@ -201,7 +201,7 @@ class DesireApp(Shell):
     def _handle_exception(self, error: Exception) -> None:
         """Keep the work before Textual takes the screen down."""
         if hasattr(self, "keeper"):
-            self.keeper.checkpoint()
+            self.keeper.checkpoint()  # says nothing, unlike the app's own
         super()._handle_exception(error)
 
     # --------------------------------------------------------------------------------------------- actions

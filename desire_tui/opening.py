@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -15,14 +16,19 @@ if TYPE_CHECKING:
 
 
 def is_possible() -> bool:
-    """Whether there is a terminal to open it in."""
-    return sys.stdin.isatty() and sys.stdout.isatty()
+    """Whether there is a terminal to open it in, or a browser: `desire serve` speaks to it through pipes."""
+    return is_served() or (sys.stdin.isatty() and sys.stdout.isatty())
+
+
+def is_served() -> bool:
+    """Whether this process was started by `desire serve` for a browser."""
+    return os.environ.get("TEXTUAL_DRIVER", "").endswith(":WebDriver")
 
 
 def open_desktop(files: tuple[str, ...]) -> NoReturn:
     """Open the desktop with files in tabs; ends the process."""
     gc.disable()  # what is made from here on stays; `settle` ends this
-    with watched():
+    with nullcontext() if is_served() else watched():
         with _without("ssl"):
             import asyncio  # noqa: F401 - here it must do without
         from desire_tui.app import DesireApp

@@ -61,9 +61,12 @@ class FileActions(Controller):
             await self.open_path(path, focus=not from_prompt)
 
     async def _pick(self) -> Path | None:
-        from textual_fspicker import FileOpen
+        from textual_fspicker import FileOpen, Filters
 
-        return await self.app.push_screen_wait(FileOpen(self._folder()))
+        kinds = Filters(
+            ("Programs", lambda path: path.suffix.casefold() == SUFFIX), ("All files", lambda _: True)
+        )
+        return await self.app.push_screen_wait(FileOpen(self._folder(), filters=kinds))
 
     async def open_path(self, path: Path, *, focus: bool = True) -> CodeArea | None:
         """Open a file in a tab, or show the tab that holds it.
