@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import io
 import os
 import sys
 from contextlib import contextmanager, nullcontext
@@ -27,6 +28,7 @@ def is_served() -> bool:
 
 def open_desktop(files: tuple[str, ...]) -> NoReturn:
     """Open the desktop with files in tabs; ends the process."""
+    _speak_utf8()
     gc.disable()  # what is made from here on stays; `settle` ends this
     with nullcontext() if is_served() else watched():
         with _without("ssl"):
@@ -38,6 +40,13 @@ def open_desktop(files: tuple[str, ...]) -> NoReturn:
     if patience is not None:
         patience.leave_at_once(0)
     sys.exit(status)
+
+
+def _speak_utf8() -> None:
+    """Write UTF-8 whatever the locale says: Textual reads nothing else, few terminals are what it says."""
+    for stream in (sys.__stdout__, sys.__stderr__):
+        if isinstance(stream, io.TextIOWrapper) and stream.encoding.lower() != "utf-8":
+            stream.reconfigure(encoding="utf-8")
 
 
 def settle() -> None:
