@@ -198,6 +198,11 @@ class DesireApp(Shell):
         """Keep the work safe when the window loses the focus."""
         self.checkpoint()
 
+    def on_app_focus(self) -> None:
+        """Take notice of what happened to files while the window did not have the focus."""
+        if self.is_ready:
+            self.file.disk.notice_changes()
+
     def _handle_exception(self, error: Exception) -> None:
         """Keep the work before Textual takes the screen down."""
         if hasattr(self, "keeper"):
