@@ -1,8 +1,9 @@
-"""Alt with a digit or a sign, as terminals without kitty's protocol send it: Escape and the character.
+"""Alt with another key, as terminals without kitty's protocol send it: Escape and the character.
 
 Textual takes most of these for what a Mac's Option key makes of them (Alt+0 was `º`, Alt+= `≠`, Alt+- `–`),
 the others for the bare sign, and Alt+Backspace for Ctrl+W, which closes a tab here. Alt+F and Alt+B stay word
-by word to the right and left: some terminals send them for Alt with an arrow.
+by word to the right and left: some terminals send them for Alt with an arrow. With the other letters Textual
+waits 0.1 s for more to come, and takes both apart if it does.
 """
 
 from __future__ import annotations
@@ -13,13 +14,13 @@ from typing import Any, cast
 from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual.keys import _character_to_key
 
-SIGNS = "0123456789-=+,.;:/'`~!@#$%&*()<>?|{}"
+CHARACTERS = "0123456789-=+,.;:/'`~!@#$%&*()<>?|{}acdeghijklmnopqrstuvwxyz"
 """Not those that begin longer sequences."""
 
 
 def teach() -> None:
     """Let Textual's parser know these keys."""
     table = cast("dict[str, Any]", ANSI_SEQUENCES_KEYS)
-    for character in SIGNS:
+    for character in CHARACTERS:
         table[f"\x1b{character}"] = (SimpleNamespace(value=f"alt+{_character_to_key(character)}"),)
     table["\x1b\x7f"] = (SimpleNamespace(value="alt+backspace"),)

@@ -185,8 +185,8 @@ class DesireApp(Shell):
         self.news.show(diagnostics)
 
     def checkpoint(self) -> None:
-        """Write unsaved work to the recovery file."""
-        if not self.keeper.checkpoint():
+        """Write unsaved work to the recovery file, as soon as there can be any."""
+        if hasattr(self, "keeper") and not self.keeper.checkpoint():
             folder = places.state_folder()
             self.notify(
                 f"Unsaved work cannot be kept safe: {folder} cannot be written.",
@@ -198,10 +198,15 @@ class DesireApp(Shell):
         """Keep the work safe when the window loses the focus."""
         self.checkpoint()
 
+    def on_app_focus(self) -> None:
+        """Take notice of what happened to files while the window did not have the focus."""
+        if self.is_ready:
+            self.file.disk.notice_changes()
+
     def _handle_exception(self, error: Exception) -> None:
         """Keep the work before Textual takes the screen down."""
         if hasattr(self, "keeper"):
-            self.keeper.checkpoint()
+            self.keeper.checkpoint()  # says nothing, unlike the app's own
         super()._handle_exception(error)
 
     # --------------------------------------------------------------------------------------------- actions

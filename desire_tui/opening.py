@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import gc
+import io
+import os
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -15,14 +17,20 @@ if TYPE_CHECKING:
 
 
 def is_possible() -> bool:
-    """Whether there is a terminal to open it in."""
-    return sys.stdin.isatty() and sys.stdout.isatty()
+    """Whether there is a terminal to open it in, or a browser: `desire serve` speaks to it through pipes."""
+    return is_served() or (sys.stdin.isatty() and sys.stdout.isatty())
+
+
+def is_served() -> bool:
+    """Whether this process was started by `desire serve` for a browser."""
+    return os.environ.get("TEXTUAL_DRIVER", "").endswith(":WebDriver")
 
 
 def open_desktop(files: tuple[str, ...]) -> NoReturn:
     """Open the desktop with files in tabs; ends the process."""
+    _speak_utf8()
     gc.disable()  # what is made from here on stays; `settle` ends this
-    with watched():
+    with nullcontext() if is_served() else watched():
         with _without("ssl"):
             import asyncio  # noqa: F401 - here it must do without
         from desire_tui.app import DesireApp
@@ -32,6 +40,13 @@ def open_desktop(files: tuple[str, ...]) -> NoReturn:
     if patience is not None:
         patience.leave_at_once(0)
     sys.exit(status)
+
+
+def _speak_utf8() -> None:
+    """Write UTF-8 whatever the locale says: Textual reads nothing else, few terminals are what it says."""
+    for stream in (sys.__stdout__, sys.__stderr__):
+        if isinstance(stream, io.TextIOWrapper) and stream.encoding.lower() != "utf-8":
+            stream.reconfigure(encoding="utf-8")
 
 
 def settle() -> None:

@@ -48,7 +48,9 @@ class Shell(App[None]):
         return self.engine.session
 
     async def on_event(self, event: events.Event) -> None:
-        """Deal with an event; keys in the order in which they were typed."""
+        """Deal with an event; keys in the order in which they were typed. Alt with a letter types nothing."""
+        if isinstance(event, events.Key) and event.key.startswith("alt+"):
+            event.character = None
         if isinstance(event, events.Key) and not event.is_forwarded and not event.is_printable:
             await keyorder.carry_out(self, event, super().on_event)
         else:

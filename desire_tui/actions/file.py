@@ -6,13 +6,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
+from desire_tui.actions.disk import Disk
 from desire_tui.dialogs import Choice, Line
 from desire_tui.editor.buffer import Buffer, NotText
-from desire_tui.places import exists, full, write_safely
+from desire_tui.places import exists, full
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from desire_tui.app import DesireApp
     from desire_tui.editor.area import CodeArea
 
 SUFFIX = ".src"
@@ -27,6 +29,10 @@ def numbered(text: str) -> str:
 
 class FileActions(Controller):
     """Part `file` of the command table."""
+
+    def __init__(self, app: DesireApp) -> None:
+        super().__init__(app)
+        self.disk = Disk(app)
 
     # -------------------------------------------------------------------------------------------- new, open
 
@@ -61,9 +67,12 @@ class FileActions(Controller):
             await self.open_path(path, focus=not from_prompt)
 
     async def _pick(self) -> Path | None:
-        from textual_fspicker import FileOpen
+        from textual_fspicker import FileOpen, Filters
 
-        return await self.app.push_screen_wait(FileOpen(self._folder()))
+        kinds = Filters(
+            ("Programs", lambda path: path.suffix.casefold() == SUFFIX), ("All files", lambda _: True)
+        )
+        return await self.app.push_screen_wait(FileOpen(self._folder(), filters=kinds))
 
     async def open_path(self, path: Path, *, focus: bool = True) -> CodeArea | None:
         """Open a file in a tab, or show the tab that holds it.
@@ -117,16 +126,16 @@ class FileActions(Controller):
         """`keep+`: save with line numbers; the tab keeps its text."""
         area = self.app.editor.front
         path = self._resolve(argument) if argument else area.buffer.path or await self._ask_path(area)
-        if path is not None and await self._may_overwrite(area, path):
-            self._write(path, numbered(area.text))
+        if path is not None and await self.disk.may_overwrite(area, path):
+            self.disk.write(path, numbered(area.text))
 
     async def save_area(self, area: CodeArea, path: Path | None) -> bool:
         """Save a tab; asks for a name if there is none, and before others' work is overwritten."""
         path = path or await self._ask_path(area)
-        if path is None or not await self._may_overwrite(area, path):
+        if path is None or not await self.disk.may_overwrite(area, path):
             return False
         text = area.text
-        if not self._write(path, text.replace("\n", "\r\n") if area.buffer.crlf else text):
+        if not self.disk.write(path, text.replace("\n", "\r\n") if area.buffer.crlf else text):
             return False
         area.buffer.saved(full(path), text)
         self.app.editor.refresh_tabs()
@@ -139,33 +148,6 @@ class FileActions(Controller):
         return await self.app.push_screen_wait(
             FileSave(self._folder(), default_file=area.buffer.name.removesuffix(SUFFIX) + SUFFIX)
         )
-
-    async def _may_overwrite(self, area: CodeArea, path: Path) -> bool:
-        own = area.buffer.path is not None and full(path) == area.buffer.path
-        if own and area.buffer.changed_on_disk():
-            sentence = f"{path.name} was changed on disk since it was read here."
-            if not exists(path):
-                return True  # it vanished: writing it again loses nothing
-            choice = await self.app.push_screen_wait(
-                Choice("Changed on disk", sentence, ("Overwrite", "Read it", "Cancel"))
-            )
-            if choice == "Read it":
-                self._read_again(area)
-            return choice == "Overwrite"
-        if not own and exists(path):
-            choice = await self.app.push_screen_wait(
-                Choice("File exists", f"{path} exists. Overwrite it?", ("Overwrite", "Cancel"))
-            )
-            return choice == "Overwrite"
-        return True
-
-    def _write(self, path: Path, text: str) -> bool:
-        try:
-            write_safely(path, text)
-        except OSError as error:
-            self.app.complain(f"cannot write {path}: {error.strerror}", code=106)
-            return False
-        return True
 
     # ------------------------------------------------------------------------------------- reload and copies
 
@@ -180,20 +162,7 @@ class FileActions(Controller):
             sentence = f"Give up the changes in {area.buffer.name}?"
             if await self.app.push_screen_wait(Choice("Reload", sentence, ("Reload", "Cancel"))) != "Reload":
                 return
-        self._read_again(area)
-
-    def _read_again(self, area: CodeArea) -> None:
-        assert area.buffer.path is not None
-        try:
-            fresh = Buffer.from_file(area.buffer.path)
-        except (OSError, NotText) as error:
-            self.app.complain(f"cannot read {area.buffer.path}: {error}", code=18)
-            return
-        row, column = area.cursor_location
-        area.buffer.saved_text, area.buffer.stamp = fresh.saved_text, fresh.stamp
-        area.rewrite_rows(0, area.document.line_count - 1, fresh.saved_text.split("\n"))
-        area.go_to(row, column)
-        self.app.editor.refresh_tabs()
+        self.disk.read_again(area)
 
     async def edit_copy(self, argument: str = "") -> None:
         """`ed`: a copy of the active program in a new tab."""

@@ -26,6 +26,7 @@ class RunActions(Controller):
         del argument
         app = self.app
         app.show_run()
+        app.file.disk.notice_changes()
         source = self._accept_front()
         app.listener.front = source
         self.end_now()
@@ -41,6 +42,7 @@ class RunActions(Controller):
         """OK: the front tab becomes the active program."""
         del argument
         app = self.app
+        app.file.disk.notice_changes()
         source = self._accept_front()
         name = app.editor.front.buffer.name
 

@@ -31,6 +31,8 @@ class Buffer:
     path: Path | None = None
     saved_text: str = ""
     stamp: float | None = None
+    told_stamp: float | None = None
+    """The time stamp of a change by somebody else that the user was told of."""
     label: str = ""
     """Its name while it has no file."""
     crlf: bool = False
@@ -60,20 +62,19 @@ class Buffer:
 
     def changed_on_disk(self) -> bool:
         """Whether the file was changed, or removed, by somebody else since it was read or saved."""
-        if self.path is None or self.stamp is None:
-            return False
+        return self.path is not None and self.stamp is not None and self.stamp_on_disk() != self.stamp
+
+    def stamp_on_disk(self) -> float | None:
+        """Return the file's time stamp; None if there is no file."""
         try:
-            return self.path.stat().st_mtime != self.stamp
+            return self.path.stat().st_mtime if self.path is not None else None
         except OSError:
-            return True
+            return None
 
     def saved(self, path: Path, text: str) -> None:
         """Note that `text` now stands in `path`."""
         self.path, self.saved_text = path, text
-        try:
-            self.stamp = path.stat().st_mtime
-        except OSError:
-            self.stamp = None
+        self.stamp = self.stamp_on_disk()
 
 
 def free_label(wanted: str, taken: Container[str]) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from textual.events import AppFocus
 
 from desire_tui.actions.file import numbered
 from desire_tui.dialogs import Choice
@@ -234,6 +235,33 @@ async def test_save_keeps_line_ends_and_notices_changes_on_disk(tmp_path):
         assert not area.is_dirty
 
 
+async def test_what_others_write_into_an_open_file_is_what_runs(tmp_path):
+    clean, dirty = tmp_path / "clean.src", tmp_path / "dirty.src"
+    for path in (clean, dirty):
+        path.write_text("x = 1\n")
+    async with desktop(dirty, clean) as desk:
+        editor = desk.app.editor
+        editor.front.focus()
+        await desk.press("y")
+        for path in (clean, dirty):
+            path.write_text("write 'from elsewhere'\n")
+            os.utime(path, (1, 1))
+        desk.app.post_message(AppFocus())  # back from another window
+        await desk.until(lambda: editor.areas[1].text == "write 'from elsewhere'\n")
+        assert not editor.areas[1].is_dirty
+        assert editor.areas[0].text == "yx = 1\n"
+        assert [n.message for n in desk.app._notifications if n.severity == "warning"] == [
+            "dirty.src was changed on disk, and has unsaved changes here."
+        ]
+        await desk.press("ctrl+pagedown")
+        clean.write_text("write 'once more'\n")
+        os.utime(clean, (2, 2))
+        await desk.press("f5")  # many terminals do not tell of the focus
+        await desk.until(lambda: "once more" in desk.output)
+        assert sum(n.severity == "warning" for n in desk.app._notifications) == 1  # told once
+        await desk.press("ctrl+z")
+
+
 async def test_keep_under_a_name_and_load(program, tmp_path):
     async with desktop(program("x = 1\n")) as desk:
         await desk.line("keep 'copy'")
@@ -259,7 +287,7 @@ async def test_a_read_only_folder_and_a_vanished_file_lose_nothing(program, tmp_
         def refuse(*_: object) -> None:
             raise PermissionError(13, "Permission denied")
 
-        monkeypatch.setattr("desire_tui.actions.file.write_safely", refuse)
+        monkeypatch.setattr("desire_tui.actions.disk.write_safely", refuse)
         await desk.press("ctrl+s")
         await desk.until(lambda: "error 106" in desk.output)
         assert area.is_dirty

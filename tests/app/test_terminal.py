@@ -260,3 +260,24 @@ def test_a_tiny_terminal_says_so(terminal: Callable[..., Terminal], tmp_path: Pa
     screen.until(lambda: "> " in screen.text and "F5" in screen.text)
     screen.resize(24, 80)
     screen.until(lambda: "a.src" in screen.text and "x = 1" in screen.text)
+
+
+def test_a_browser_is_served_through_pipes(tmp_path: Path):
+    """As `desire serve` starts it: no terminal, packets instead; the first thing it hears is that it has no focus."""
+    (tmp_path / "served.src").write_text("x = 1\n")
+    env = {
+        **os.environ, "TEXTUAL_DRIVER": "textual.drivers.web_driver:WebDriver", "COLUMNS": "80", "ROWS": "24",
+        "TEXTUAL_COLOR_SYSTEM": "truecolor", "XDG_STATE_HOME": str(tmp_path / "state"), "PYTHONPATH": str(ROOT),
+    }  # fmt: skip
+    command = [sys.executable, "-m", "desire_tui", "served.src"]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, env=env, cwd=tmp_path, stdin=pipe, stdout=pipe, stderr=pipe) as child:
+        assert child.stdin is not None
+        assert child.stdout is not None
+        seen, end = b"", time.monotonic() + PATIENCE_S
+        while b"served.src" not in seen and time.monotonic() < end and (piece := os.read(child.stdout.fileno(), 65536)):
+            seen += piece
+        assert b"served.src" in seen
+        output, errors = child.communicate(b"D\0\0\0\1" + CTRL_Q.encode(), timeout=PATIENCE_S)
+        assert (child.returncode, errors) == (0, b"")
+        assert b'{"type": "exit"}' in output
