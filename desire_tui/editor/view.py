@@ -3,7 +3,8 @@
 TextArea's internals are overridden in few places, each named here: `_build_highlight_map` (colours without
 tree-sitter), `_set_document` (shared lines, no wrapping tables), `edit` / `_undo_batch` / `_redo_batch`
 (other views follow), `render_line` and `refresh` (gutter marks; only rows that look otherwise than before are
-drawn), `_refresh_size` (no measuring, no layout at each key), `find_matching_bracket` (near the cursor only).
+drawn), `move_cursor` / `scroll_cursor_visible` (no more movement than it takes), `_refresh_size` (no
+measuring, no layout at each key), `find_matching_bracket` (near the cursor only).
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 
     from textual.document._document import EditResult, Location
     from textual.document._edit import Edit
+    from textual.geometry import Offset
 
 GUTTER_SIGNS = {
     "error": ("✖", "error"),
@@ -196,6 +198,24 @@ class ProgramView(TextArea):
             self.scroll_to(y=self.scroll_offset.y + self._rows_moved, animate=False)
             self._rows_moved = 0
         self.refresh()
+
+    def move_cursor(
+        self, location: Location, select: bool = False, center: bool = False, record_width: bool = True
+    ) -> None:
+        """Move the cursor; `center` puts a row not in view into the middle, and shows the first columns."""
+        top = self.scroll_offset.y
+        if center and top <= location[0] < top + self.size.height:
+            center = False
+            self.scroll_to(x=0, animate=False, immediate=True)
+        super().move_cursor(location, select, center, record_width)
+
+    def scroll_cursor_visible(self, center: bool = False, animate: bool = False) -> Offset:
+        """Bring the cursor into view; `center` is about rows only."""
+        if center and self._has_cursor:
+            self._recompute_cursor_offset()  # type: ignore[no-untyped-call]
+            y = self._cursor_offset[1] - self.size.height // 2
+            self.scroll_to(0, y, animate=False, immediate=True, force=True)
+        return super().scroll_cursor_visible(animate=animate)
 
     def _refresh_size(self) -> None:
         width = -(-(self._width_most + self.gutter_width + 1) // WIDTH_STEP) * WIDTH_STEP

@@ -169,6 +169,23 @@ async def test_find_and_replace(program):
         assert area.text == "x = 1\nX = 2\nxx = x\n"
 
 
+async def test_a_jump_moves_the_text_no_further_than_it_must(program):
+    line = "x = 1 -- " + "long " * 20
+    async with desktop(program("\n".join([line] * 60))) as desk:
+        area = desk.app.editor.front
+        area.focus()
+        area.go_to(3, 20)
+        await desk.pilot.pause()
+        assert area.scroll_offset == (0, 0)  # in view: nothing moves
+        area.go_to(40, 100)
+        await desk.pilot.pause()
+        assert area.scroll_offset.x > 0
+        assert abs(area.scroll_offset.y + area.size.height // 2 - 40) <= 1
+        area.go_to(40, 20)
+        await desk.pilot.pause()
+        assert area.scroll_offset.x == 0
+
+
 async def test_go_to_line(program):
     async with desktop(program(OSCILLATOR)) as desk:
         desk.app.editor.front.focus()
