@@ -97,7 +97,7 @@ def complain(problems: Sequence[Diagnostic]) -> None:
 
 
 def _answers(name: str | None) -> Iterator[str]:
-    if name is None:
+    if name in (None, _STANDARD_INPUT):
         return iter(sys.stdin.readline, "")
     return iter(read_source(Path(name)).text.splitlines())
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time as clock
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
+from desire_tui.engine.interpreter.codes import Finished
 from desire_tui.engine.interpreter.faults import Fault
 from desire_tui.engine.library import seeded
 from desire_tui.engine.nodes import (
@@ -25,6 +26,7 @@ from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     from desire_tui.engine.interpreter.codes import Operation
+    from desire_tui.engine.interpreter.host import Host
     from desire_tui.engine.interpreter.site import Site
 
 RULES = frozenset(range(17)) - {6}
@@ -190,7 +192,15 @@ def host_command(site: Site) -> Operation:
         raise Fault("command-only", node, word=node.word)
     if node.word == "sh":
         return site.then(lambda: host.shell(argument or ""))
+    if node.word == "bye" and not site.code.is_command:
+        return lambda: _leave(host)
     return site.then(lambda: host.command(node.word, argument))
+
+
+def _leave(host: Host) -> NoReturn:
+    """`bye` in a script ends the script too, whether or not there is a desktop to leave."""
+    host.command("bye", None)
+    raise Finished
 
 
 def go(site: Site) -> Operation:

@@ -95,6 +95,8 @@ class Commands:
             case "new" | "NEW":
                 if not self._listener.command(word, argument):
                     session.new()
+            case "bye":
+                self._listener.command(word, argument)  # without a desktop there is nothing to leave
             case "help":
                 pass
             case _ if not self._listener.command(word, argument):
