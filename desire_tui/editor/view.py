@@ -1,10 +1,9 @@
-"""A view of a program: Textual's TextArea over lines that other views may show and change, with marks.
+"""A view of a program: drawn text over lines that other views may show and change.
 
-TextArea's internals are overridden in few places, each named here: `_build_highlight_map` (colours without
-tree-sitter), `_set_document` (shared lines, no wrapping tables), `edit` / `_undo_batch` / `_redo_batch`
-(other views follow), `render_line` and `refresh` (gutter marks; only rows that look otherwise than before are
-drawn), `move_cursor` / `scroll_cursor_visible` (no more movement than it takes), `_refresh_size` (no
-measuring, no layout at each key), `find_matching_bracket` (near the cursor only).
+TextArea's internals are overridden in few places, named here and in `drawn`: `_set_document` (shared lines,
+no wrapping tables), `edit` / `_undo_batch` / `_redo_batch` (other views follow), `move_cursor` /
+`scroll_cursor_visible` (no more movement than it takes), `_refresh_size` (no measuring, no layout at each
+key).
 """
 
 from __future__ import annotations
@@ -13,67 +12,40 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from rich.cells import cell_len
-from rich.segment import Segment
-from rich.style import Style
-from textual.cache import LRUCache
 from textual.document._document_navigator import DocumentNavigator
-from textual.geometry import Region, Size
-from textual.strip import Strip
+from textual.geometry import Size
 from textual.widgets import TextArea
 from textual.widgets.text_area import Selection
 
 from desire_tui.editor import indent
-from desire_tui.editor.brackets import partner
 from desire_tui.editor.document import Lines, follow
-from desire_tui.editor.highlighting import LineHighlights
+from desire_tui.editor.drawn import DrawnText
 from desire_tui.editor.marks import Marks
 from desire_tui.editor.unwrapped import UnwrappedDocument
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
-    from typing import Self
 
     from textual.document._document import EditResult, Location
     from textual.document._edit import Edit
     from textual.geometry import Offset
 
-GUTTER_SIGNS = {
-    "error": ("✖", "error"),
-    "warning": ("▲", "warning"),
-    "break": ("●", "error"),
-    "trace": ("▶", "success"),
-}
-"""Signs, each with the colour of the theme it is drawn in."""
-
-
-ROWS_KEPT = 1024
-"""So many drawn rows are kept: what a key does not change is not drawn again."""
-
-
 WIDTH_STEP = 16
 """The width of the text grows by so much, so that not every letter of the longest line changes it."""
 
 
-class ProgramView(TextArea):
+class ProgramView(DrawnText):
     """Shows a program's lines with marks and colours. `views` are all views of the same lines, itself too."""
 
     document: Lines
 
     def __init__(self, text: str, twin: ProgramView | None = None) -> None:
-        self.marks: Marks = twin.marks if twin else Marks()
         self.views: list[ProgramView] = []
         self._is_changing = False
         self._rows_moved = 0
         self._width_most = 0
         self._text: str | None = None
-        self._drawn: LRUCache[tuple[object, ...], Strip] = LRUCache(ROWS_KEPT)
-        self._shown: dict[int, tuple[object, ...]] = {}
-        """How each row of the window looked when it was drawn."""
-        self._common: tuple[object, ...] = ()
-        self._is_due = False
-        super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
-        self._coloured = LineHighlights()
-        self._highlights = self._coloured
+        super().__init__(twin.marks if twin else Marks())
         self.indent_width = indent.WIDTH
         self.views = [*twin.views, self] if twin else [self]
         for view in self.views:
@@ -83,18 +55,6 @@ class ProgramView(TextArea):
         else:
             self.history = twin.history
             self.show_lines(twin.document)
-
-    def on_mount(self) -> None:
-        """Take the colours of the app's theme."""
-        self.follow_theme()
-
-    def follow_theme(self) -> None:
-        """Take over the colours of the app's current theme."""
-        from desire_tui.themes import editor_theme
-
-        theme = editor_theme(self.app.current_theme)
-        self.register_theme(theme)
-        self.theme = theme.name
 
     # -------------------------------------------------------------------------------------- lines and views
 
@@ -111,14 +71,7 @@ class ProgramView(TextArea):
 
     def _build_highlight_map(self) -> None:
         self._text = None
-        highlights = self._highlights
-        highlights.clear()
-        if isinstance(
-            highlights, LineHighlights
-        ):  # TextArea's own constructor comes here before ours is in place
-            highlights.document = self.document
-            highlights.marks = self.marks.problems
-            highlights.found = self.marks.found
+        super()._build_highlight_map()
 
     def _set_document(self, text: str, language: str | None) -> None:
         del language
@@ -222,96 +175,9 @@ class ProgramView(TextArea):
         size = Size(width, self.document.line_count)
         if size == self.virtual_size:
             return
-        self.set_reactive(ProgramView.virtual_size, size)  # no new layout of the whole desktop
+        self.set_reactive(TextArea.virtual_size, size)  # no new layout of the whole desktop
         self._scroll_update(size)
         self._refresh_scrollbars()
-
-    def refresh(
-        self, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False
-    ) -> Self:
-        """Draw again: the regions, or the rows that no longer look as they are shown."""
-        if regions or layout or recompose or not repaint or not self._shown:
-            return super().refresh(*regions, repaint=repaint, layout=layout, recompose=recompose)
-        if not self._is_due:
-            self._is_due = True
-            self.call_next(self._refresh_rows)  # after all that the key does
-        return self
-
-    def _refresh_rows(self) -> None:
-        self._is_due = False
-        top, width, shown = self.scroll_offset.y, self.size.width, self._shown
-        common = self._common_looks()
-        rows = [y for y in range(self.size.height) if self._looks(top + y, common) != shown.get(y)]
-        if rows:
-            super().refresh(*(Region(0, y, width, 1) for y in rows))
-
-    def render_lines(self, crop: Region) -> list[Strip]:
-        """Draw rows; blank ones before the style sheet was applied (a tab opened as a dialog closes)."""
-        if not self._component_styles:
-            return [Strip.blank(crop.width)] * crop.height
-        common = self._common_looks()
-        if common != self._common:
-            self._common = common
-            if self._theme:
-                self._theme.apply_css(self)
-        return super(TextArea, self).render_lines(crop)
-
-    def render_line(self, y: int) -> Strip:
-        """Draw a row, with its mark in the gutter; rows that look as before are kept."""
-        row = y + self.scroll_offset.y
-        looks = self._shown[y] = self._looks(row, self._common)
-        strip = self._drawn.get(looks)
-        if strip is None:
-            strip = self._drawn[looks] = self._signed(self._render_line(y), self._sign(row))
-        return strip
-
-    def _common_looks(self) -> tuple[object, ...]:
-        """Return what the looks of all rows depend on."""
-        return (
-            self.size.width, max(self.virtual_size.width, self.size.width), self.gutter_width,
-            self.scroll_offset.x, self.theme, self.rich_style, self.has_focus, LineHighlights.are_on(),
-        )  # fmt: skip
-
-    def _looks(self, row: int, common: tuple[object, ...]) -> tuple[object, ...]:
-        """Return all that a row's looks depend on."""
-        if row >= self.document.line_count:
-            return common
-        (top, left), (bottom, right) = sorted(self.selection)
-        selected = None
-        if top <= row <= bottom:
-            selected = (left if row == top else -1, right if row == bottom else -1, top == bottom)
-        cursor = None
-        bracket = self._matching_bracket_location
-        if self.cursor_location[0] == row:
-            cursor = (self._draw_cursor, self.cursor_location, bracket is not None)
-        partner_here = bracket if bracket is not None and bracket[0] == row else None
-        problems = (*self.marks.problems.get(row, ()), *self.marks.found.get(row, ()))
-        return (
-            common, row, self.document.get_line(row), self._coloured.before(row), self._sign(row), problems,
-            selected, cursor, partner_here,
-        )  # fmt: skip
-
-    def _signed(self, strip: Strip, sign: str | None) -> Strip:
-        if sign is None:
-            return strip
-        character, colour = GUTTER_SIGNS[sign]
-        width = self.gutter_width
-        left, right = strip.crop(0, width - 1), strip.crop(width)
-        style = next(iter(left), Segment("")).style or Style()
-        colour = str(getattr(self.app.current_theme, colour))
-        mark = Strip([Segment(character, style + Style(color=colour, bold=True))], 1)
-        return Strip.join([left, mark, right])
-
-    def _sign(self, row: int) -> str | None:
-        if row == self.marks.traced:
-            return "trace"
-        if problems := self.marks.problems.get(row):
-            return "error" if any(mark.style == "error" for mark in problems) else "warning"
-        return "break" if row in self.marks.breakpoints else None
-
-    def find_matching_bracket(self, bracket: str, search_from: Location) -> Location | None:
-        """Return where the partner of a bracket stands, if it stands near it."""
-        return partner(self.document.lines, search_from) if bracket in "([{)]}" and bracket else None
 
 
 def _width(lines: Sequence[str]) -> int:
