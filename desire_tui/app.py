@@ -251,16 +251,11 @@ class DesireApp(Shell):
         """Do something slow that is not the engine's, such as drawing a picture."""
         threading.Thread(target=job, daemon=True, name="desire-picture").start()
 
-    def on_screen(self, act: Callable[..., object], *args: object, **options: object) -> None:
-        """Have the app's thread tell what another thread found out; nobody once the desktop closes."""
-        self.call_later(lambda: self.desk.is_running and act(*args, **options))
-
     # ------------------------------------------------------------------------------ what panes ask for
 
     @on(EngineMessage)
     def _engine_says(self, message: EngineMessage) -> None:
-        if self.desk.is_running:  # what arrives while the desktop closes has nobody to tell
-            self.news.handle(message)
+        self.news.handle(message)
 
     @on(CommandPane.LinesEntered)
     def _lines(self, event: CommandPane.LinesEntered) -> None:

@@ -20,8 +20,10 @@ from desire_tui.panes.side import SidePane
 from desire_tui.panes.status import StatusBar
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
+    from textual.message import Message
     from textual.widget import Widget
     from textual.worker import Worker
 
@@ -55,6 +57,15 @@ class Shell(App[None]):
             await keyorder.carry_out(self, event, super().on_event)
         else:
             await super().on_event(event)
+
+    async def _on_message(self, message: Message) -> None:
+        """Deal with a message; while the desktop closes there is nobody to tell, its panes are gone."""
+        if self.is_running or isinstance(message, events.Event):
+            await super()._on_message(message)
+
+    def on_screen(self, act: Callable[..., object], *args: object, **options: object) -> None:
+        """Have the app's thread tell what another thread found out, as long as the desktop is there."""
+        self.call_later(lambda: self.is_running and act(*args, **options))
 
     # ----------------------------------------------------------------------------------------------- panes
 
