@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.combine import moved, scaled, weighted
+from desire_tui.engine.codegen.combine import scaled, weighted
 from desire_tui.engine.codegen.context import context_fields, memory_fields
 from desire_tui.engine.codegen.lanes import Lanes
 from desire_tui.engine.codegen.loops import elementwise, fetch, loop, put
@@ -85,10 +85,9 @@ class ArrayStorage:
         factor = scaled(self.lanes, row, dt)
 
         def one(lanes: Lanes, i: str, base: str, at: str) -> None:
-            def k(stage: int) -> str:
-                return fetch(lanes, f"%k{stage}", i)
-
-            put(lanes, base, at, moved(lanes, fetch(lanes, "%x0", i), row, lanes.splat(factor), k))
+            total = weighted(lanes, row, lambda stage: fetch(lanes, f"%k{stage}", i))
+            step = lanes.mul(lanes.splat(factor), total)
+            put(lanes, base, at, lanes.add(fetch(lanes, "%x0", i), step))
 
         self._states(one)
 

@@ -26,10 +26,7 @@ def scaled(lanes: Lanes, row: Row, dt: str) -> str:
 
 def weighted(lanes: Lanes, row: Row, k: Callable[[int], str]) -> str:
     """Write Σ numerator·k, in the order of the stages; `k(stage)` reads a derivative, stages from 1."""
-    return _sum(lanes, parts(row)[1], k)
-
-
-def _sum(lanes: Lanes, numerators: list[int], k: Callable[[int], str]) -> str:
+    _, numerators = parts(row)
     total = ""
     for stage, n in enumerate(numerators, 1):
         if n == 0:
@@ -41,20 +38,3 @@ def _sum(lanes: Lanes, numerators: list[int], k: Callable[[int], str]) -> str:
             term = lanes.mul(lanes.const(float(n)), term)
         total = lanes.add(total, term) if total else term
     return total
-
-
-def moved(lanes: Lanes, start: str, row: Row, factor: str, k: Callable[[int], str]) -> str:
-    """Write start + factor·Σ numerator·k for the `factor` that `scaled` gave.
-
-    The last stage's share is added by itself, at the end: what follows waits for that derivative alone, not
-    for the whole sum. A small model's time is such waiting: 5 % of Lorenz' equations under rule 3.
-    """
-    _, numerators = parts(row)
-    last = max(i for i, n in enumerate(numerators) if n)
-    if any(numerators[:last]):
-        head = _sum(lanes, numerators[:last], k)
-        start = lanes.add(start, lanes.mul(factor, head))
-    share = k(last + 1)
-    if numerators[last] != 1:
-        share = lanes.mul(lanes.const(float(numerators[last])), share)
-    return lanes.add(start, lanes.mul(factor, share))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.cells import RegisterCells
-from desire_tui.engine.codegen.combine import moved, scaled, weighted
+from desire_tui.engine.codegen.combine import scaled, weighted
 from desire_tui.engine.codegen.context import context_fields, memory_fields
 from desire_tui.engine.codegen.lanes import Lanes
 from desire_tui.engine.codegen.scope import survey
@@ -91,8 +90,8 @@ class RegisterStorage:
         """States ← saved states + dt·Σ row·k."""
         factor = scaled(self.lanes, row, dt)
         for number, slot in enumerate(self.states):
-            k = partial(self._k, state=number)
-            self.cells.store(slot, moved(self.lanes, self._x0(number), row, factor, k))
+            total = weighted(self.lanes, row, lambda stage, n=number: self._k(stage, n))  # type: ignore[misc]  # n=: bound now
+            self.cells.store(slot, self.lanes.add(self._x0(number), self.lanes.mul(factor, total)))
 
     def restore(self) -> None:
         """States ← saved states."""
