@@ -55,12 +55,12 @@ class Store:
                 found[name] = self._keep(name, Compiled(code.address(name), code), fast=False)
         return found
 
-    def fast(self, piece: Piece) -> Compiled:
-        """Return a piece compiled as well as LLVM can."""
+    def fast(self, piece: Piece, *, slp: bool = True) -> Compiled:
+        """Return a piece compiled as well as LLVM can; `slp`: neighbours are computed two or more abreast."""
         known = self.find(piece.name, fast=True)
         if known is not None:
             return known
-        code = compile_text(_module([piece]), level=2, slp=True)
+        code = compile_text(_module([piece]), level=2, slp=slp)
         return self._keep(piece.name, Compiled(code.address(piece.name), code), fast=True)
 
     def _keep(self, name: str, compiled: Compiled, *, fast: bool) -> Compiled:
