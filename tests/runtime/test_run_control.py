@@ -83,6 +83,21 @@ def test_pause_resume_and_end(nn):
     assert session.status.state is State.IDLE
 
 
+def test_the_clock_of_a_paused_run_stands_still():
+    began = monotonic()
+    worker = Worker(LONG.format(nn=2))
+    assert worker.started.wait(PATIENCE)
+    worker.wait_for(lambda: worker.session.status.t > 0)
+    worker.session.pause()
+    worker.wait_until_held(lambda: worker.session.status.t)
+    paused = monotonic()
+    assert worker.wait_until_held(lambda: worker.session.status.steps_per_second) > 0
+    held = monotonic() - paused
+    worker.session.end()
+    worker.join()
+    assert worker.session.runs[-1].seconds < monotonic() - began - held
+
+
 def test_end_while_paused():
     worker = Worker(LONG.format(nn=1000))
     assert worker.started.wait(PATIENCE)

@@ -62,6 +62,8 @@ class Simulator:
         self.memory: RunMemory | None = None
         """The run's memory while one goes on."""
         self._began = 0.0
+        """When the run began that goes on, later by what it was paused; 0: none does."""
+        self._held_at = 0.0
 
     def reset(self) -> None:
         """Restore t, DT and the states to the start of the last run; rewind store, get, delay and SAMPLE."""
@@ -69,14 +71,15 @@ class Simulator:
         self.defaults.follow()
 
     def pace(self, steps: int, record: RunRecord | None) -> float:
-        """Return steps per real second: of the run that goes on, or of `record`. From any thread."""
+        """Return steps per real second, pauses apart: of the run that goes on, or of `record`. From any thread."""
         began = self._began
-        seconds = perf_counter() - began if began > 0.0 else record.seconds if record is not None else 0.0
+        now = self._held_at or perf_counter()
+        seconds = now - began if began > 0.0 else record.seconds if record is not None else 0.0
         return steps / seconds if seconds > 0.0 else 0.0
 
     def run(self, model: Model, segment: Segment, plan: Plan, record: RunRecord, observer: Observer) -> bool:
         """Run to the end; False if the user ended it. DesireError: a fault; the record then says `failed`."""
-        began = self._began = perf_counter()
+        self._began = perf_counter()
         positions = self.history.begin(segment)
         lag = np.zeros(max(segment.counters, 1), dtype=np.int64)
         for counter, records in self._delays.lags(segment, plan, self._values).items():
@@ -95,7 +98,7 @@ class Simulator:
             self._control.attach(None)
             self.memory = None
             self._settle(plan, memory, positions, record, sampled=ended in {Ended.TMAX, Ended.TERM})
-            record.seconds = perf_counter() - began
+            record.seconds = perf_counter() - self._began
             self._began = 0.0
         full = exhausted(ended, segment, plan, memory, self._values)
         if ended in _WORDS and full is None:
@@ -148,12 +151,20 @@ class Simulator:
             if record.count > first:
                 observer.block(record, first)
             if ended is Ended.STOPPED:
-                if not self._control.wait():
+                if not self._held():
                     return ended
             elif ended is not Ended.RUNNING:
                 return ended
             else:
                 block = max(1.0, min(block * BLOCK_GROWTH, block * BLOCK_SECONDS / max(took, 1e-6)))
+
+    def _held(self) -> bool:
+        """Wait while the user pauses the run, whose clock stands still; return whether it may go on."""
+        self._held_at = perf_counter()
+        may_go_on = self._control.wait()
+        self._began += perf_counter() - self._held_at
+        self._held_at = 0.0
+        return may_go_on
 
     def _settle(
         self, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord, *, sampled: bool
