@@ -71,7 +71,7 @@ class Simulator:
         self.defaults.follow()
 
     def pace(self, steps: int, record: RunRecord | None) -> float:
-        """Return steps per real second, pauses apart: of the run that goes on, or of `record`. From any thread."""
+        """Return steps per second, without pauses: of the present run, or of `record`. From any thread."""
         began = self._began
         now = self._held_at or perf_counter()
         seconds = now - began if began > 0.0 else record.seconds if record is not None else 0.0
