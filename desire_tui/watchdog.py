@@ -33,13 +33,13 @@ QUIET_S = 2.0
 @contextmanager
 def watched() -> Iterator[None]:
     """Have a watchdog while the desktop is open; none where the system refuses another process."""
-    try:
-        import termios
+    import termios
 
+    try:
         modes = termios.tcgetattr(sys.stdin.fileno())
         reading, writing = os.pipe()
         owner, dog = os.getpid(), os.fork()
-    except OSError:
+    except (OSError, termios.error):  # which is no OSError
         yield
         return
     if dog == 0:
@@ -49,8 +49,8 @@ def watched() -> Iterator[None]:
     try:
         yield
     finally:
-        os.write(writing, _WELL)
-        with suppress(ChildProcessError):
+        with suppress(BrokenPipeError, ChildProcessError):  # somebody has ended the watchdog
+            os.write(writing, _WELL)
             os.waitpid(dog, 0)
 
 
