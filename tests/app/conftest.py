@@ -63,18 +63,19 @@ async def settled(min_sleep: float = 0.0, max_sleep: float = 1.0) -> None:
     loop = asyncio.get_running_loop()
     end = monotonic() + max_sleep
     for _ in range(3):
-        await asyncio.sleep(max(0.003, min_sleep / 3))
+        await asyncio.sleep(max(0.007, min_sleep / 3))  # longer in all than the screen's timer takes: 1/60 s
         while loop._ready and monotonic() < end:  # noqa: ASYNC110 - an idle loop tells nobody
             await asyncio.sleep(0)
 
 
 async def until(pilot: Pilot[None], condition: Callable[[], object], *, tries: int = 1500) -> None:
-    """Let the app work until something holds."""
+    """Let the app work until something holds, and lay out and draw what follows from it."""
     for _ in range(tries):
         if condition():
-            return
+            break
         await pilot.pause(0.01)
     assert condition()
+    await pilot.pause()
 
 
 class Desktop:
