@@ -19,6 +19,7 @@ check: $(STAMP) lint types contracts test  ## lint + types + import contracts + 
 
 lint: $(STAMP)
 	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
 
 types: $(STAMP)
 	$(BIN)/mypy

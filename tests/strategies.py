@@ -145,7 +145,21 @@ def tables(draw):
 
 
 SIMPLE = [
-    *["else", "proceed", "next", "repeat", "exit", "end", "go", "reset", "clear", "time", "trace", "OUT", "step"],
+    *[
+        "else",
+        "proceed",
+        "next",
+        "repeat",
+        "exit",
+        "end",
+        "go",
+        "reset",
+        "clear",
+        "time",
+        "trace",
+        "OUT",
+        "step",
+    ],
     *["erun", "run", "bye", "new", "NEW", "list", "list+", "ed", "edit", "reload", "end if", "end while"],
 ]
 

@@ -331,7 +331,9 @@ async def test_a_key_in_a_thousand_lines_is_cheap(program, monkeypatch):
         area = desk.app.editor.front
         drawn: list[int] = []
         original = LineHighlights.__missing__
-        monkeypatch.setattr(LineHighlights, "__missing__", lambda s, row: (drawn.append(row), original(s, row))[1])
+        monkeypatch.setattr(
+            LineHighlights, "__missing__", lambda s, row: (drawn.append(row), original(s, row))[1]
+        )
         area.focus()
         await desk.press("a")
         await desk.pilot.pause()

@@ -85,7 +85,9 @@ def test_the_editor_gets_the_unsaved_text_and_gives_its_own_back(edited_by, tmp_
 )
 def test_an_editor_that_fails_changes_nothing(edited_by, tmp_path: Path, script: str, told: str):
     screen = edited_by(script)
-    screen.until(lambda: told in " ".join(screen.text.split()) or told.replace(" ", "") in "".join(screen.text.split()))
+    screen.until(
+        lambda: told in " ".join(screen.text.split()) or told.replace(" ", "") in "".join(screen.text.split())
+    )
     screen.send("\x1be!" + CTRL_S)  # the desktop works on
     screen.until(lambda: "z = 3" in (tmp_path / "a.src").read_text())
     assert (tmp_path / "a.src").read_text() == "z = 3\n!x = 1\ny = 2\n"

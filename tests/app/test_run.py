@@ -216,7 +216,11 @@ async def test_a_click_on_an_error_goes_to_its_place(program):
         await desk.idle()
         area, console = desk.app.editor.front, desk.app.command.console
         area.go_to(0)
-        row = next(n for n, (number, *_) in enumerate(console.scrollback.rows) if "osc.src:" in console.scrollback.lines[number].text)
+        row = next(
+            n
+            for n, (number, *_) in enumerate(console.scrollback.rows)
+            if "osc.src:" in console.scrollback.lines[number].text
+        )
         await desk.pilot.click("#console", offset=(3, row - int(console.scroll_offset.y)))
         assert area.cursor_location[0] == 8
         assert desk.app.focused is area

@@ -43,7 +43,12 @@ class Terminal:
             **os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", "XDG_CONFIG_HOME": str(folder / "config"),
             "XDG_STATE_HOME": str(folder / "state"), "PYTHONPATH": str(ROOT),
         }  # fmt: skip
-        for name in ("TMUX", "COLUMNS", "LINES", "NO_COLOR"):  # tests in one process leave some of these behind
+        for name in (
+            "TMUX",
+            "COLUMNS",
+            "LINES",
+            "NO_COLOR",
+        ):  # tests in one process leave some of these behind
             env.pop(name, None)
         self.screen = pyte.Screen(columns, rows)
         self.stream = pyte.ByteStream(self.screen)
@@ -51,7 +56,9 @@ class Terminal:
         command, *arguments = *shell, sys.executable, "-m", "desire_tui", *files
         self.child = pexpect.spawn(command, arguments, env=env, cwd=str(folder), dimensions=(rows, columns))
         self.child.delaybeforesend = None
-        self.child.ptyproc.delayafterterminate = 0.5  # on a machine with much to do even SIGKILL takes its time
+        self.child.ptyproc.delayafterterminate = (
+            0.5  # on a machine with much to do even SIGKILL takes its time
+        )
         self.modes_before = termios.tcgetattr(self.child.child_fd)
 
     def read(self, seconds: float = 0.05) -> None:
@@ -109,7 +116,9 @@ def terminal(tmp_path: Path) -> Iterator[Callable[..., Terminal]]:
 
 
 def children_of(pid: int) -> list[str]:
-    found = subprocess.run(["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True, check=False)
+    found = subprocess.run(
+        ["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True, check=False
+    )
     return found.stdout.split()
 
 
@@ -126,7 +135,9 @@ def test_a_session(terminal: Callable[..., Terminal], tmp_path: Path):
 
     # the curve grows before the run ends
     screen.until(lambda: screen.dots > 3)
-    screen.until(lambda: "8" in screen.text.splitlines()[8][:3])  # the first dots do not wait for the last row
+    screen.until(
+        lambda: "8" in screen.text.splitlines()[8][:3]
+    )  # the first dots do not wait for the last row
     before = screen.dots
     screen.until(lambda: screen.dots > before + 3)
     assert re.search(r"running 1 ", screen.text)
@@ -275,7 +286,11 @@ def test_a_browser_is_served_through_pipes(tmp_path: Path):
         assert child.stdin is not None
         assert child.stdout is not None
         seen, end = b"", time.monotonic() + PATIENCE_S
-        while b"served.src" not in seen and time.monotonic() < end and (piece := os.read(child.stdout.fileno(), 65536)):
+        while (
+            b"served.src" not in seen
+            and time.monotonic() < end
+            and (piece := os.read(child.stdout.fileno(), 65536))
+        ):
             seen += piece
         assert b"served.src" in seen
         output, errors = child.communicate(b"D\0\0\0\1" + CTRL_Q.encode(), timeout=PATIENCE_S)

@@ -350,12 +350,16 @@ async def test_a_breakpoint_set_while_the_script_runs_stops_it(program):
 
 def shown(desk) -> list[list[tuple[str, object]]]:
     """Return what the screen holds, with styles."""
-    return [[(s.text, s.style) for s in strip.simplify()] for strip in desk.app.screen._compositor.render_strips()]
+    return [
+        [(s.text, s.style) for s in strip.simplify()] for strip in desk.app.screen._compositor.render_strips()
+    ]
 
 
 async def test_what_is_drawn_row_by_row_is_what_a_new_drawing_gives(program, monkeypatch):
     """Only rows that changed are drawn; whatever is done, none may be forgotten."""
-    monkeypatch.setattr("desire_tui.editor.pane.CHECK_AFTER_S", 1e6)  # nothing comes by itself between two looks
+    monkeypatch.setattr(
+        "desire_tui.editor.pane.CHECK_AFTER_S", 1e6
+    )  # nothing comes by itself between two looks
     text = "".join(f"y{n} = sin({n})*(x + 0.5) -- line {n}\n" for n in range(100))
     async with desktop(program(text)) as desk:
         desk.app.settings.completion_after = 0
@@ -392,7 +396,9 @@ async def test_a_key_draws_its_row_and_lays_out_nothing(program, monkeypatch):
         draw, lay_out = TextArea._render_line, Screen._refresh_layout
         monkeypatch.setattr(TextArea, "_render_line", lambda view, y: (drawn.append(y), draw(view, y))[1])
         monkeypatch.setattr(
-            Screen, "_refresh_layout", lambda screen, *args, **more: (laid_out.append(1), lay_out(screen, *args, **more))[1]
+            Screen,
+            "_refresh_layout",
+            lambda screen, *args, **more: (laid_out.append(1), lay_out(screen, *args, **more))[1],
         )
         await desk.press("b", "c", "d")
         await desk.pilot.pause(0.05)

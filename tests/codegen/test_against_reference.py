@@ -11,13 +11,17 @@ FUNCTIONS = (
     "sigmoid", "SIGMOID", "round", "trnc",
 )  # fmt: skip
 SETTINGS = settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow]
+    max_examples=40,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 
 
 def expressions(names, *, draws=False):
     leaves = st.one_of(
-        st.sampled_from(names), st.floats(0.1, 3.0).map(lambda x: f"{x:.4f}"), *([st.just("ran()")] if draws else [])
+        st.sampled_from(names),
+        st.floats(0.1, 3.0).map(lambda x: f"{x:.4f}"),
+        *([st.just("ran()")] if draws else []),
     )
 
     def grow(inner):
@@ -51,7 +55,13 @@ def test_scalar_programs(data, rule):
         lines.append(f"u{number} = {data.draw(expressions(known, draws=True))}")
         known.append(f"u{number}")
     lines += [f"d/dt {name} = sat({data.draw(expressions(known))}) - 0.5*{name}" for name in "xy"]
-    lines += ["step", f"z = z + 0.1*sat({data.draw(expressions(known))})", "OUT", "w = x + z", "dispt x, y, w, z"]
+    lines += [
+        "step",
+        f"z = z + 0.1*sat({data.draw(expressions(known))})",
+        "OUT",
+        "w = x + z",
+        "dispt x, y, w, z",
+    ]
     body = "\n".join(lines)
     agree(
         f"irule {rule} | x = 0.3 | y = -0.7 | a = 1.7 | z = 0\nSEED 7\n"

@@ -60,7 +60,9 @@ def test_one_argument(name):
     ],
 )
 def test_several_arguments(call, wanted):
-    assert run(f"NN = 2\ndrun\nDYNAMIC\ny = {call}\ndispt y\n").scalar("y") == pytest.approx(wanted, rel=1e-15)
+    assert run(f"NN = 2\ndrun\nDYNAMIC\ny = {call}\ndispt y\n").scalar("y") == pytest.approx(
+        wanted, rel=1e-15
+    )
 
 
 def test_identities_of_limiters():

@@ -58,7 +58,9 @@ def test_what_is_rolled_up(lines, loops, width):
     assert loops == 0 or len(rolled) < 12
 
 
-@pytest.mark.parametrize("lines", [ladder(200), chain(230), recursion(250)], ids=["ladder", "chain", "recursion"])
+@pytest.mark.parametrize(
+    "lines", [ladder(200), chain(230), recursion(250)], ids=["ladder", "chain", "recursion"]
+)
 def test_rolled_up_statements_give_the_same_bits(lines, monkeypatch):
     text = program(lines, states_of(lines))
     rolled = run(text).rows.tolist()

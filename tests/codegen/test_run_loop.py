@@ -127,7 +127,9 @@ def test_every_mm_th_point_and_the_last(storage):
 
 @pytest.mark.parametrize("rule", RULES)
 def test_infinity_ends_the_run_near_its_birth(rule, storage):
-    model, segment, values = made_of("DYNAMIC\nd/dt u = 1\nd/dt x = x^2\ndispt u\n", rule, storage, x=1.0, u=0.0)
+    model, segment, values = made_of(
+        "DYNAMIC\nd/dt u = 1\nd/dt x = x^2\ndispt u\n", rule, storage, x=1.0, u=0.0
+    )
     memory, rows = memory_for(values, segment, t_max=1e6, dt=0.01, nn=3, dt_min=1e-300, error_max=1e300)
     assert model.advance(memory) is Ended.NOT_FINITE
     assert memory.which == 1
@@ -137,7 +139,9 @@ def test_infinity_ends_the_run_near_its_birth(rule, storage):
 
 
 def test_an_infinite_column_is_named(storage):
-    model, segment, values = made_of("DYNAMIC\nd/dt x = 1\ny = ln(x - 0.5)\nz = 1\ndispt z, y\n", 1, storage, x=1.0)
+    model, segment, values = made_of(
+        "DYNAMIC\nd/dt x = 1\ny = ln(x - 0.5)\nz = 1\ndispt z, y\n", 1, storage, x=1.0
+    )
     values.assign(values.find("x").slot, 0.0)
     memory, _ = memory_for(values, segment, t_max=1.0, dt=0.01, nn=5)
     assert model.advance(memory) is Ended.NOT_FINITE
@@ -146,7 +150,9 @@ def test_an_infinite_column_is_named(storage):
 
 @pytest.mark.parametrize("rule", [4, 7, 8])
 def test_deadlock_restores_the_step(rule, storage):
-    model, segment, values = made_of("DYNAMIC\nd/dt u = 1\nd/dt x = 1000*swtch(t - 0.31)\ndispt x\n", rule, storage, x=0.0)
+    model, segment, values = made_of(
+        "DYNAMIC\nd/dt u = 1\nd/dt x = 1000*swtch(t - 0.31)\ndispt x\n", rule, storage, x=0.0
+    )
     memory, _ = memory_for(values, segment, t_max=1.0, dt=0.02, nn=3, dt_min=0.004, error_max=1e-3)
     assert model.advance(memory) is Ended.DEADLOCK
     assert memory.which == 1

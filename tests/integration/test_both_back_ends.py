@@ -14,7 +14,9 @@ def test_both_back_ends_make_the_same_steps(rule, model):
     text = LINEAR.format(rule=rule)
     if model != "linear":
         parts = ("ARRAY J[3,3]", JACOBIAN) if "JACOBIAN" in model else ("", "")
-        text = ROBERTSON.format(rule=rule, script=parts[0], jacobian=parts[1]).replace("TMAX = 40", "TMAX = 0.4")
+        text = ROBERTSON.format(rule=rule, script=parts[0], jacobian=parts[1]).replace(
+            "TMAX = 40", "TMAX = 0.4"
+        )
     native, reference = (run(text, backend)[0].runs[-1] for backend in ("native", "reference"))
     assert native.count == reference.count
     count = native.count

@@ -174,7 +174,9 @@ def heard(text, backend):
 
 def test_a_wrong_jacobian_is_told_and_a_right_one_is_not(backend):
     right = ROBERTSON.format(rule=14, script="ARRAY J[3,3] | y2 = 2E-5 | y3 = 0.1", jacobian=JACOBIAN)
-    right = right.replace("TMAX = 40", "TMAX = 0.001")  # it is told at the start; with the wrong one steps are many
+    right = right.replace(
+        "TMAX = 40", "TMAX = 0.001"
+    )  # it is told at the start; with the wrong one steps are many
     assert heard(right, backend) == []
     wrong = right.replace("J[2,2] = -p - g", "J[2,2] = -p + g")
     assert heard(wrong, backend) == [(462, "warning")]

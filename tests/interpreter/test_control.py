@@ -27,7 +27,9 @@ def test_stop_and_go():
 
 
 def test_stop_inside_a_loop_in_a_procedure():
-    world = run("PROCEDURE p(n; s)\nfor k = 1 to n\ns = s + k\nif k = 2 then | STOP | proceed\nnext\nend\nt = 0\ncall p(4; t)\nu = t")
+    world = run(
+        "PROCEDURE p(n; s)\nfor k = 1 to n\ns = s + k\nif k = 2 then | STOP | proceed\nnext\nend\nt = 0\ncall p(4; t)\nu = t"
+    )
     assert world["t"] == 3
     world.execute("t = 100")
     world.interpreter.go()
@@ -56,14 +58,24 @@ def test_commands_loop_print_and_define():
 
 @pytest.mark.parametrize(
     ("line", "code"),
-    [("STOP", 22), ("display 2", 22), ("label L", 22), ("input x", 22), ("go", 43), ("for k = 1 to 3", 24), ("next", 27)],
+    [
+        ("STOP", 22),
+        ("display 2", 22),
+        ("label L", 22),
+        ("input x", 22),
+        ("go", 43),
+        ("for k = 1 to 3", 24),
+        ("next", 27),
+    ],
 )
 def test_what_is_no_command(line, code):
     world = run("")
     assert code_of(lambda: world.execute(line)) == code
 
 
-@pytest.mark.parametrize(("script", "code"), [("erun", 199), ("go", 199), ("1 + 2", 1), ("store X = x", 300), ("d/dt x = 1", 300)])
+@pytest.mark.parametrize(
+    ("script", "code"), [("erun", 199), ("go", 199), ("1 + 2", 1), ("store X = x", 300), ("d/dt x = 1", 300)]
+)
 def test_what_is_no_script_statement(script, code):
     assert code_of(lambda: run(script)) == code
 
@@ -76,7 +88,9 @@ def test_a_changed_function_is_seen_by_the_script():
 
 
 def test_clear_in_the_middle_forgets_everything_but_goes_on():
-    world = run("x = 5\nlabel L\ny = 1\nif scale = 1 then | scale = 2 | go to L | proceed\nclear\nw = 3 | y = 2")
+    world = run(
+        "x = 5\nlabel L\ny = 1\nif scale = 1 then | scale = 2 | go to L | proceed\nclear\nw = 3 | y = 2"
+    )
     assert world.values.find("x") is None
     assert (world["w"], world["y"], world["scale"]) == (3, 2, 1)
 
@@ -140,7 +154,13 @@ def test_stopping_before_a_traced_statement():
 
 def test_drun_and_rules_reach_the_host():
     world = run("irule 4\ndrun\ndrunr SECOND\ndrun *\nreset\nirule")
-    assert world.calls == [("drun", None, False), ("drun", "SECOND", False), ("reset",), ("drun", None, True), ("reset",)]
+    assert world.calls == [
+        ("drun", None, False),
+        ("drun", "SECOND", False),
+        ("reset",),
+        ("drun", None, True),
+        ("reset",),
+    ]
     assert world.rule == 4
     assert world.text == "irule 4\n"
 

@@ -13,7 +13,22 @@ from desire_tui.engine.library import LIBRARY, integer_power, power
 from tests.interpreter.stand_in import World
 
 NAMES = {"x": 0.75, "y": -2.5, "z": 3.0, "big": 1e150}
-FUNCTIONS = ["sin", "cos", "sat", "lim", "deadz", "swtch", "sgn", "abs", "tanh", "sqrt", "ln", "exp", "tri", "round"]
+FUNCTIONS = [
+    "sin",
+    "cos",
+    "sat",
+    "lim",
+    "deadz",
+    "swtch",
+    "sgn",
+    "abs",
+    "tanh",
+    "sqrt",
+    "ln",
+    "exp",
+    "tri",
+    "round",
+]
 
 
 def leaf():
@@ -58,7 +73,9 @@ def guard(function, *args):
 
 
 def apply(op, a, b):
-    return guard({"+": float.__add__, "-": float.__sub__, "*": float.__mul__, "/": float.__truediv__}[op], a, b)
+    return guard(
+        {"+": float.__add__, "-": float.__sub__, "*": float.__mul__, "/": float.__truediv__}[op], a, b
+    )
 
 
 WORLD = World()

@@ -145,7 +145,11 @@ def test_bilinear_table_function_of_models_4_2_2_2():
         "F[i,k] = X[i] + Y[k]*(Y[k]*cos(X[i]) - sin(Y[k]))\nnext | next"
     )
     for time, value in [
-        (0, -48.89353349), (4, 6.989827308), (8.3, -2.426501962), (10.25, 6.294135772), (16, 52.9745788),
+        (0, -48.89353349),
+        (4, 6.989827308),
+        (8.3, -2.426501962),
+        (10.25, 6.294135772),
+        (16, 52.9745788),
     ]:
         world.execute(f"f = func2({time} - 10, {time} - 7.5; F, X, Y)")
         assert world["f"] == pytest.approx(value, rel=1e-9)

@@ -16,8 +16,7 @@ def view(world, name):
 
 def test_vectors_matrices_scalars_and_program_variables():
     world = run(
-        f"{HEAD}FUNCTION f(a$, b$) = a$^2 - k*b$\n"
-        "Vector y = 2*f(x, x + 1) + f(2, 1)\nMATRIX B = f(A, k)"
+        f"{HEAD}FUNCTION f(a$, b$) = a$^2 - k*b$\nVector y = 2*f(x, x + 1) + f(2, 1)\nMATRIX B = f(A, k)"
     )
     np.testing.assert_array_equal(view(world, "y"), 2 * (X**2 - 3 * (X + 1)) + 1)
     np.testing.assert_array_equal(view(world, "B"), A**2 - 9)

@@ -144,7 +144,9 @@ def test_a_process_is_left_while_something_goes_on() -> None:
 
 def test_functions_that_call_others_twice_can_be_broken_off() -> None:
     """2^60 calls in one expression."""
-    text = "FUNCTION f0(x) = x\n" + "".join(f"FUNCTION f{i}(x) = f{i - 1}(x) + f{i - 1}(x)\n" for i in range(1, 61))
+    text = "FUNCTION f0(x) = x\n" + "".join(
+        f"FUNCTION f{i}(x) = f{i - 1}(x) + f{i - 1}(x)\n" for i in range(1, 61)
+    )
     world = World()
     world.looks_allowed = 100
     with pytest.raises(Interrupted):

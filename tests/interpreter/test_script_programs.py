@@ -12,7 +12,10 @@ from tests.interpreter.stand_in import run
 
 
 def test_label_and_go_to_sum_to_55():
-    assert run("s = 0 | i = 0\nlabel AGAIN\ni = i + 1 | s = s + i\nif i < 10 then | go to AGAIN | proceed")["s"] == 55
+    assert (
+        run("s = 0 | i = 0\nlabel AGAIN\ni = i + 1 | s = s + i\nif i < 10 then | go to AGAIN | proceed")["s"]
+        == 55
+    )
 
 
 def test_go_to_a_line_number():
@@ -71,12 +74,16 @@ def test_nested_ifs_with_and_and_or(a, b, c):
 
 
 def test_conditions_nest_with_parentheses_and_not():
-    world = run("a = 1 | b = 2 | c = 0\nif not (a = 2 or (b < 1 and a = 1)) and b <> 3 then | c = 1 | proceed")
+    world = run(
+        "a = 1 | b = 2 | c = 0\nif not (a = 2 or (b < 1 and a = 1)) and b <> 3 then | c = 1 | proceed"
+    )
     assert world["c"] == 1
 
 
 def test_exit_leaves_the_innermost_loop_only():
-    world = run("k = 0\nfor i = 1 to 3\nfor j = 1 to 10\nif j > i then | exit | proceed\nk = k + 1\nnext\nnext")
+    world = run(
+        "k = 0\nfor i = 1 to 3\nfor j = 1 to 10\nif j > i then | exit | proceed\nk = k + 1\nnext\nnext"
+    )
     assert world["k"] == 1 + 2 + 3
 
 
@@ -108,7 +115,9 @@ def test_procedure_references_elements_and_whole_arrays():
 
 
 def test_procedures_may_call_others_and_pass_references_on():
-    world = run("PROCEDURE inc(;r)\nr = r + 1\nend\nPROCEDURE twice(;s)\ncall inc(;s) | call inc(;s)\nend\nx = 3\ncall twice(;x)")
+    world = run(
+        "PROCEDURE inc(;r)\nr = r + 1\nend\nPROCEDURE twice(;s)\ncall inc(;s) | call inc(;s)\nend\nx = 3\ncall twice(;x)"
+    )
     assert world["x"] == 5
 
 
@@ -157,7 +166,9 @@ def test_data_items_are_expressions_evaluated_when_read():
 
 
 def test_data_fill_arrays_by_rows_and_restore_finds_labels_and_lines():
-    world = run("10 data 1,2\nlabel L\n20 data 3,4\n30 data 5,6\nARRAY A[2,2]\nread A\nrestore L | read x\nrestore 30 | read y")
+    world = run(
+        "10 data 1,2\nlabel L\n20 data 3,4\n30 data 5,6\nARRAY A[2,2]\nread A\nrestore L | read x\nrestore 30 | read y"
+    )
     assert world["A"].tolist() == [[1, 2], [3, 4]]
     assert (world["x"], world["y"]) == (3, 5)
 
@@ -192,13 +203,17 @@ def test_rotation_there_and_back():
 
 
 def test_complex_arithmetic_of_the_book():
-    world = run("COMPLEX z, c, ww, Z[2,3]\nff = 2.11 | c = 1000\nww = 23.444 - j*ff\nc = c + 1 + j*2 | z = ff*c - ff + [2, ff - 1] - Z[1,2]")
+    world = run(
+        "COMPLEX z, c, ww, Z[2,3]\nff = 2.11 | c = 1000\nww = 23.444 - j*ff\nc = c + 1 + j*2 | z = ff*c - ff + [2, ff - 1] - Z[1,2]"
+    )
     assert world["z"] == pytest.approx(2112 + 5.33j)
     assert world["ww"] == 23.444 - 2.11j
 
 
 def test_complex_functions():
-    world = run("COMPLEX z\nz = expj(PI/2) | a = Cabs(3 + 4*j) | b = Arg(j) | c = Re([1,2]) + 10*Im([1,2])\nz = exp(j*PI/2)*Conjug(j)")
+    world = run(
+        "COMPLEX z\nz = expj(PI/2) | a = Cabs(3 + 4*j) | b = Arg(j) | c = Re([1,2]) + 10*Im([1,2])\nz = exp(j*PI/2)*Conjug(j)"
+    )
     assert (world["a"], world["b"], world["c"]) == (5, pi / 2, 21)
     assert world["z"] == pytest.approx(1)
 
@@ -238,8 +253,11 @@ def test_fft_of_a_pulse():
     world = run(f"n = {n} | ARRAY x[n+3], y[n]\nfor i = 1 to 20 | x[i] = 1 | next\nFFT F, n, x, y")
     x, y = world["x"], world["y"]
     for element, re, im in [
-        (1, 20, 0), (2, 19.99981837, -0.07286374808), (411, 0.9805256976, -12.6952614),
-        (820, -0.004843198825, -0.000770705232), (1000, 2.935661579, -1.596024184),
+        (1, 20, 0),
+        (2, 19.99981837, -0.07286374808),
+        (411, 0.9805256976, -12.6952614),
+        (820, -0.004843198825, -0.000770705232),
+        (1000, 2.935661579, -1.596024184),
     ]:
         assert (x[element - 1], y[element - 1]) == (pytest.approx(re, rel=1e-9), pytest.approx(im, rel=1e-8))
     world.execute("FFT I, n, x, y")
@@ -248,14 +266,20 @@ def test_fft_of_a_pulse():
 
 
 def test_fft_of_two_real_arrays():
-    world = run("ARRAY x[512], y[512], u[512], v[512]\nfor i = 1 to 4 | x[i] = 1 | y[i+5] = 1 | next\nFFT R, 512, x, y, u, v")
+    world = run(
+        "ARRAY x[512], y[512], u[512], v[512]\nfor i = 1 to 4 | x[i] = 1 | y[i+5] = 1 | next\nFFT R, 512, x, y, u, v"
+    )
     x, y, u, v = (world[name] for name in "xyuv")
-    assert (x[1], u[1], y[1], v[1]) == pytest.approx((3.998945905, -0.07361998975, 3.986905908, -0.3186997526))
+    assert (x[1], u[1], y[1], v[1]) == pytest.approx(
+        (3.998945905, -0.07361998975, 3.986905908, -0.3186997526)
+    )
     assert (x[64], u[64], y[64], v[64]) == pytest.approx((1, -2.41421356, 1, 2.41421356))
 
 
 def test_cyclical_convolution_with_its_nyquist_bin():
-    world = run("n = 512 | ARRAY x[n], y[n]\nfor i = 1 to 120 | x[i] = 1 | y[100+i] = 1.5 | next\nFFT C, n, x, y")
+    world = run(
+        "n = 512 | ARRAY x[n], y[n]\nfor i = 1 to 120 | x[i] = 1 | y[100+i] = 1.5 | next\nFFT C, n, x, y"
+    )
     x = world["x"]
     expected = {100: 0, 101: 1.5, 160: 90, 220: 180, 221: 178.5, 339: 1.5, 340: 0}
     for element, value in expected.items():

@@ -23,7 +23,7 @@ from tests.interpreter.stand_in import World, error_of, run
         ("write $65; $66", "AB\n"),
         ("write %12918, %%12918", "31166\t3276\n"),
         ("write %%(-1)", "FFFF\n"),
-        ("write \"it's\"", "it's\n"),
+        ('write "it\'s"', "it's\n"),
         ("kk = 7 | write kk; ' runs'", "7 runs\n"),
         ("write 2 > 1", None),
     ],

@@ -62,7 +62,8 @@ def test_one_set_while_the_script_runs_stops_it():
     kept = Kept()
     session = Session(kept, backend=running.BACKEND)
     done = threading.Thread(
-        target=lambda: session.erun(Source("n = 0\nrepeat\n  n = n + 1\n  m = n\nuntil n < 0\n", "test.src")), daemon=True
+        target=lambda: session.erun(Source("n = 0\nrepeat\n  n = n + 1\n  m = n\nuntil n < 0\n", "test.src")),
+        daemon=True,
     )
     done.start()
     while session.values.find("m") is None:

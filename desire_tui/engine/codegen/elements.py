@@ -116,4 +116,3 @@ def lane_states(lanes: Lanes, start: str, count: int, per_element: int) -> str:
     grown = text.op(f"mul {lanes.integers} {all_same}, <{a}>")
     moved = text.op(f"add {lanes.integers} {grown}, <{c}>")
     return text.op(f"and {lanes.integers} {moved}, {lanes.whole(draws.MASK)}")
-

@@ -72,9 +72,7 @@ def write(actions: Sequence[Action | Rolled]) -> Piece:
         start.append("%random = load ptr, ptr %random.at")
     whole = "\n".join((*start, body, "ret void"))
     name = "p" + blake2b(whole.encode(), digest_size=10).hexdigest()
-    function = (
-        f"define void @{name}(ptr noalias %v, ptr noalias %dx, ptr noalias %c) #0 {{\n{whole}\n}}"
-    )
+    function = f"define void @{name}(ptr noalias %v, ptr noalias %dx, ptr noalias %c) #0 {{\n{whole}\n}}"
     return Piece(name, function, frozenset(text.needs), statements.temps)
 
 

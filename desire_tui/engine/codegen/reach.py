@@ -81,8 +81,9 @@ def groups(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]
     total = Reach()
     count = 0
     for action in actions:
-        if not isinstance(action, SetVec | DerivVec) or (isinstance(action, SetVec) and action.mode ==
-        "largest"):
+        if not isinstance(action, SetVec | DerivVec) or (
+            isinstance(action, SetVec) and action.mode == "largest"
+        ):
             if group:
                 yield group
                 group = []

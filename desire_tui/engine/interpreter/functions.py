@@ -119,7 +119,6 @@ class Functions:
         self._compiled[key] = name, kind
         return name, kind
 
-
     def _calls_in(self, body: Expr) -> int:
         """Return how often an expression calls the program's FUNCTIONs."""
         match body:
