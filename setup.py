@@ -8,7 +8,7 @@ from setuptools.command.build_py import build_py
 
 
 class BuildWithExamples(build_py):
-    """Copies the examples to where `desire_tui.places.examples_folder` looks for them."""
+    """Copies the examples to where `desire_tui.common.paths.examples_folder` looks for them."""
 
     def run(self) -> None:
         """Build as always, then copy; an editable install uses the clone's own."""

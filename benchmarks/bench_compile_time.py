@@ -19,9 +19,11 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.bench_run_speed import ladder as ladder_work
-from desire_tui.engine.analysis import keeping, lower
-from desire_tui.engine.codegen import NativeBackend, rolling, templates
-from desire_tui.engine.runtime.memory import RunMemory
+from desire_tui.engine.codegen import NativeBackend
+from desire_tui.engine.codegen.scalar import rerolling, templates
+from desire_tui.engine.lowering import lowering_cache
+from desire_tui.engine.lowering.lowering import lower
+from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse, shapes
 from desire_tui.engine.syntax.parse import forget_lines
@@ -73,8 +75,8 @@ def forget_everything() -> None:
     """Empty the stores that later programs profit from."""
     forget_lines()
     shapes.forget()
-    keeping.forget()
-    for store in (rolling._shapes, templates._known):  # nobody else wants them empty
+    lowering_cache.forget()
+    for store in (rerolling._shapes, templates._known):  # nobody else wants them empty
         store.clear()
 
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 import time
 
-from desire_tui.engine.analysis.structure import structure
 from desire_tui.engine.interpreter import Interpreter
 from desire_tui.engine.source import Source
+from desire_tui.engine.structure.structure import structure
 from desire_tui.engine.syntax import parse
 from desire_tui.engine.values import Values
 

@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from desire_tui.engine.codegen.stiff_library import fast_functions
+from desire_tui.engine.codegen.stiff.fixed_functions import fast_functions
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session import Listener, Session
 

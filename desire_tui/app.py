@@ -1,4 +1,4 @@
-"""The IDE: wiring between the panes, the actions and the engine's thread. What is shown is in `desk`."""
+"""The IDE: wiring between the panes, the actions and the engine's thread. What is shown is in `desktop.main_screen`."""
 
 from __future__ import annotations
 
@@ -15,38 +15,39 @@ from textual import on
 from textual.app import SystemCommand
 from textual.screen import ModalScreen
 
-from desire_tui import altkeys, commands, config, places, themes
+from desire_tui import commands
 from desire_tui.actions.edit import EditActions
-from desire_tui.actions.file import FileActions
+from desire_tui.actions.files import FileActions
 from desire_tui.actions.graph import GraphActions
 from desire_tui.actions.help import HelpActions
 from desire_tui.actions.run import RunActions
 from desire_tui.actions.view import ViewActions
-from desire_tui.desk import Desk
-from desire_tui.drawing import Drawing
-from desire_tui.editor.checking import Checker
-from desire_tui.editor.completer import Completer
-from desire_tui.editor.keeper import Keeper
-from desire_tui.editor.pane import EditorPane
-from desire_tui.editor.popup import CompletionPopup
-from desire_tui.engine_thread import EngineThread, ScreenListener
-from desire_tui.line import CommandLine
-from desire_tui.live import Live
-from desire_tui.messages import Checked, EngineFault, EngineMessage
-from desire_tui.news import EngineNews
-from desire_tui.panes.command import CommandPane
-from desire_tui.panes.console import Console
-from desire_tui.panes.graph import GraphPane
-from desire_tui.panes.history import History
-from desire_tui.panes.keynames import key_names
-from desire_tui.panes.problems import ProblemsPane
-from desire_tui.panes.quantities import QuantitiesPane
-from desire_tui.panes.side import SidePane
+from desire_tui.common import alt_keys, config, paths, themes
+from desire_tui.common.messages import Checked, EngineFault, EngineMessage
+from desire_tui.desktop.app_base import Shell
+from desire_tui.desktop.command_line import CommandLine
+from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
+from desire_tui.desktop.frame_pacing import Drawing
+from desire_tui.desktop.live import Live
+from desire_tui.desktop.main_screen import Desk
+from desire_tui.desktop.message_handlers import EngineNews
+from desire_tui.desktop.startup import open_first
+from desire_tui.desktop.tour import Tour
+from desire_tui.editor.checkpoints import Keeper
+from desire_tui.editor.completion_control import Completer
+from desire_tui.editor.completion_popup import CompletionPopup
+from desire_tui.editor.editor_pane import EditorPane
+from desire_tui.editor.live_check import Checker
+from desire_tui.panes.command_history import History
+from desire_tui.panes.command_pane import CommandPane
+from desire_tui.panes.console_view import Console
+from desire_tui.panes.graph_pane import GraphPane
+from desire_tui.panes.key_names import key_names
+from desire_tui.panes.problems_pane import ProblemsPane
+from desire_tui.panes.quantities_pane import QuantitiesPane
+from desire_tui.panes.side_pane import SidePane
 from desire_tui.panes.sliders import Sliders
-from desire_tui.panes.status import StatusBar
-from desire_tui.shell import Shell
-from desire_tui.startup import open_first
-from desire_tui.tour import Tour
+from desire_tui.panes.status_bar import StatusBar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -76,7 +77,7 @@ class DesireApp(Shell):
     ENABLE_COMMAND_PALETTE = True
 
     def __init__(self, files: Sequence[Path] = (), *, permissions: Permissions | None = None) -> None:
-        altkeys.teach()
+        alt_keys.teach()
         super().__init__()
         self.files = [Path(file) for file in files]
         self.settings, self._complaints = config.load()
@@ -102,7 +103,7 @@ class DesireApp(Shell):
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.stylesheet.set_variables(self.get_css_variables())
-        self.desk = Desk(History(places.state_folder() / "history.json"), self.settings.keys)
+        self.desk = Desk(History(paths.state_folder() / "history.json"), self.settings.keys)
 
     # ------------------------------------------------------------------------------------- start and end
 
@@ -162,7 +163,7 @@ class DesireApp(Shell):
         wanted = self.settings.theme
         if wanted in self.available_themes:
             return []
-        return [f"{places.config_file()}: no theme '{wanted}'; there are: {', '.join(self.available_themes)}"]
+        return [f"{paths.config_file()}: no theme '{wanted}'; there are: {', '.join(self.available_themes)}"]
 
     def _ended_from_outside(self) -> None:
         """SIGTERM or a lost connection: keep the work in the recovery file, restore the terminal."""
@@ -187,7 +188,7 @@ class DesireApp(Shell):
     def checkpoint(self) -> None:
         """Write unsaved work to the recovery file, as soon as there can be any."""
         if hasattr(self, "keeper") and not self.keeper.checkpoint():
-            folder = places.state_folder()
+            folder = paths.state_folder()
             self.notify(
                 f"Unsaved work cannot be kept safe: {folder} cannot be written.",
                 severity="warning",

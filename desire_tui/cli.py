@@ -40,7 +40,7 @@ def ide(files: tuple[str, ...]) -> None:
 
 
 def _open_desktop(files: tuple[str, ...]) -> None:
-    from desire_tui.opening import is_possible, open_desktop
+    from desire_tui.desktop.launch import is_possible, open_desktop
 
     if not is_possible():
         raise click.UsageError("the desktop needs a terminal; `desire run FILE` works without one")
@@ -50,7 +50,7 @@ def _open_desktop(files: tuple[str, ...]) -> None:
 def _settings(_: click.Context, __: click.Parameter, values: tuple[str, ...]) -> dict[str, float]:
     if not values:
         return {}
-    from desire_tui.batch.settings import from_texts
+    from desire_tui.batch.set_option import from_texts
 
     try:
         return from_texts(values)
@@ -93,9 +93,9 @@ def run(file: str, **options: Any) -> None:
 
 
 def _run(file: str, **options: Any) -> int:
-    from desire_tui.batch.outputs import Wanted
-    from desire_tui.batch.run import run_file
-    from desire_tui.batch.work import Orders
+    from desire_tui.batch.cli_commands import run_file
+    from desire_tui.batch.output_files import Wanted
+    from desire_tui.batch.runner import Orders
 
     kinds = ("png", "svg", "pdf", "csv", "json", "npz")
     if sum(options[kind] == "-" for kind in kinds) > 1:
@@ -114,7 +114,7 @@ def check(files: tuple[str, ...]) -> None:
     """Report the problems of programs without running them. Exit status: 0 none, 1 errors."""
 
     def work() -> int:
-        from desire_tui.batch.run import check_files
+        from desire_tui.batch.cli_commands import check_files
 
         return check_files(files)
 
@@ -124,8 +124,8 @@ def check(files: tuple[str, ...]) -> None:
 @main.command()
 def config() -> None:
     """Print where the configuration file is, and what it may hold."""
-    from desire_tui.config import defaults_text
-    from desire_tui.places import config_file
+    from desire_tui.common.config import defaults_text
+    from desire_tui.common.paths import config_file
 
     click.echo(f"# {config_file()}")
     click.echo(defaults_text(), nl=False)

@@ -199,7 +199,7 @@ def parse_line(line: str) -> tuple[Command, str] | None:
 
 def keys_table() -> str:
     """Return all actions with their keys and words as a Markdown table."""
-    from desire_tui.panes.keynames import key_names
+    from desire_tui.panes.key_names import key_names
 
     rows = ["| key | action | | command |", "| --- | --- | --- | --- |"]
     for command in COMMANDS:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.commands import BY_ID
 from desire_tui.help import topics
-from desire_tui.help.examples import CHAPTERS, Example, examples
-from desire_tui.panes.keynames import key_names
+from desire_tui.help.example_catalogue import CHAPTERS, Example, examples
+from desire_tui.panes.key_names import key_names
 from tests.programs.coverage import markdown as tested_where
 
 if TYPE_CHECKING:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from desire_tui.actions import Controller
-from desire_tui.dialogs import Line
-from desire_tui.editor.findbar import FindBar
+from desire_tui.common.dialogs import Line
+from desire_tui.editor.find_bar import FindBar
 
 
 class EditActions(Controller):

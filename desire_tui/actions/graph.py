@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
-from desire_tui.dialogs import Line
+from desire_tui.common.dialogs import Line
+from desire_tui.common.paths import full, write_safely
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.places import full, write_safely
 
 if TYPE_CHECKING:
-    from desire_tui.engine.session.charts import Charted
+    from desire_tui.engine.session.quantity_plots import Charted
 
 NOT_CHARTED: dict[Charted, str] = {
     "unknown": "'{name}' has no value: nothing to plot.",
@@ -126,7 +126,7 @@ class GraphActions(Controller):
         if app.graph.page is None:
             app.notify("No graph yet: press F5.", timeout=2)
             return
-        from desire_tui.panes.picture import PictureScreen
+        from desire_tui.panes.picture_view import PictureScreen
 
         if await app.push_screen_wait(PictureScreen(app)):
             await self.snapshot()

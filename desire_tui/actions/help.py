@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from desire_tui import config
 from desire_tui.actions import Controller
+from desire_tui.common import config
+from desire_tui.common.paths import config_file
 from desire_tui.editor.buffer import Buffer
-from desire_tui.places import config_file
 
 
 class HelpActions(Controller):

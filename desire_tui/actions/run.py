@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
-from desire_tui.editor.checking import CHECKED_MAX
+from desire_tui.editor.live_check import CHECKED_MAX
 from desire_tui.engine.session import State
 from desire_tui.engine.source import Source
 

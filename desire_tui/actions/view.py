@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from textual.widgets import Input, TextArea
 
-from desire_tui import themes
 from desire_tui.actions import Controller
+from desire_tui.common import themes
 
 if TYPE_CHECKING:
     from textual.widget import Widget

@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.batch.listener import BatchListener
-from desire_tui.batch.settings import from_mapping
-from desire_tui.batch.work import Orders, Work
+from desire_tui.batch.headless_listener import BatchListener
+from desire_tui.batch.runner import Orders, Work
+from desire_tui.batch.set_option import from_mapping
 from desire_tui.engine.files import read_source
 from desire_tui.engine.source import Source
 

@@ -9,7 +9,7 @@ from textual.message import Message
 from textual.widgets.text_area import Selection
 
 from desire_tui.editor import indent
-from desire_tui.editor.aid import TypingAid
+from desire_tui.editor.completion_hook import TypingAid
 from desire_tui.editor.view import ProgramView
 
 if TYPE_CHECKING:

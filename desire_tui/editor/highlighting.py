@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from textual.document._document import DocumentBase
 
-    from desire_tui.editor.marks import Mark
+    from desire_tui.editor.line_marks import Mark
 
 Range = tuple[int, int | None, str]
 _ENGINE = "desire_tui.engine.session.session"

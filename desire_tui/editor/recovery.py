@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from desire_tui.places import state_folder, write_safely
+from desire_tui.common.paths import state_folder, write_safely
 
 VERSION = 1
 

@@ -1,6 +1,6 @@
 """A view of a program: drawn text over lines that other views may show and change.
 
-TextArea's internals are overridden in few places, named here and in `drawn`: `_set_document` (shared lines,
+TextArea's internals are overridden in few places, named here and in `text_rendering`: `_set_document` (shared lines,
 no wrapping tables), `edit` / `_undo_batch` / `_redo_batch` (other views follow), `move_cursor` /
 `scroll_cursor_visible` (no more movement than it takes), `_refresh_size` (no measuring, no layout at each
 key).
@@ -19,9 +19,9 @@ from textual.widgets.text_area import Selection
 
 from desire_tui.editor import indent
 from desire_tui.editor.document import Lines, follow
-from desire_tui.editor.drawn import DrawnText
-from desire_tui.editor.marks import Marks
-from desire_tui.editor.unwrapped import UnwrappedDocument
+from desire_tui.editor.line_marks import Marks
+from desire_tui.editor.text_rendering import DrawnText
+from desire_tui.editor.unwrapped_lines import UnwrappedDocument
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -1,4 +1,4 @@
-"""The function library: one table that interpreter, analysis, completion and help pages share.
+"""The function library: one table that interpreter, lowering, completion and help pages share.
 
 `LIBRARY[name]` says how a function is called, where it may stand and what it is worth for Python floats
 (language.md 4.1; book, section 4.2.1 and Tables 4.1-4.3). Real values raise Python's own ValueError,

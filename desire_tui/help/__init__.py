@@ -6,7 +6,7 @@ function library, and the error wordings. The help pane, F1, completion and `doc
 
 from __future__ import annotations
 
-from desire_tui.help.search import search
-from desire_tui.help.topics import Kind, Topic, find, topics
+from desire_tui.help.help_search import search
+from desire_tui.help.page_catalogue import Kind, Topic, find, topics
 
 __all__ = ["Kind", "Topic", "find", "search", "topics"]

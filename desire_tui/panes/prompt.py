@@ -8,15 +8,15 @@ from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets import Input
 
-from desire_tui.editor.aid import TypingAid
+from desire_tui.editor.completion_hook import TypingAid
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from textual import events
 
-    from desire_tui.panes.held import HeldLines
-    from desire_tui.panes.history import History
+    from desire_tui.panes.command_history import History
+    from desire_tui.panes.pending_lines import HeldLines
 
 
 class Prompt(Input):

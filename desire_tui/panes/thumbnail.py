@@ -9,7 +9,7 @@ from rich.style import Style
 from textual.strip import Strip
 from textual.widget import Widget
 
-from desire_tui.panes.tiles import NO_COLOR, WHITE_STYLE, curve_style, net_style
+from desire_tui.panes.graph_tiles import NO_COLOR, WHITE_STYLE, curve_style, net_style
 
 if TYPE_CHECKING:
     from desire_tui.engine.graph import Graph
@@ -68,9 +68,9 @@ class Thumbnail(Widget):
             ground = self.rich_style + Style(dim=True)
             blank = [Strip.blank(width, ground)] * (height // 2)
             return [*blank, Strip([Segment(self._message[:width].center(width), ground)], width)]
-        from desire_tui.engine.outputs.canvas import Canvas
-        from desire_tui.engine.outputs.frame import text_frame
-        from desire_tui.engine.outputs.painter import Painter
+        from desire_tui.engine.outputs.braille_canvas import Canvas
+        from desire_tui.engine.outputs.incremental_drawing import Painter
+        from desire_tui.engine.outputs.text_frame import text_frame
 
         white = graph.white or not self.app.current_theme.dark
         ground = WHITE_STYLE if white else self.rich_style

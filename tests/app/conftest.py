@@ -36,7 +36,7 @@ LONG = OSCILLATOR.replace("TMAX = 6", "TMAX = 1E7").replace("NN = 301", "NN = 10
 
 @pytest.fixture(autouse=True, scope="session")
 def collector() -> None:
-    """Leave what has been imported out of garbage collections, as the desktop does (`opening.settle`)."""
+    """Leave what has been imported out of garbage collections, as the desktop does (`launch.settle`)."""
     gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 10, 10)  # a desktop is 50,000 objects that stay until its test ends
@@ -49,7 +49,7 @@ def own_places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("TMUX", "NO_COLOR", "VISUAL", "EDITOR"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("desire_tui.dialogs.GRACE_SECONDS", 0.0)
+    monkeypatch.setattr("desire_tui.common.dialogs.GRACE_SECONDS", 0.0)
     for module in ("app", "pilot"):
         monkeypatch.setattr(f"textual.{module}.wait_for_idle", settled)
 

@@ -96,7 +96,7 @@ async def play(app: DesireApp, pilot: Pilot[None], scene: Scene) -> None:
 
 async def show_examples(app: DesireApp, pilot: Pilot[None], scene: Scene) -> None:
     """Open the browser, type the steps, wait for the picture."""
-    from desire_tui.panes.examples import ExamplesScreen
+    from desire_tui.panes.examples_browser import ExamplesScreen
     from desire_tui.panes.thumbnail import Thumbnail
 
     app.do("file.examples")

@@ -8,13 +8,13 @@ import pytest
 from textual.events import Paste
 
 from desire_tui.app import DesireApp
+from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
 from desire_tui.editor.buffer import free_label
-from desire_tui.engine.runtime.record import RunRecord
+from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.session import State, Status
-from desire_tui.engine_thread import EngineThread, ScreenListener
-from desire_tui.panes.held import HeldLines
-from desire_tui.panes.runtext import bar, run_text
-from desire_tui.panes.status import StatusBar
+from desire_tui.panes.pending_lines import HeldLines
+from desire_tui.panes.run_summary import bar, run_text
+from desire_tui.panes.status_bar import StatusBar
 
 from .conftest import LONG, OSCILLATOR, Desktop, desktop, until
 

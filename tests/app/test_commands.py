@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 from textual.screen import ModalScreen
 
-from desire_tui import altkeys, commands
+from desire_tui import commands
 from desire_tui.commands import BY_ID, COMMANDS, parse_line
+from desire_tui.common import alt_keys
 
 from .conftest import OSCILLATOR, desktop
 
@@ -114,7 +115,7 @@ def test_every_key_with_alt_arrives_from_terminals_without_kittys_protocol():
     """There Alt+0 is Escape and 0, which Textual took for `º`; some never arrived, Alt+Backspace closed the tab."""
     from textual._xterm_parser import XTermParser
 
-    altkeys.teach()
+    alt_keys.teach()
     wanted = {key for command in COMMANDS for key in command.keys.split(",") if key.startswith("alt+")}
     for key in (wanted | {"alt+backspace"}) - {f"alt+{arrow}" for arrow in ARROWS}:
         name = key.removeprefix("alt+")

@@ -8,8 +8,8 @@ import pytest
 from textual.color import Color
 from textual.widgets import Input
 
-from desire_tui import themes
-from desire_tui.dialogs import Choice, Line
+from desire_tui.common import themes
+from desire_tui.common.dialogs import Choice, Line
 
 from .conftest import OSCILLATOR, Desktop, desktop
 

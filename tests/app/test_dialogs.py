@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from desire_tui.dialogs import Choice, Line
+from desire_tui.common.dialogs import Choice, Line
 
 from .conftest import Desktop, desktop
 
@@ -35,14 +35,14 @@ async def test_two_keys_at_once_are_one_answer(program):
 
 async def test_what_is_typed_while_a_question_comes_up_is_no_answer(program, monkeypatch):
     async with desktop(program("x = 1\n")) as desk:
-        monkeypatch.setattr("desire_tui.dialogs.GRACE_SECONDS", 1e6)
+        monkeypatch.setattr("desire_tui.common.dialogs.GRACE_SECONDS", 1e6)
         answers = await ask(desk, Choice("Unsaved work", "?", ("Restore", "Discard"), unasked=True))
         await desk.press("d", "enter", "escape")
         assert answers == []
-        monkeypatch.setattr("desire_tui.dialogs.GRACE_SECONDS", 0.0)
+        monkeypatch.setattr("desire_tui.common.dialogs.GRACE_SECONDS", 0.0)
         await desk.press("d")
         assert answers == ["Discard"]
         answers = await ask(desk, Choice("Asked for", "?", ("Yes", "No")))
-        monkeypatch.setattr("desire_tui.dialogs.GRACE_SECONDS", 1e6)
+        monkeypatch.setattr("desire_tui.common.dialogs.GRACE_SECONDS", 1e6)
         await desk.press("y")
         assert answers == ["Yes"]

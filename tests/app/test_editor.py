@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from textual.events import AppFocus
 
-from desire_tui.actions.file import numbered
-from desire_tui.dialogs import Choice
+from desire_tui.actions.files import numbered
+from desire_tui.common.dialogs import Choice
 from desire_tui.editor import indent
 from desire_tui.editor.completion import offers, prefix_of
 from desire_tui.editor.highlighting import LineHighlights
@@ -304,7 +304,7 @@ async def test_a_read_only_folder_and_a_vanished_file_lose_nothing(program, tmp_
         def refuse(*_: object) -> None:
             raise PermissionError(13, "Permission denied")
 
-        monkeypatch.setattr("desire_tui.actions.disk.write_safely", refuse)
+        monkeypatch.setattr("desire_tui.actions.save_and_reload.write_safely", refuse)
         await desk.press("ctrl+s")
         await desk.until(lambda: "error 106" in desk.output)
         assert area.is_dirty

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from desire_tui.help.examples import Example, examples
-from desire_tui.panes.examples import ExamplesScreen
+from desire_tui.desktop.preview import Previewer
+from desire_tui.help.example_catalogue import Example, examples
+from desire_tui.panes.examples_browser import ExamplesScreen
 from desire_tui.panes.thumbnail import Thumbnail
-from desire_tui.preview import Previewer
 
 from .conftest import desktop
 

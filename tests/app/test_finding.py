@@ -6,8 +6,8 @@ from time import monotonic
 
 import pytest
 
-from desire_tui.editor.findbar import FindBar
-from desire_tui.editor.searching import HITS_MAX, Unsearchable, Wanted
+from desire_tui.editor.find_bar import FindBar
+from desire_tui.editor.text_search import HITS_MAX, Unsearchable, Wanted
 
 from .conftest import desktop
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from textual.widgets import Input, Markdown, OptionList
 
-from desire_tui.panes.help import LinkRow
+from desire_tui.panes.help_pane import LinkRow
 
 from .conftest import OSCILLATOR, desktop
 

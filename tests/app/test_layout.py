@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from desire_tui.arrangement import EVERYTHING, SMALLEST, arrange
-from desire_tui.desk import PANES
-from desire_tui.panes.side import SidePane, SideTabs
+from desire_tui.common.layout_rules import EVERYTHING, SMALLEST, arrange
+from desire_tui.desktop.main_screen import PANES
+from desire_tui.panes.side_pane import SidePane, SideTabs
 
 from .conftest import LONG, OSCILLATOR, Desktop, desktop
 

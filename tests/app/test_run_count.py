@@ -9,7 +9,7 @@ import pytest
 from desire_tui.batch import progress
 from desire_tui.engine.session import Listener, Session
 from desire_tui.engine.source import Source
-from desire_tui.panes.runtext import run_text
+from desire_tui.panes.run_summary import run_text
 
 SEGMENT = "\nDYNAMIC\nd/dt x = -x\ndispt x\n"
 START = "TMAX = 1 | DT = 0.5 | NN = 3\n"

@@ -9,18 +9,18 @@ import sys
 
 import pytest
 
-from desire_tui import config, places, themes
+from desire_tui.common import config, paths, themes
 from desire_tui.editor import recovery
 from desire_tui.editor.recovery import SavedTab
-from desire_tui.panes.history import History
-from desire_tui.panes.keynames import key_names
-from desire_tui.panes.runtext import speed
+from desire_tui.panes.command_history import History
+from desire_tui.panes.key_names import key_names
+from desire_tui.panes.run_summary import speed
 
 from .conftest import OSCILLATOR, desktop
 
 
 def written(text: str) -> tuple[config.Config, list[str]]:
-    path = places.config_file()
+    path = paths.config_file()
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text)
     return config.load()
@@ -39,7 +39,7 @@ def test_a_wrong_configuration_names_file_key_and_nearest_key():
         'them = "light"\nframes_per_second = 500\n[keys]\n"run.strat" = "f9"\n"run.pause" = 3\n'
     )
     assert settings == config.Config()
-    assert all(str(places.config_file()) in sentence for sentence in wrong)
+    assert all(str(paths.config_file()) in sentence for sentence in wrong)
     assert "'them'" in wrong[0]
     assert "did you mean 'theme'?" in wrong[0]
     assert "1 … 60" in wrong[1]
@@ -67,7 +67,7 @@ def dead_pid() -> int:
 
 
 async def test_unsaved_work_of_a_dead_session_is_offered(program):
-    file = places.state_folder() / f"recovery-{dead_pid()}.json"
+    file = paths.state_folder() / f"recovery-{dead_pid()}.json"
     recovery.store(file, [SavedTab(None, "untitled-1", "lost = 1\n", front=True)])
     async with desktop(program("x = 1\n")) as desk:
         await desk.until(lambda: len(desk.app.screen_stack) > 1)
@@ -81,7 +81,7 @@ async def test_unsaved_work_of_a_dead_session_is_offered(program):
 
 
 async def test_recovery_files_of_living_sessions_are_left_alone(program):
-    file = places.state_folder() / f"recovery-{os.getppid()}.json"
+    file = paths.state_folder() / f"recovery-{os.getppid()}.json"
     recovery.store(file, [SavedTab(None, "u", "theirs = 1\n")])
     async with desktop(program("x = 1\n")) as desk:
         await desk.pilot.pause(0.2)
@@ -93,7 +93,7 @@ async def test_recovery_files_of_living_sessions_are_left_alone(program):
     "text", ["{", "[]", json.dumps({"version": 99, "tabs": []}), '{"version": 1, "tabs": [{"x": 1}]}']
 )
 async def test_a_damaged_recovery_file_is_kept_aside(program, text: str):
-    file = places.state_folder() / f"recovery-{dead_pid()}.json"
+    file = paths.state_folder() / f"recovery-{dead_pid()}.json"
     file.parent.mkdir(parents=True)
     file.write_text(text)
     async with desktop(program("x = 1\n")) as desk:

@@ -15,7 +15,7 @@ from desire_tui.editor.completion import around, is_complete, offers, prefix_of
 from .conftest import desktop
 
 if TYPE_CHECKING:
-    from desire_tui.editor.popup import CompletionPopup
+    from desire_tui.editor.completion_popup import CompletionPopup
 
     from .conftest import Desktop
 

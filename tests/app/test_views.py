@@ -11,8 +11,8 @@ from textual.widgets import TextArea
 
 from desire_tui.editor.brackets import partner
 from desire_tui.editor.document import Lines, follow
-from desire_tui.editor.marks import Marks
-from desire_tui.editor.tabstrip import TabStrip
+from desire_tui.editor.line_marks import Marks
+from desire_tui.editor.tab_strip import TabStrip
 
 from .conftest import OSCILLATOR, desktop
 
@@ -358,7 +358,7 @@ def shown(desk) -> list[list[tuple[str, object]]]:
 async def test_what_is_drawn_row_by_row_is_what_a_new_drawing_gives(program, monkeypatch):
     """Only rows that changed are drawn; whatever is done, none may be forgotten."""
     monkeypatch.setattr(
-        "desire_tui.editor.pane.CHECK_AFTER_S", 1e6
+        "desire_tui.editor.editor_pane.CHECK_AFTER_S", 1e6
     )  # nothing comes by itself between two looks
     text = "".join(f"y{n} = sin({n})*(x + 0.5) -- line {n}\n" for n in range(100))
     async with desktop(program(text)) as desk:

@@ -64,7 +64,7 @@ def test_problems_to_stderr_and_status_1(tmp_path):
 
 def test_each_csv_column_stands_once():
     import desire_tui
-    from desire_tui.engine.outputs.tables import write_csv
+    from desire_tui.engine.outputs.data_files import write_csv
 
     text = "NN = 2\ndrun\ndrun b\nDYNAMIC\ny = 2*t\ndispxy t, y, y\nlabel b\nz = 3*t\nDISPXY z, t, y, z\n"
     file = StringIO()
@@ -163,8 +163,8 @@ def test_json_of_problems_has_places(tmp_path):
 
 
 def test_inf_in_a_curve_is_a_string():
+    from desire_tui.engine.outputs.data_files import as_json
     from desire_tui.engine.outputs.results import Result
-    from desire_tui.engine.outputs.tables import as_json
 
     result = Result("0", "p", quantities={"a": float("inf"), "b": float("nan"), "c": -float("inf")})
     assert json.loads(as_json(result))["quantities"] == {"a": "inf", "b": "nan", "c": "-inf"}
@@ -251,7 +251,7 @@ write p[1], p[2], q[1], q[2]
 def test_set_reaches_whatever_the_script_assigns(tmp_path, settings, line, expected):
     """By assignment, declaration, data, MATRIX, a loop, a PROCEDURE's result; overlays share memory."""
     import desire_tui
-    from desire_tui.batch.settings import from_texts
+    from desire_tui.batch.set_option import from_texts
 
     text = ARRAYS.replace("data 1, 2, 3 |", "data 1, 2, 3, 0 |") if "n=4" in settings else ARRAYS
     if "n=4" in settings:
@@ -324,7 +324,7 @@ def test_constants_functions_and_procedures_cannot_be_set(name, code):
 
 @pytest.mark.parametrize("value", ["inf", "nan", "1e999", "1,nan", "1,2;3,-inf"])
 def test_only_numbers_can_be_set(value):
-    from desire_tui.batch.settings import from_texts
+    from desire_tui.batch.set_option import from_texts
 
     with pytest.raises(ValueError, match="a="):
         from_texts([f"a={value}"])
@@ -395,7 +395,9 @@ def test_ctrl_c_ends_with_status_3(tmp_path):
     assert "Traceback" not in err
 
 
-@pytest.mark.parametrize("module", ["click", "numpy", "desire_tui.batch.run", "desire_tui.engine.session"])
+@pytest.mark.parametrize(
+    "module", ["click", "numpy", "desire_tui.batch.cli_commands", "desire_tui.engine.session"]
+)
 @pytest.mark.parametrize("command", ["run", "check"])
 def test_ctrl_c_while_the_program_is_still_loading(decay, command, module):
     """The moment is made certain: loading a module of the way raises what Ctrl-C raises."""

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen import NativeBackend, background, model
+from desire_tui.engine.codegen import NativeBackend
+from desire_tui.engine.codegen.jit import background, native_model
 from desire_tui.engine.reference import ReferenceBackend
-from desire_tui.engine.runtime.memory import Ended, RunMemory
+from desire_tui.engine.runtime.run_memory import Ended, RunMemory
 from desire_tui.engine.session import Session
 from desire_tui.engine.source import Source
 from desire_tui.engine.values import DT, T
@@ -45,12 +46,12 @@ def storage(request, monkeypatch):
     """Which code tests run: as compiled first, well compiled as for large models, or out of registers."""
     monkeypatch.setattr(background.Improver, "add", lambda _self, _work: None)
     if request.param == "arrays":
-        monkeypatch.setattr(model, "SMALL", -1)
+        monkeypatch.setattr(native_model, "SMALL", -1)
     return request.param
 
 
 def memory_for(values, segment, *, t_max, dt, nn, **more):
-    """Return a run's memory and the rows that belong to it, as `runtime.run` sets them up."""
+    """Return a run's memory and the rows that belong to it, as `runtime.simulator` sets them up."""
     rows = np.zeros((nn + 2, 1 + len(segment.columns)))
     counters, lags = np.zeros(8, np.int64), np.zeros(8, np.int64)
     t = values.cells[T]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen.functions import OUTSIDE
+from desire_tui.engine.codegen.ir.functions import OUTSIDE
 from desire_tui.engine.library import LIBRARY
 from tests.codegen.conftest import run
 

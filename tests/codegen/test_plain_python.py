@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from llvmlite import ir
 
-from desire_tui.engine.codegen.compiler import compile_text
-from desire_tui.engine.codegen.plain_python import PlainPython
+from desire_tui.engine.codegen.jit.compiler import compile_text
+from desire_tui.engine.codegen.stiff.plain_python import PlainPython
 
 TEXT = """
 LIMIT = 7

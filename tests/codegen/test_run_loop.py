@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from desire_tui.engine.analysis import lower
 from desire_tui.engine.codegen import NativeBackend
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.runtime.memory import Ended
+from desire_tui.engine.lowering.lowering import lower
+from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse
 from desire_tui.engine.values import ERRMAX, T, Values
@@ -35,7 +35,7 @@ def lorenz(rule, storage="quick"):
 
 @pytest.mark.parametrize("rule", RULES)
 def test_fast_code_gives_the_same_bits_whenever_it_comes(rule, storage):
-    """In `registers` the run even goes over from one storage to another."""
+    """In register storage the run even goes over from one storage to another."""
     found = []
     for when in ("never", "at once", "later"):
         model, segment, values = lorenz(rule)
@@ -55,7 +55,7 @@ def test_fast_code_gives_the_same_bits_whenever_it_comes(rule, storage):
 
 @pytest.mark.parametrize("rule", RULES)
 def test_registers_and_arrays_give_the_same_bits(rule, monkeypatch):
-    from desire_tui.engine.codegen import model as module
+    from desire_tui.engine.codegen.jit import native_model as module
 
     found = []
     for small in (200, -1):
@@ -162,7 +162,7 @@ def test_deadlock_restores_the_step(rule, storage):
 
 
 def test_one_line_edited_compiles_one_piece(monkeypatch):
-    from desire_tui.engine.codegen import store as module
+    from desire_tui.engine.codegen.jit import cache as module
 
     compiled = []
     kept = module.compile_text
@@ -186,8 +186,8 @@ def test_one_line_edited_compiles_one_piece(monkeypatch):
 
 
 def test_vector_code_does_not_grow_with_the_vectors():
-    from desire_tui.engine.analysis.slices import full_pass
-    from desire_tui.engine.codegen.pieces import write
+    from desire_tui.engine.codegen.jit.pass_pieces import write
+    from desire_tui.engine.passes.slices import full_pass
 
     sizes = []
     for n in (16, 1_600_000):

@@ -6,7 +6,7 @@ import numpy as np
 
 from desire_tui.engine.graph import GraphBook
 from desire_tui.engine.lowered import Column, Request, Where
-from desire_tui.engine.runtime.record import RunRecord
+from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.source import Span
 
 PLACE = Where(Span(0, 0))

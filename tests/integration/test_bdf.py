@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from desire_tui.engine.codegen.stiff_library import fast_functions
+from desire_tui.engine.codegen.stiff.fixed_functions import fast_functions
 from desire_tui.engine.integration.bdf import memory, newton, step
 from desire_tui.engine.integration.bdf.memory import Evaluate, Fill, Weigh
 from desire_tui.engine.integration.bdf.solver import OwnSolver

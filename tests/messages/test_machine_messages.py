@@ -7,11 +7,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from desire_tui.engine.analysis import check, expansion
+from desire_tui.engine.check.checker import check
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, render
 from desire_tui.engine.interpreter import Interpreter
-from desire_tui.engine.runtime.faults import fault
-from desire_tui.engine.runtime.memory import Ended
+from desire_tui.engine.lowering import submodels
+from desire_tui.engine.runtime.run_faults import fault
+from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.session import Listener, Permissions, Session
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse
@@ -91,7 +92,7 @@ def test_no_program(command) -> None:
 
 def test_submodels_that_become_too_many_lines(monkeypatch) -> None:
     """Each of 8 submodels invokes the one before twice: 256 lines."""
-    monkeypatch.setattr(expansion, "LINES_MOST", 100)
+    monkeypatch.setattr(submodels, "LINES_MOST", 100)
     text = "SUBMODEL s0(x$)\nx$ = x$ + 1\nend\n" + "".join(
         f"SUBMODEL s{k}(x$)\ninvoke s{k - 1}(x$)\ninvoke s{k - 1}(x$)\nend\n" for k in range(1, 9)
     )
@@ -117,7 +118,7 @@ def test_what_the_stiff_solver_gives_up_with(flag: int, key: str) -> None:
     session.erun(source)
     program = session.program
     assert program is not None
-    from desire_tui.engine.analysis import lower
+    from desire_tui.engine.lowering.lowering import lower
 
     segment = lower(program, None, session.values)
     plan, memory = SimpleNamespace(rule=15, error_max=1e-6), SimpleNamespace(which=flag, suspect=1)

@@ -2,8 +2,8 @@
 
 Drop a file `NAME.txt` into `tests/messages/<stage>/`; no code is needed. The folder says which stage speaks:
 
-    parse   engine.syntax.parse, then engine.analysis.structure (all problems, in the order of their places)
-    check   what `desire check` and the editor show: parse, then engine.analysis.check
+    parse   engine.syntax.parse, then engine.structure (all problems, in the order of their places)
+    check   what `desire check` and the editor show: parse, then engine.check
     run     a fresh Session runs the text as `erun` does; the DesireError that ends it is shown, and before it
             everything that was reported without stopping (warnings)
 
@@ -70,7 +70,7 @@ def by_place(problems: list[Diagnostic]) -> list[Diagnostic]:
 
 
 def messages_of_parse(parts: dict[str, str], source: Source, folder: Path) -> list[Diagnostic]:
-    from desire_tui.engine.analysis.structure import structure
+    from desire_tui.engine.structure.structure import structure
     from desire_tui.engine.syntax import parse
 
     del parts, folder

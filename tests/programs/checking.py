@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.runtime.run_record import RunRecord
     from tests.programs.execution import Outcome
     from tests.programs.expectations import Check, Expectations
 

@@ -14,7 +14,7 @@ from desire_tui.engine.source import Source
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.runtime.run_record import RunRecord
     from tests.programs.expectations import Settings
 
 GO_MOST = 50

@@ -122,11 +122,11 @@ def test_mm_never_drops_the_last_sample():
 
 
 def test_parameters_do_not_compile_again(monkeypatch):
-    from desire_tui.engine import analysis
+    from desire_tui.engine.lowering import lowering
 
     calls = []
-    real = analysis.lower
-    monkeypatch.setattr(analysis, "lower", lambda *a, **k: calls.append(1) or real(*a, **k))
+    real = lowering.lower
+    monkeypatch.setattr(lowering, "lower", lambda *a, **k: calls.append(1) or real(*a, **k))
     session_for(
         "TMAX = 1\nfor k = 1 to 5\na = k | x = 1 | DT = 0.001 * k\ndrunr\nnext\nDYNAMIC\nd/dt x = -a*x\ndispt x\n"
     )

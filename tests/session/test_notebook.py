@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.session import Listener, Permissions, Session, pages
+from desire_tui.engine.session import Listener, Permissions, Session, notebook_markdown
 from desire_tui.engine.source import Source
 
 DECAY = """\
@@ -100,9 +100,13 @@ def test_the_first_version_stands_whole_the_next_as_its_difference(book):
 @settings(max_examples=200, deadline=None)
 def test_every_version_can_be_restored(first, second):
     old, new = "\n".join(["t = 0", *first, "c = 1"]) + "\n", "\n".join(["t = 0", *second, "c = 2"]) + "\n"
-    (whole,) = [t for t in MarkdownIt().parse(pages.program_page("p", 1, old, None)) if t.type == "fence"]
+    (whole,) = [
+        t for t in MarkdownIt().parse(notebook_markdown.program_page("p", 1, old, None)) if t.type == "fence"
+    ]
     assert whole.content.rstrip("\n") == old.rstrip("\n")
-    (change,) = [t for t in MarkdownIt().parse(pages.program_page("p", 2, new, old)) if t.type == "fence"]
+    (change,) = [
+        t for t in MarkdownIt().parse(notebook_markdown.program_page("p", 2, new, old)) if t.type == "fence"
+    ]
     again = patched(old, change.content) if change.info == "diff" else change.content
     assert again.rstrip("\n") == new.rstrip("\n")
 

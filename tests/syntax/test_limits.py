@@ -9,15 +9,15 @@ from time import process_time
 
 import pytest
 
-from desire_tui.engine import kept
-from desire_tui.engine.analysis.structure import structure
+from desire_tui.engine import disk_cache
 from desire_tui.engine.nodes import Data
 from desire_tui.engine.source import Source
+from desire_tui.engine.structure.structure import structure
 from desire_tui.engine.syntax import format_statement, parse
-from desire_tui.engine.syntax import tables as tables_module
+from desire_tui.engine.syntax import lalr_tables as tables_module
 from desire_tui.engine.syntax.parse import forget_lines
 
-WRONG = kept._check(marshal.dumps({"start": 1})) + marshal.dumps({"start": 1})
+WRONG = disk_cache._check(marshal.dumps({"start": 1})) + marshal.dumps({"start": 1})
 """Whole, but not what it should be."""
 
 HOSTILE = {
@@ -90,7 +90,7 @@ def test_tables_survive_a_bad_cache(content, tmp_path, monkeypatch) -> None:
     if content is not None:
         file.parent.mkdir()
         file.write_bytes(content)
-    monkeypatch.setattr(kept, "_path", lambda _: str(file))
+    monkeypatch.setattr(disk_cache, "_path", lambda _: str(file))
     before = tables_module.tables()
     tables_module.tables.cache_clear()
     try:
@@ -104,7 +104,7 @@ def test_tables_survive_a_bad_cache(content, tmp_path, monkeypatch) -> None:
 
 
 def test_tables_without_a_writable_cache(monkeypatch) -> None:
-    monkeypatch.setattr(kept, "_path", lambda _: "/proc/nowhere/grammar.tables")
+    monkeypatch.setattr(disk_cache, "_path", lambda _: "/proc/nowhere/grammar.tables")
     tables_module.tables.cache_clear()
     try:
         assert tables_module.tables().rules

@@ -9,7 +9,7 @@ from time import process_time
 
 import pytest
 
-from desire_tui.engine.chains import chain
+from desire_tui.engine.left_chains import chain
 from desire_tui.engine.nodes import Assign, Binary
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import format_statement, parse

@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from desire_tui.engine import nodes as n
-from desire_tui.engine.analysis.structure import structure
 from desire_tui.engine.diagnostics import render_all
 from desire_tui.engine.source import Source
+from desire_tui.engine.structure.structure import structure
 from desire_tui.engine.syntax import format_program, format_statement, highlight, parse, parse_command
 from desire_tui.engine.syntax.shapes import forget
 from tests.strategies import broken_texts, programs, statements

@@ -10,8 +10,8 @@ from desire_tui.engine import nodes as n
 from desire_tui.engine.diagnostics import render_all
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import parse, parse_command
-from desire_tui.engine.syntax.chunk import CLASSES
-from desire_tui.engine.syntax.tables import tables
+from desire_tui.engine.syntax.lalr_tables import tables
+from desire_tui.engine.syntax.statement_tokens import CLASSES
 from desire_tui.engine.syntax.words import KEYWORDS
 
 

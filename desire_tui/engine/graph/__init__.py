@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from desire_tui.engine.graph.book import GraphBook
+from desire_tui.engine.graph.color_keys import Key
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
-from desire_tui.engine.graph.keys import Key
-from desire_tui.engine.graph.lines import clip_polyline, thin_columns
 from desire_tui.engine.graph.model import Curve, Frame, Graph, Points, ShownArray
+from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.graph.polylines import clip_polyline, thin_columns
 from desire_tui.engine.graph.settings import DisplaySettings
 
 __all__ = [

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from desire_tui.engine.graph.keys import told_apart
+from desire_tui.engine.graph.color_keys import told_apart
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.graph.keys import Key
-    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.graph.color_keys import Key
+    from desire_tui.engine.runtime.run_record import RunRecord
 
     Floats = NDArray[np.float64]
 

@@ -23,7 +23,7 @@ _DATA_OF = {"dense": "SUNDenseMatrix_Data", "band": "SUNBandMatrix_Data", "spars
 
 
 class Memory(Protocol):
-    """What is wanted of `runtime.memory.RunMemory`."""
+    """What is wanted of `runtime.run_memory.RunMemory`."""
 
     error_max: float
     dt_max: float

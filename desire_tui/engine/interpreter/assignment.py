@@ -5,19 +5,19 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter import tree as py
-from desire_tui.engine.interpreter.faults import Fault
-from desire_tui.engine.interpreter.scope import Reference
-from desire_tui.engine.interpreter.translate import literal
-from desire_tui.engine.interpreter.tree import at
+from desire_tui.engine.interpreter import python_ast as py
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.expression_translation import literal
+from desire_tui.engine.interpreter.name_resolution import Reference
+from desire_tui.engine.interpreter.python_ast import at
 from desire_tui.engine.nodes import Assign, Name, Node
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.codes import Operation
-    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.interpreter.code_table import Operation
+    from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes import Expr, Target
 
 

@@ -7,9 +7,9 @@ import time
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.interpreter import tree as py
-from desire_tui.engine.interpreter.faults import Fault
-from desire_tui.engine.interpreter.tree import Typed, at
+from desire_tui.engine.interpreter import python_ast as py
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.python_ast import Typed, at
 from desire_tui.engine.library import LIBRARY, LibraryFunction
 from desire_tui.engine.nodes import Name
 from desire_tui.engine.values import Kind
@@ -17,9 +17,9 @@ from desire_tui.engine.values import Kind
 if TYPE_CHECKING:
     import ast
 
-    from desire_tui.engine.interpreter.builder import Builder
-    from desire_tui.engine.interpreter.functions import Functions
-    from desire_tui.engine.interpreter.translate import Translator
+    from desire_tui.engine.interpreter.compile_python import Builder
+    from desire_tui.engine.interpreter.expression_translation import Translator
+    from desire_tui.engine.interpreter.user_functions import Functions
     from desire_tui.engine.nodes import Call, Expr
     from desire_tui.engine.values import Quantity
 

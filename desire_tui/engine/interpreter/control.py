@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import floor
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter import tree as py
-from desire_tui.engine.interpreter.ahead import ROUNDING
-from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter import python_ast as py
+from desire_tui.engine.interpreter.exception_mapping import Fault
 from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.interpreter.run_count import ROUNDING
 from desire_tui.engine.library import rounded
 from desire_tui.engine.nodes import For, GoTo, If, Name, Until, While
 from desire_tui.engine.values import Kind
@@ -16,8 +16,8 @@ from desire_tui.engine.values import Kind
 if TYPE_CHECKING:
     import ast
 
-    from desire_tui.engine.interpreter.codes import Operation
-    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.interpreter.code_table import Operation
+    from desire_tui.engine.interpreter.statement_context import Site
 
 
 def if_then(site: Site) -> Operation:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.exception_mapping import Fault
 from desire_tui.engine.nodes import Declare, Declared
 from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.codes import Operation
-    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.interpreter.code_table import Operation
+    from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes import DeclaredGroup, Node
 
 _KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}

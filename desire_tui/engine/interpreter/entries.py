@@ -8,7 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.interpreter.faults import Fault, explain
+from desire_tui.engine.interpreter.exception_mapping import Fault, explain
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes import Bare, Placed
 from desire_tui.engine.source import Source, Span
@@ -16,7 +16,7 @@ from desire_tui.engine.source import Source, Span
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.interpreter.statement_context import Site
 
 _SEPARATOR = re.compile(r"[,;\t]")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.interpreter.faults import Fault
-from desire_tui.engine.interpreter.patience import patiently
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.interruptible import patiently
 from desire_tui.engine.nodes import Fft
 
 if TYPE_CHECKING:
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.interpreter.codes import Operation
-    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.interpreter.code_table import Operation
+    from desire_tui.engine.interpreter.statement_context import Site
 
 WORK_PER_ELEMENT = 50
 """What a transform costs, in multiplications, roughly (`patiently`)."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING, NoReturn
 
-from desire_tui.engine.analysis.structure import Structure, script_structure
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.channels import Channels
-from desire_tui.engine.interpreter.codes import Statements
+from desire_tui.engine.interpreter.code_table import Statements
+from desire_tui.engine.interpreter.data_and_input import DataList
 from desire_tui.engine.interpreter.machine import Machine
-from desire_tui.engine.interpreter.reading import DataList
 from desire_tui.engine.interpreter.statements import make
 from desire_tui.engine.source import Source
+from desire_tui.engine.structure.structure import Structure, script_structure
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

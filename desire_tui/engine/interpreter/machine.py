@@ -12,24 +12,24 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.interpreter.ahead import runs_ahead
-from desire_tui.engine.interpreter.builder import Builder
-from desire_tui.engine.interpreter.codes import Code, Codes, Finished, Operation, Statements
-from desire_tui.engine.interpreter.faults import Fault, Origins, explain
-from desire_tui.engine.interpreter.functions import Functions
+from desire_tui.engine.interpreter.code_table import Code, Codes, Finished, Operation, Statements
+from desire_tui.engine.interpreter.compile_python import Builder
+from desire_tui.engine.interpreter.exception_mapping import Fault, Origins, explain
+from desire_tui.engine.interpreter.expression_translation import Translator
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.interpreter.scope import Scope
-from desire_tui.engine.interpreter.translate import Translator
+from desire_tui.engine.interpreter.name_resolution import Scope
+from desire_tui.engine.interpreter.run_count import runs_ahead
+from desire_tui.engine.interpreter.user_functions import Functions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.analysis.structure import Structure
     from desire_tui.engine.interpreter.channels import Channels
+    from desire_tui.engine.interpreter.data_and_input import DataList
     from desire_tui.engine.interpreter.host import Host
-    from desire_tui.engine.interpreter.reading import DataList
     from desire_tui.engine.nodes import Placed, Program
     from desire_tui.engine.source import Source
+    from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
 
 _BURST = 1000

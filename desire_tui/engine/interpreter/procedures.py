@@ -9,18 +9,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.interpreter.faults import Fault
-from desire_tui.engine.interpreter.scope import Meaning, Reference
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.name_resolution import Meaning, Reference
 from desire_tui.engine.nodes import CallProcedure, Element, Name
 from desire_tui.engine.values import SCALAR_SLOTS, Kind, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.analysis.structure import ProcedureText
-    from desire_tui.engine.interpreter.codes import Code, Operation
-    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.interpreter.code_table import Code, Operation
+    from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.structure.structure import ProcedureText
 
 Box = list[int]
 

@@ -6,17 +6,24 @@ from typing import TYPE_CHECKING, get_args
 
 from desire_tui.engine import nodes as n
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.interpreter import algebra, control, devices, procedures, reading, writing
+from desire_tui.engine.interpreter import (
+    control,
+    data_and_input,
+    host_statements,
+    matrix_statements,
+    procedures,
+    writing,
+)
 from desire_tui.engine.interpreter.assignment import assign
 from desire_tui.engine.interpreter.declarations import declare
-from desire_tui.engine.interpreter.faults import Fault
+from desire_tui.engine.interpreter.exception_mapping import Fault
 from desire_tui.engine.interpreter.fourier import fft
-from desire_tui.engine.interpreter.site import Site
+from desire_tui.engine.interpreter.statement_context import Site
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.codes import Code, Operation
+    from desire_tui.engine.interpreter.code_table import Code, Operation
     from desire_tui.engine.interpreter.machine import Machine
 
     Maker = Callable[[Site], Operation]
@@ -35,25 +42,25 @@ _MAKERS: dict[type[n.Statement], Maker] = {
     n.Submodel: control.leave_block,
     n.CallProcedure: procedures.call,
     n.Declare: declare,
-    n.Read: reading.read,
-    n.Restore: reading.restore,
-    n.Input: reading.get_input,
+    n.Read: data_and_input.read,
+    n.Restore: data_and_input.restore,
+    n.Input: data_and_input.get_input,
     n.Write: writing.write,
     n.Note: writing.note,
     n.Dump: writing.dump,
-    n.Connect: devices.connect,
-    n.Disconnect: devices.disconnect,
-    n.Irule: devices.irule,
-    n.Seed: devices.seed,
-    n.Drun: devices.drun,
+    n.Connect: host_statements.connect,
+    n.Disconnect: host_statements.disconnect,
+    n.Irule: host_statements.irule,
+    n.Seed: host_statements.seed,
+    n.Drun: host_statements.drun,
     n.Fft: fft,
-    n.Display: devices.display,
-    n.Plot: devices.plot,
-    n.Show: devices.show,
-    n.MatrixAssign: algebra.matrix,
-    n.VectorAssign: algebra.vector,
-    n.Dot: algebra.dot,
-    n.FileCommand: devices.host_command,
+    n.Display: host_statements.display,
+    n.Plot: host_statements.plot,
+    n.Show: host_statements.show,
+    n.MatrixAssign: matrix_statements.matrix,
+    n.VectorAssign: matrix_statements.vector,
+    n.Dot: matrix_statements.dot,
+    n.FileCommand: host_statements.host_command,
 }
 
 _WORDS: dict[str, Maker] = {
@@ -65,11 +72,11 @@ _WORDS: dict[str, Maker] = {
     "end": control.end_procedure,
     "exit": control.exit_block,
     "STOP": control.stop,
-    "go": devices.go,
-    "reset": devices.reset,
-    "clear": devices.clear,
-    "time": devices.time,
-    "trace": devices.trace,
+    "go": host_statements.go,
+    "reset": host_statements.reset,
+    "clear": host_statements.clear,
+    "time": host_statements.time,
+    "trace": host_statements.trace,
 }
 
 _COMMANDS = [
@@ -110,7 +117,7 @@ def _make_word(site: Site, node: n.Simple) -> Operation:
         raise Fault("not-in-script", node)
     if site.code.is_command and node.word in _SCRIPT_ONLY_WORDS:
         raise Fault("not-a-command", node, word=node.word)
-    return _WORDS.get(node.word, devices.host_command)(site)
+    return _WORDS.get(node.word, host_statements.host_command)(site)
 
 
 def _first_word(node: n.Statement) -> str:

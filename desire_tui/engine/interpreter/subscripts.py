@@ -5,16 +5,16 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter import tree as py
-from desire_tui.engine.interpreter.faults import Fault
-from desire_tui.engine.interpreter.tree import at
+from desire_tui.engine.interpreter import python_ast as py
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.python_ast import at
 from desire_tui.engine.nodes import Number
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     import ast
 
-    from desire_tui.engine.interpreter.translate import Translator
+    from desire_tui.engine.interpreter.expression_translation import Translator
     from desire_tui.engine.nodes import Element, Expr
     from desire_tui.engine.values import Quantity
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter.faults import Fault
-from desire_tui.engine.interpreter.quantities import value_text
-from desire_tui.engine.interpreter.text import (
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.number_text import (
     array_text,
     hexadecimal,
     octal,
@@ -14,14 +13,15 @@ from desire_tui.engine.interpreter.text import (
     raw_text,
     scalar_text,
 )
+from desire_tui.engine.interpreter.quantity_rows import value_text
 from desire_tui.engine.nodes import Dump, Name, Note, Text, Write
 from desire_tui.engine.values import Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from desire_tui.engine.interpreter.codes import Operation
-    from desire_tui.engine.interpreter.site import Site
+    from desire_tui.engine.interpreter.code_table import Operation
+    from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes import WriteItem
     from desire_tui.engine.values import Values
 

@@ -1,6 +1,6 @@
 """A DYNAMIC segment ready for any back end: names are slots, everything is expanded, shapes are checked.
 
-Made by `analysis`, run by `codegen` (native) and `reference` (NumPy). Two back ends that follow the words
+Made by `lowering`, run by `codegen` (native) and `reference` (NumPy). Two back ends that follow the words
 below give the same numbers.
 
 **Expressions** are values over one *extent*: a scalar, n elements of a vector, or rows × cols of a matrix
@@ -10,9 +10,9 @@ anew. Operands are evaluated left to right, which fixes the order of random draw
 are assigned from the last index to the first, each drawing as it comes.
 
 **Statements** run in order. `Guard` holds statements that run only at some passes (language.md 9.1); which
-statements a pass with given flags executes is `analysis.slices`. The states' own slots hold the states of
+statements a pass with given flags executes is `passes.slices`. The states' own slots hold the states of
 the present stage; a `Set` of a state moves it from there on. Derivatives always stand outside of guards:
-under a guard analysis computes them into numbers of its own, and the derivative proper reads those at the
+under a guard lowering computes them into numbers of its own, and the derivative proper reads those at the
 end of the pass, so that a derivative whose guard is shut keeps its last value.
 
 **Loop.** Rule 0 moves t on by COMINT after the last sample too. inf and nan are looked for at communication

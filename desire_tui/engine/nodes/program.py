@@ -38,7 +38,7 @@ class SegmentText:
 
 @dataclass(frozen=True)
 class Program:
-    """A parsed program. `script` is flat: blocks are found by `analysis.structure`.
+    """A parsed program. `script` is flat: blocks are found by `structure.structure`.
 
     A program with `problems` can still be looked at (highlighting, completion), but not run.
     """

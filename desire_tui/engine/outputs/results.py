@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.graph import GraphBook
-    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.values import Values
 
     Floats = NDArray[np.float64]

@@ -20,9 +20,9 @@ from desire_tui.engine.lowered import (
     Table2,
     Vec,
 )  # fmt: skip
-from desire_tui.engine.lowered.reading import operands
-from desire_tui.engine.reference.draws import ElementDraws, Sequence, normal
+from desire_tui.engine.lowered.effects import operands
 from desire_tui.engine.reference.numbers import ARRAYS, scalar_function, whole_power
+from desire_tui.engine.reference.random import ElementDraws, Sequence, normal
 from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered import Get
     from desire_tui.engine.reference.statements import Statements
-    from desire_tui.engine.runtime.memory import RunMemory
+    from desire_tui.engine.runtime.run_memory import RunMemory
 
     Run = Callable[[], None]
 

@@ -1,6 +1,6 @@
 """Whether a JACOBIAN segment holds the derivatives of the model: compared at a few places, before any run.
 
-The model is differentiated exactly (`analysis.differentiate`), so the two matrices may differ only by
+The model is differentiated exactly (`passes.differentiate`), so the two matrices may differ only by
 rounding, wherever the states are. Nothing is integrated.
 """
 
@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
-from desire_tui.engine.analysis.jacobian import checked_array
-from desire_tui.engine.analysis.slices import jacobian_pass
 from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.lowering.jacobian import checked_array
+from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.passes.slices import jacobian_pass
 from desire_tui.engine.reference.statements import Statements
-from desire_tui.engine.runtime.faults import state_name
+from desire_tui.engine.runtime.run_faults import state_name
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:

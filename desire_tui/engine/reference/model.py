@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.analysis.slices import derivative_slice, full_pass, step_slice, tail_pass
+from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
 from desire_tui.engine.reference.statements import Statements
 from desire_tui.engine.reference.states import states_of
 from desire_tui.engine.reference.steps import fixed_step, variable_step
-from desire_tui.engine.runtime.memory import Ended, Phase
+from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.lowered import Segment
     from desire_tui.engine.reference.statements import Run
-    from desire_tui.engine.runtime.memory import RunMemory
+    from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
 TOLERANCE = 1e-9

@@ -21,11 +21,11 @@ from desire_tui.engine.lowered import (
     Terminate,
     TrackHold,
 )  # fmt: skip
-from desire_tui.engine.reference.draws import Sequence
+from desire_tui.engine.reference.array_statements import dot, matrix, vector
 from desire_tui.engine.reference.expressions import Expressions
 from desire_tui.engine.reference.histories import history, sampled
 from desire_tui.engine.reference.learning import learn
-from desire_tui.engine.reference.wholes import dot, matrix, vector
+from desire_tui.engine.reference.random import Sequence
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered import Action, Value
-    from desire_tui.engine.runtime.memory import RunMemory
+    from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
     Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ class Statements:
 
     def compile(self, actions: Iterable[Action]) -> Run:
         """Return a pass as one function."""
-        from desire_tui.engine.reference.source import PassText
+        from desire_tui.engine.reference.python_source import PassText
 
         return PassText(self).function(actions)
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from desire_tui.engine.integration.tableaus import STILL_MOST
 from desire_tui.engine.reference.states import weighted
-from desire_tui.engine.runtime.memory import Ended, Phase
+from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.reference.model import ReferenceModel
-    from desire_tui.engine.runtime.memory import RunMemory
+    from desire_tui.engine.runtime.run_memory import RunMemory
 
 TOLERANCE = 1e-9
 

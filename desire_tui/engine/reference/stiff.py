@@ -8,10 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.analysis.dependence import dependence
-from desire_tui.engine.analysis.differentiate import NotDifferentiable, differentiate
-from desire_tui.engine.analysis.jacobian import checked_array
-from desire_tui.engine.analysis.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.integration import TABLEAUS
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.bdf.solver import OwnSolver
@@ -28,9 +24,13 @@ from desire_tui.engine.integration.problem import (
 )
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import Functions, StiffSystem
+from desire_tui.engine.lowering.jacobian import checked_array
+from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
+from desire_tui.engine.passes.sparsity import dependence
 from desire_tui.engine.reference.model import ReferenceModel
 from desire_tui.engine.reference.statements import Statements
-from desire_tui.engine.runtime.memory import Ended, Phase
+from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.integration.plan import Plan
     from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.runtime.memory import RunMemory
+    from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
     Array = NDArray[np.float64]

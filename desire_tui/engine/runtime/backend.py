@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.runtime.memory import Ended, RunMemory
+    from desire_tui.engine.runtime.run_memory import Ended, RunMemory
     from desire_tui.engine.values import Values
 
 
@@ -14,7 +14,7 @@ class Model(Protocol):
     """A segment made ready for one rule."""
 
     def advance(self, memory: RunMemory) -> Ended:
-        """Run on (see `memory`), from any one thread at a time. Native code frees the interpreter."""
+        """Run on (see `run_memory`), from any one thread at a time. Native code frees the interpreter."""
         ...
 
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.library import LIBRARY, func1
 from desire_tui.engine.lowered import Const, DelayLine, Guard, Load, Op, Set, Table1
-from desire_tui.engine.lowered.reading import walk
-from desire_tui.engine.runtime.faults import actions
+from desire_tui.engine.lowered.effects import walk
 from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP
+from desire_tui.engine.runtime.run_faults import actions
 from desire_tui.engine.values import DT
 
 if TYPE_CHECKING:

@@ -6,20 +6,20 @@ from dataclasses import dataclass, replace
 from math import ceil
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.analysis.slices import full_pass, is_pure
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.lowered import Column, Where
-from desire_tui.engine.runtime.record import RunRecord
+from desire_tui.engine.passes.slices import full_pass, is_pure
+from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.session.differences import needs_steps_of, table
 from desire_tui.engine.source import Span
 from desire_tui.engine.values import DT, ERMAX
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.session.desk import Desk
+    from desire_tui.engine.session.script_host import World
     from desire_tui.engine.session.session import Session
-    from desire_tui.engine.session.world import World
+    from desire_tui.engine.session.workspace import Desk
 
 RULES = (*range(6), *range(7, 17))
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.runtime.run_record import RunRecord
 
 _SAME_TIME = 1e-6
 """Of COMINT: samples so near stand at one time."""

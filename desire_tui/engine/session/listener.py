@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.graph import Graph
     from desire_tui.engine.nodes import Placed, Program
-    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.permissions import PermissionRequest
     from desire_tui.engine.source import Source
 

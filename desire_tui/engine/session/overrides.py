@@ -18,8 +18,8 @@ from desire_tui.engine.nodes import Assign, Element, Name, Number, Placed
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from desire_tui.engine.analysis import Structure
     from desire_tui.engine.nodes import Program, Statement
+    from desire_tui.engine.structure.structure import Structure
 
 _FORM = re.compile(r"\s*([A-Za-z][\w$]*)\s*(?:\[\s*(\d+(?:\s*,\s*\d+)*)\s*\])?\s*", re.ASCII)
 _WORD = re.compile(r"[A-Za-z][\w$]*")
@@ -54,7 +54,7 @@ def overridden(program: Program, structure: Structure, overrides: Mapping[str, f
 
 def problems_of(program: Program, structure: Structure, overrides: Mapping[str, float]) -> list[Diagnostic]:
     """Return errors 409, 55, 73: settings of names that the program does not know or that take no value."""
-    from desire_tui.engine.analysis.declared import Survey
+    from desire_tui.engine.check.declared import Survey
     from desire_tui.engine.syntax.words import KEYWORDS
     from desire_tui.engine.values import SYSTEM_VARIABLES
 

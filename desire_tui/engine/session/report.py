@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from desire_tui.engine.runtime.record import RunRecord
+    from desire_tui.engine.runtime.run_record import RunRecord
 
 WHY = {
     "running": "still going on",

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.runtime.record import RunRecord
-from desire_tui.engine.runtime.run import Simulator
+from desire_tui.engine.runtime.run_record import RunRecord
+from desire_tui.engine.runtime.simulator import Simulator
 from desire_tui.engine.runtime.stash import write_stash
-from desire_tui.engine.session.starting import NUMBERS_MOST, Situation
+from desire_tui.engine.session.checkpoint import NUMBERS_MOST, Situation
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered import Segment
     from desire_tui.engine.nodes import Placed
     from desire_tui.engine.runtime.backend import Model
-    from desire_tui.engine.runtime.control import Control
-    from desire_tui.engine.session.desk import Desk
+    from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.session.listener import Listener
-    from desire_tui.engine.session.lister import Lister
+    from desire_tui.engine.session.type_output import Lister
+    from desire_tui.engine.session.workspace import Desk
     from desire_tui.engine.values import Values
 
 RUNS_BYTES_MAX = 1 << 30

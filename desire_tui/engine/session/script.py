@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter import Interpreter
     from desire_tui.engine.nodes import Placed
-    from desire_tui.engine.runtime.control import Control
-    from desire_tui.engine.session.desk import Desk
+    from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.session.listener import Listener
-    from desire_tui.engine.session.world import World
+    from desire_tui.engine.session.script_host import World
+    from desire_tui.engine.session.workspace import Desk
 
 
 class Script:
@@ -85,7 +85,7 @@ class Script:
             self._desk.command = before
 
     def _clear(self) -> None:
-        from desire_tui.engine.analysis import state_order
+        from desire_tui.engine.check.state_order import state_order
 
         desk, values = self._desk, self._desk.values
         values.clear()
@@ -107,8 +107,8 @@ class Script:
 
     def _ready(self) -> Interpreter:
         if self._interpreter is None:
-            from desire_tui.engine.analysis import structure
             from desire_tui.engine.interpreter import Interpreter
+            from desire_tui.engine.structure.structure import structure
             from desire_tui.engine.syntax import parse
 
             program = self._desk.program or parse(Source("", "<none>"))

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph import GraphBook
-from desire_tui.engine.runtime.control import Control
-from desire_tui.engine.session.checker import Checker
-from desire_tui.engine.session.commands import Commands
-from desire_tui.engine.session.desk import Desk
-from desire_tui.engine.session.journal import Journal
+from desire_tui.engine.runtime.pause_and_stop import Control
 from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.notebook import Journal
 from desire_tui.engine.session.permissions import Permissions
 from desire_tui.engine.session.script import Script
+from desire_tui.engine.session.script_host import World
+from desire_tui.engine.session.session_commands import Commands
+from desire_tui.engine.session.static_check import Checker
 from desire_tui.engine.session.status import State, Status
-from desire_tui.engine.session.world import World
+from desire_tui.engine.session.workspace import Desk
 from desire_tui.engine.source import Source
 from desire_tui.engine.values import DT, SCALE, TMAX, T
 
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.graph import Graph
     from desire_tui.engine.nodes import Placed, Program
-    from desire_tui.engine.runtime.record import RunRecord
-    from desire_tui.engine.session.charts import Charted
+    from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.listener import StoppedAt
+    from desire_tui.engine.session.quantity_plots import Charted
     from desire_tui.engine.values import Values
 
 BackendName = Literal["native", "reference"]
@@ -141,7 +141,7 @@ class Session:
 
         A script that stopped at STOP cannot go on afterwards (error 43), unless the text is the same.
         """
-        from desire_tui.engine.analysis import structure
+        from desire_tui.engine.structure.structure import structure
         from desire_tui.engine.syntax import parse
 
         began = perf_counter()
@@ -264,7 +264,7 @@ class Session:
         """
         if self._desk.program is None or self._desk.structure is None:
             return None
-        from desire_tui.engine.session.glance import glance
+        from desire_tui.engine.session.evaluate_while_running import glance
 
         return glance(text, self._desk.program, self._desk.structure, self.values)
 
@@ -282,7 +282,7 @@ class Session:
         graph = graph or self.graph
         if graph is None:
             raise DesireError(Diagnostic("no-graph"))
-        from desire_tui.engine.outputs.picture import write_picture
+        from desire_tui.engine.outputs.picture_file import write_picture
 
         write_picture(graph, path)
         self._journal.picture(path)
@@ -293,7 +293,7 @@ class Session:
 
         What that run did not record is recorded by making it once more. Belongs to the session's thread.
         """
-        from desire_tui.engine.session.charts import chart
+        from desire_tui.engine.session.quantity_plots import chart
 
         with self._world.working():
             return chart(self, self._world, self._desk, name)
@@ -304,6 +304,6 @@ class Session:
 
 
 def _draw(graph: Graph, path: Path) -> None:
-    from desire_tui.engine.outputs.picture import write_picture
+    from desire_tui.engine.outputs.picture_file import write_picture
 
     write_picture(graph, path)

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
-from desire_tui.engine.chains import OPERATORS
+from desire_tui.engine.left_chains import OPERATORS
 from desire_tui.engine.syntax.build import Builder, Misuse
-from desire_tui.engine.syntax.tables import tables
+from desire_tui.engine.syntax.lalr_tables import tables
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 HEIGHT_MAX = 200
 """Levels of an expression's tree: later passes recurse, twice for each level at worst."""
 PIECE_HEIGHT = 100
-"""Left operands of this height count no more: long chains are computed piece by piece (`engine.chains`)."""
+"""Left operands of this height count no more: long chains are computed piece by piece (`engine.left_chains`)."""
 
 
 class Unexpected(Exception):  # noqa: N818 - not an error of this program

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.chunk import LETTER, NAME, RAW, STRING
+from desire_tui.engine.syntax.statement_tokens import LETTER, NAME, RAW, STRING
 from desire_tui.engine.syntax.words import KEYWORDS, RAW_AFTER
 
 if TYPE_CHECKING:
-    from desire_tui.engine.syntax.chunk import Chunk
+    from desire_tui.engine.syntax.statement_tokens import Chunk
 
 _ASKING = frozenset({"if", "while", "until"})
 _SECOND_WORD = {

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.syntax.chunk import LETTER, MATFUN, NAME, NUMBER, OCTAL, RAW, STRING
 from desire_tui.engine.syntax.parse import numbered, would_spoil
+from desire_tui.engine.syntax.statement_tokens import LETTER, MATFUN, NAME, NUMBER, OCTAL, RAW, STRING
 from desire_tui.engine.syntax.tokens import scan
 
 if TYPE_CHECKING:

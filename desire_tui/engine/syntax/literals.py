@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.chunk import NUMBER, OCTAL, STRING, Fault, shown
+from desire_tui.engine.syntax.statement_tokens import NUMBER, OCTAL, STRING, Fault, shown
 
 if TYPE_CHECKING:
-    from desire_tui.engine.syntax.chunk import Chunk
+    from desire_tui.engine.syntax.statement_tokens import Chunk
 
 _OCTAL = re.compile(r"&[0-7]+\Z|&&[0-9A-Fa-f]+\Z")
 _NUMBER_START = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")

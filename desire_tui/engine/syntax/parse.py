@@ -8,14 +8,14 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.allocation import undisturbed_allocation
 from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.nodes import Bare, Call, Label, Name, Placed, Program, SegmentText, Simple
 from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
-from desire_tui.engine.syntax.chunk import Fault, shown
 from desire_tui.engine.syntax.shapes import statement
+from desire_tui.engine.syntax.statement_tokens import Fault, shown
 from desire_tui.engine.syntax.tokens import scan
 from desire_tui.engine.syntax.words import keyword_like
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from desire_tui.engine.nodes import Statement
-    from desire_tui.engine.syntax.chunk import Chunk
+    from desire_tui.engine.syntax.statement_tokens import Chunk
 
     Item = tuple[Statement | Fault, int]
     Entry = tuple[tuple[Item, ...], bool]
@@ -234,7 +234,7 @@ def _item(chunk: Chunk) -> Statement | Fault:
     try:
         return statement(chunk)
     except Unexpected as problem:
-        from desire_tui.engine.syntax.explain import explain
+        from desire_tui.engine.syntax.error_explanation import explain
 
         return explain(chunk, problem.at, problem.expected)
     except Misuse as problem:

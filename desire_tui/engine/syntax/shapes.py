@@ -11,16 +11,16 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine import nodes
-from desire_tui.engine.chains import OPERATORS, chain
+from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.syntax.automaton import derive
 from desire_tui.engine.syntax.build import NumberToken, Token
-from desire_tui.engine.syntax.chunk import NUMBER, STRING
 from desire_tui.engine.syntax.literals import octal_value
+from desire_tui.engine.syntax.statement_tokens import NUMBER, STRING
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.syntax.chunk import Chunk
+    from desire_tui.engine.syntax.statement_tokens import Chunk
 
     Maker = Callable[[Chunk], nodes.Statement]
 

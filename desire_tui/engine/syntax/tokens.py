@@ -9,9 +9,18 @@ from __future__ import annotations
 
 import re
 
-from desire_tui.engine.syntax.chunk import MATFUN, NAME, NUMBER, OPERAND_END, STRING, Chunk, Fault, Line
 from desire_tui.engine.syntax.heads import add_head
 from desire_tui.engine.syntax.literals import add_odd, too_large
+from desire_tui.engine.syntax.statement_tokens import (
+    MATFUN,
+    NAME,
+    NUMBER,
+    OPERAND_END,
+    STRING,
+    Chunk,
+    Fault,
+    Line,
+)
 from desire_tui.engine.syntax.typography import normalised
 from desire_tui.engine.syntax.words import CLOSERS, OPENERS, SOFT_WORDS, STAND_ALONE
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
-from desire_tui.engine.syntax.build.dynamic import Dynamic
+from desire_tui.engine.syntax.build.children import Kids, Misuse, NumberToken, Token, Value
 from desire_tui.engine.syntax.build.expressions import Expressions
-from desire_tui.engine.syntax.build.pieces import Kids, Misuse, NumberToken, Token, Value
 from desire_tui.engine.syntax.build.script import Script
+from desire_tui.engine.syntax.build.segment import Dynamic
 
 if TYPE_CHECKING:
     from desire_tui.engine import nodes as n

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any, cast
 
 from desire_tui.engine import nodes as n
-from desire_tui.engine.syntax.build.pieces import (
+from desire_tui.engine.syntax.build.children import (
     Kids,
     NumberToken,
     Token,
@@ -15,8 +15,8 @@ from desire_tui.engine.syntax.build.pieces import (
     plain,
     without_separators,
 )
-from desire_tui.engine.syntax.chunk import NUMBER
 from desire_tui.engine.syntax.literals import octal_value
+from desire_tui.engine.syntax.statement_tokens import NUMBER
 
 
 class Expressions:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from desire_tui.engine import nodes as n
-from desire_tui.engine.syntax.build.pieces import (
+from desire_tui.engine.syntax.build.children import (
     CONDITIONS,
     Kids,
     Misuse,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine import nodes as n
-from desire_tui.engine.chains import chain
+from desire_tui.engine.left_chains import chain
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

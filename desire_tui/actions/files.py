@@ -1,0 +1,289 @@
+"""Files and tabs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from desire_tui.actions import Controller
+from desire_tui.actions.save_and_reload import Disk
+from desire_tui.common.dialogs import Choice, Line
+from desire_tui.common.paths import exists, full
+from desire_tui.editor.buffer import Buffer, NotText
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.app import DesireApp
+    from desire_tui.editor.area import CodeArea
+
+SUFFIX = ".src"
+
+
+def numbered(text: str) -> str:
+    """Return a program with line numbers, by tens, as `edit` and `keep+` write it."""
+    from desire_tui.engine.syntax.line_numbers import with_numbers
+
+    return with_numbers(text)
+
+
+class FileActions(Controller):
+    """Part `file` of the command table."""
+
+    def __init__(self, app: DesireApp) -> None:
+        super().__init__(app)
+        self.disk = Disk(app)
+
+    # -------------------------------------------------------------------------------------------- new, open
+
+    async def new(self, argument: str = "") -> None:
+        """Open an empty tab."""
+        del argument
+        area = await self.app.editor.add(Buffer())
+        self.app.bring(area)
+
+    async def clear(self, argument: str = "") -> None:
+        """Clear the program after asking (`new`)."""
+        answer = await self.app.push_screen_wait(
+            Choice("New program", "Clear the program and all quantities?", ("Yes", "No"))
+        )
+        if answer == "Yes":
+            await self.clear_now(argument)
+
+    async def clear_now(self, argument: str = "") -> None:
+        """Clear at once (`NEW`): an empty tab, no names, scale 1, irule 1."""
+        del argument
+        self.app.run_actions.end_now()
+        self.app.engine.submit(self.app.session.new)
+        area = await self.app.editor.add(Buffer())
+        self.app.editor.active = None
+        self.app.editor.show(area, focus=True)
+
+    async def open(self, argument: str = "") -> None:
+        """Open a file, asking which if none is named."""
+        from_prompt = self.app.command.prompt.has_focus
+        path = self._resolve(argument) if argument else await self._pick()
+        if path is not None:
+            await self.open_path(path, focus=not from_prompt)
+
+    async def _pick(self) -> Path | None:
+        from textual_fspicker import FileOpen, Filters
+
+        kinds = Filters(
+            ("Programs", lambda path: path.suffix.casefold() == SUFFIX), ("All files", lambda _: True)
+        )
+        return await self.app.push_screen_wait(FileOpen(self._folder(), filters=kinds))
+
+    async def open_path(self, path: Path, *, focus: bool = True) -> CodeArea | None:
+        """Open a file in a tab, or show the tab that holds it.
+
+        None where it cannot be read; the user is told.
+        """
+        path = full(path)
+        editor = self.app.editor
+        if (known := next((a for a in editor.areas if a.buffer.path == path), None)) is not None:
+            editor.show(known, focus=focus)
+            return known
+        try:
+            buffer = Buffer.from_file(path)
+        except (OSError, NotText) as error:
+            reason = error.strerror if isinstance(error, OSError) else str(error)
+            self.app.complain(f"cannot open {path}: {reason}", code=18 if exists(path) else 38)
+            return None
+        area = await editor.add(buffer)
+        if focus:
+            self.app.bring(area)
+        return area
+
+    def _folder(self) -> Path:
+        path = self.app.editor.front.buffer.path
+        return path.parent if path else Path.cwd()
+
+    def _resolve(self, name: str) -> Path:
+        path = Path(name).expanduser()
+        if not path.suffix and not (self._folder() / path).exists():
+            path = path.with_suffix(SUFFIX)
+        here = self._folder() / path
+        return here if here.exists() or not (Path.cwd() / path).exists() else Path.cwd() / path
+
+    # ------------------------------------------------------------------------------------------------- save
+
+    async def save(self, argument: str = "") -> None:
+        """`keep`: save over the tab's file, or as `argument`."""
+        area = self.app.editor.front
+        await (
+            self.save_area(area, self._resolve(argument))
+            if argument
+            else self.save_area(area, area.buffer.path)
+        )
+
+    async def save_as(self, argument: str = "") -> None:
+        """Save under a name that is asked for."""
+        area = self.app.editor.front
+        await self.save_area(area, self._resolve(argument) if argument else None)
+
+    async def save_numbered(self, argument: str = "") -> None:
+        """`keep+`: save with line numbers; the tab keeps its text."""
+        area = self.app.editor.front
+        path = self._resolve(argument) if argument else area.buffer.path or await self._ask_path(area)
+        if path is not None and await self.disk.may_overwrite(area, path):
+            self.disk.write(path, numbered(area.text))
+
+    async def save_area(self, area: CodeArea, path: Path | None) -> bool:
+        """Save a tab; asks for a name if there is none, and before others' work is overwritten."""
+        path = path or await self._ask_path(area)
+        if path is None or not await self.disk.may_overwrite(area, path):
+            return False
+        text = area.text
+        if not self.disk.write(path, text.replace("\n", "\r\n") if area.buffer.crlf else text):
+            return False
+        area.buffer.saved(full(path), text)
+        self.app.editor.refresh_tabs()
+        self.app.notify(f"Saved {path}", timeout=2, markup=False)
+        return True
+
+    async def _ask_path(self, area: CodeArea) -> Path | None:
+        from textual_fspicker import FileSave
+
+        return await self.app.push_screen_wait(
+            FileSave(self._folder(), default_file=area.buffer.name.removesuffix(SUFFIX) + SUFFIX)
+        )
+
+    # ------------------------------------------------------------------------------------- reload and copies
+
+    async def reload(self, argument: str = "") -> None:
+        """`reload`: the last-saved text of the front tab."""
+        del argument
+        area = self.app.editor.front
+        if area.buffer.path is None:
+            self.app.complain("this tab was never saved: there is nothing to reload", code=18)
+            return
+        if area.is_dirty:
+            sentence = f"Give up the changes in {area.buffer.name}?"
+            if await self.app.push_screen_wait(Choice("Reload", sentence, ("Reload", "Cancel"))) != "Reload":
+                return
+        self.disk.read_again(area)
+
+    async def edit_copy(self, argument: str = "") -> None:
+        """`ed`: a copy of the active program in a new tab."""
+        del argument
+        await self._copy(lambda text: text)
+
+    async def edit_numbered(self, argument: str = "") -> None:
+        """`edit`: the same with line numbers."""
+        del argument
+        await self._copy(numbered)
+
+    async def _copy(self, change: Callable[[str], str]) -> None:
+        origin = self.app.editor.active or self.app.editor.front
+        buffer = Buffer(label=f"{Path(origin.buffer.name).stem}-copy")
+        area = await self.app.editor.add(buffer, change(origin.text))
+        self.app.bring(area)
+
+    # ------------------------------------------------------------------------------------------ tabs, leaving
+
+    async def close(self, argument: str = "") -> None:
+        """Close the front tab; asks where work would go."""
+        del argument
+        area = self.app.editor.front
+        if await self.may_lose(area):
+            await self.app.editor.close_tab(area)
+
+    async def may_lose(self, area: CodeArea) -> bool:
+        """Whether a tab may go: it is saved, or the user saves it now or gives it up."""
+        if not area.is_dirty:
+            return True
+        self.app.editor.show(area)
+        choice = await self.app.push_screen_wait(
+            Choice(
+                "Unsaved work",
+                f"{area.buffer.name} has changes that are not saved.",
+                ("Save", "Discard", "Cancel"),
+            )
+        )
+        return await self.save_area(area, area.buffer.path) if choice == "Save" else choice == "Discard"
+
+    def next(self, argument: str = "") -> None:
+        """Show the next tab."""
+        del argument
+        self.app.editor.step(1)
+
+    def previous(self, argument: str = "") -> None:
+        """Show the tab before."""
+        del argument
+        self.app.editor.step(-1)
+
+    def move_left(self, argument: str = "") -> None:
+        """Move the front tab one place to the left."""
+        del argument
+        self._move(-1)
+
+    def move_right(self, argument: str = "") -> None:
+        """Move the front tab one place to the right."""
+        del argument
+        self._move(1)
+
+    def _move(self, by: int) -> None:
+        editor = self.app.editor
+        editor.move_tab(editor.front, editor.areas.index(editor.front.tab) + by)
+
+    async def split(self, argument: str = "") -> None:
+        """Show two tabs side by side, or one."""
+        del argument
+        await self.app.editor.split()
+
+    async def twice(self, argument: str = "") -> None:
+        """Show the front tab twice, or once."""
+        del argument
+        await self.app.editor.show_twice()
+
+    async def quit(self, argument: str = "") -> None:
+        """Leave; asks about each tab with unsaved work."""
+        del argument
+        for area in list(self.app.editor.areas):
+            if not await self.may_lose(area):
+                return
+        self.app.leave()
+
+    # ----------------------------------------------------------------------------------------------- others
+
+    def external(self, argument: str = "") -> None:
+        """Edit the front tab in $EDITOR."""
+        del argument
+        from desire_tui.editor.external import edit_outside
+
+        edit_outside(self.app, self.app.editor.front)
+
+    async def examples(self, argument: str = "") -> None:
+        """Browse the examples."""
+        del argument
+        from desire_tui.panes.examples_browser import ExamplesScreen
+
+        chosen = await self.app.push_screen_wait(ExamplesScreen())
+        if chosen is None:
+            return
+        await self.open_example(chosen.example.path, chosen.example.text)
+        self.app.command.prompt.focus()
+        if chosen.run:
+            self.app.do("run.start")
+
+    async def open_example(self, path: Path, text: str) -> None:
+        """Open a copy of an example, so that saving it never changes the original.
+
+        An untouched copy that is open already comes to the front.
+        """
+        editor = self.app.editor
+        known = (a for a in editor.areas if a.buffer.name == path.name and a.text == text)
+        if (area := next(known, None)) is not None:
+            editor.show(area)
+            return
+        blank = editor.front.tab if not editor.front.text and editor.front.buffer.path is None else None
+        await editor.add(Buffer(label=path.name, saved_text=text))
+        if blank is not None and blank is not editor.active:
+            await editor.close_tab(blank)
+
+    async def ask_name(self, title: str, value: str) -> str | None:
+        """Ask for a file name."""
+        return await self.app.push_screen_wait(
+            Line(title, value, "relative names start at the program's folder")
+        )

@@ -1,0 +1,147 @@
+"""One program from text to result, on a thread of its own so that Ctrl-C and limits are heard at once."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from math import inf
+from time import monotonic
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.session import Permissions, Session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+    from pathlib import Path
+
+    from desire_tui.batch.headless_listener import BatchListener
+    from desire_tui.engine.outputs.results import Result, StatusWord
+    from desire_tui.engine.session.session import BackendName
+    from desire_tui.engine.source import Source
+
+POLL_SECONDS = 0.1
+ENDING_SECONDS = 2.0
+"""How long a program that was told to end may take."""
+PAGES_MAX = 10_000
+_USER_ENDED = 301
+
+
+@dataclass(frozen=True)
+class Orders:
+    """How to run a program."""
+
+    settings: Mapping[str, float] = field(default_factory=dict)
+    answer_stops: bool = False
+    timeout: float | None = None
+    backend: BackendName = "native"
+    folder: Path | None = None
+    allow_shell: bool = False
+    allow_write: bool = False
+
+
+class Work:
+    """Runs one program. `status`, `problems` and `result()` say what came of it, whatever happened."""
+
+    def __init__(self, source: Source, orders: Orders, listener: BatchListener) -> None:
+        self._source, self._orders, self._listener = source, orders, listener
+        permissions = Permissions(shell=orders.allow_shell, files=orders.allow_write)
+        self.session = Session(
+            listener, backend=orders.backend, folder=orders.folder, permissions=permissions
+        )
+        self.session.graphs.pages_max = PAGES_MAX
+        self.session.override(orders.settings)
+        self.problems: list[Diagnostic] = []
+        self.status: StatusWord = "done"
+        self._crash: BaseException | None = None
+        self._interrupted = threading.Event()
+        self.abandoned = False
+        """The program did not end when told to; its thread still runs."""
+
+    def run(self, watch: Callable[[], None] | None = None) -> None:
+        """Run the program, calling `watch` now and then; Ctrl-C in the main thread ends it."""
+        thread = threading.Thread(target=self._script, name="desire-batch", daemon=True)
+        began = monotonic()
+        limit = inf if self._orders.timeout is None else began + self._orders.timeout
+        with self._interrupts():
+            thread.start()
+            while thread.is_alive():
+                thread.join(POLL_SECONDS)
+                if watch is not None:
+                    watch()
+                if self._interrupted.is_set():
+                    self._end(thread, "stopped-by-user")
+                    break
+                if monotonic() > limit and thread.is_alive():
+                    self._end(thread, "time-limit", seconds=self._orders.timeout)
+                    break
+        if self._crash is not None:
+            raise self._crash
+
+    @contextmanager
+    def _interrupts(self) -> Iterator[None]:
+        """Hear Ctrl-C as a wish, not as an exception in the middle of something."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = signal.signal(signal.SIGINT, lambda *_: self._interrupted.set())
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+    def _end(self, thread: threading.Thread, key: str, **facts: object) -> None:
+        """End the program, again and again until it is heard; one that waits for input is left alone."""
+        deadline = monotonic() + ENDING_SECONDS
+        while thread.is_alive() and monotonic() < deadline and not self._listener.reading.is_set():
+            self.session.end()
+            thread.join(POLL_SECONDS)
+        self.abandoned = thread.is_alive()
+        self.status = "limit"
+        self.problems = [p for p in self.problems if p.code != _USER_ENDED]
+        self.problems.append(Diagnostic(key, facts=facts, source=self._source))
+
+    def _script(self) -> None:
+        session = self.session
+        try:
+            self._look_at_settings()
+            session.erun(self._source)
+            while session.stopped_at is not None and self._orders.answer_stops:
+                session.go()
+            if session.stopped_at is not None:
+                self.status = "stopped"
+        except DesireError as error:
+            self.problems.extend(error.diagnostics)
+            ended = any(d.code == _USER_ENDED for d in error.diagnostics)
+            self.status = "limit" if ended or self.status == "limit" else "failed"
+        except BaseException as error:  # noqa: BLE001 - raised again on the main thread
+            self._crash = error
+
+    def _look_at_settings(self) -> None:
+        """DesireError 409: settings of what the program does not know."""
+        if not self._orders.settings:
+            return
+        from desire_tui.engine.session.overrides import problems_of
+        from desire_tui.engine.structure.structure import structure
+        from desire_tui.engine.syntax import parse
+
+        program = parse(self._source)
+        problems = problems_of(program, structure(program), self._orders.settings)
+        if problems:
+            raise DesireError(*problems)
+
+    def result(self) -> Result:
+        """Return everything the program produced so far."""
+        from desire_tui import __version__
+        from desire_tui.engine.outputs import results
+
+        session = self.session
+        return results.Result(
+            desire=__version__, program=self._source.name, status=self.status,
+            problems=tuple(results.problem_data(p) for p in [*self._listener.warnings, *self.problems]),
+            console=self._listener.console, runs=tuple(results.run_data(r) for r in list(session.runs)),
+            plots=results.plot_points(session.graphs), quantities=results.final_quantities(session.values),
+            timings=results.timings(session.parse_seconds, list(session.runs)),
+        )  # fmt: skip

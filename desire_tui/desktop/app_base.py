@@ -1,0 +1,222 @@
+"""The desktop without its wiring: panes by name, what is shown, what is told to the user."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from textual import events
+from textual.app import App
+
+from desire_tui.common import paths
+from desire_tui.desktop import key_ordering
+from desire_tui.editor.editor_pane import EditorPane
+from desire_tui.engine.session import State
+from desire_tui.panes.command_pane import CommandPane
+from desire_tui.panes.graph_pane import GraphPane
+from desire_tui.panes.help_pane import HelpPane
+from desire_tui.panes.problems_pane import ProblemsPane
+from desire_tui.panes.quantities_pane import QuantitiesPane
+from desire_tui.panes.side_pane import SidePane
+from desire_tui.panes.status_bar import StatusBar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from textual.message import Message
+    from textual.widget import Widget
+    from textual.worker import Worker
+
+    from desire_tui.common.layout_rules import Pane
+    from desire_tui.desktop.engine_thread import EngineThread
+    from desire_tui.desktop.main_screen import Desk
+    from desire_tui.engine.session import Session
+    from desire_tui.panes.side_pane import Side
+
+
+class Shell(App[None]):
+    """What actions and messages use of the app."""
+
+    desk: Desk
+    engine: EngineThread
+    begun: Worker[None] | None = None
+    """The action begun last that takes its time."""
+    complaints = 0
+    """How often the user was told that something of his cannot be done."""
+
+    @property
+    def session(self) -> Session:
+        """The engine; waits for it during the first moments."""
+        return self.engine.session
+
+    async def on_event(self, event: events.Event) -> None:
+        """Deal with an event; keys in the order in which they were typed. Alt with a letter types nothing."""
+        if isinstance(event, events.Key) and event.key.startswith("alt+"):
+            event.character = None
+        if isinstance(event, events.Key) and not event.is_forwarded and not event.is_printable:
+            await key_ordering.carry_out(self, event, super().on_event)
+        else:
+            await super().on_event(event)
+
+    async def _on_message(self, message: Message) -> None:
+        """Deal with a message; while the desktop closes there is nobody to tell, its panes are gone."""
+        if self.is_running or isinstance(message, events.Event):
+            await super()._on_message(message)
+
+    def on_screen(self, act: Callable[..., object], *args: object, **options: object) -> None:
+        """Have the app's thread tell what another thread found out, as long as the desktop is there."""
+        self.call_later(lambda: self.is_running and act(*args, **options))
+
+    # ----------------------------------------------------------------------------------------------- panes
+
+    @property
+    def editor(self) -> EditorPane:
+        """The editor pane."""
+        return self.desk.query_one(EditorPane)
+
+    @property
+    def command(self) -> CommandPane:
+        """The command pane."""
+        return self.desk.query_one(CommandPane)
+
+    @property
+    def graph(self) -> GraphPane:
+        """The graph pane."""
+        return self.desk.query_one(GraphPane)
+
+    @property
+    def quantities(self) -> QuantitiesPane:
+        """The quantities pane."""
+        return self.desk.query_one(QuantitiesPane)
+
+    @property
+    def help_pane(self) -> HelpPane:
+        """The help pane."""
+        return self.desk.query_one(HelpPane)
+
+    # ----------------------------------------------------------------------------------------------- layout
+
+    def open_side(self, name: Side, *, toggle: bool = False) -> None:
+        """Show a page of the side pane and move there; with `toggle`, hide it if the keys are there."""
+        desk = self.desk
+        if toggle and desk.side == name and desk.pane_of(self.focused) == "side":
+            self.close_side()
+            return
+        desk.open_side(name)
+        if name == "quantities":
+            self.quantities.show(self.session.values)
+        elif name == "problems":
+            self.list_problems()
+        if name != "help" and (widget := self.side_focus()) is not None:  # help finds its own place
+            self.bring(widget)
+
+    def close_side(self) -> None:
+        """Hide the side pane."""
+        if self.desk.close_side():
+            self.bring(self.command.prompt)
+
+    def side_focus(self) -> Widget | None:
+        """Return what gets the keys in the side pane, None if it is hidden."""
+        match self.desk.side:
+            case "quantities":
+                return self.quantities.table
+            case "problems":
+                return self.desk.query_one(ProblemsPane)
+            case "help":
+                return self.help_pane.query_one("#help-search")
+        return None
+
+    def bring(self, widget: Widget) -> bool:
+        """Move the keys to a widget; where only one pane is shown, it becomes the widget's."""
+        self.desk.make_way(widget)
+        self.desk.set_focus(widget)  # at once: widget.focus() waits, and keys typed meanwhile would go astray
+        return widget.focusable
+
+    def show_run(self) -> None:
+        """Where the editor fills a small screen, give way to the graph and the command line."""
+        if self.desk.alone is None and not {"graph", "command"} & self.desk.shown:
+            self.bring(self.command.prompt)
+
+    def toggle_maximized(self, pane: Pane | None) -> None:
+        """Show a pane (default: the focused one) alone, or all again."""
+        desk = self.desk
+        if desk.alone is not None:
+            desk.show_alone(None)
+            return
+        desk.show_alone(pane or desk.pane_of(self.focused))
+        if pane == "graph":
+            self.bring(self.graph)
+
+    # --------------------------------------------------------------------------------------------- refresh
+
+    def show_status(self) -> None:
+        """Bring the status bar up to date."""
+        self.desk.query_one(StatusBar).status = self.session.status
+        self.show_hint()
+
+    @property
+    def clipboard_hint(self) -> str:
+        """What stands between OSC 52 and the clipboard."""
+        if os.environ.get("TMUX"):
+            return "In tmux this needs: set -g set-clipboard on"
+        return ""
+
+    # ------------------------------------------------------------------------------------------------ telling
+
+    def complain(self, sentence: str, *, code: int | None) -> None:
+        """Tell the user that something of his cannot be done."""
+        self.complaints += 1
+        text = f"error {code}: {sentence}" if code else sentence
+        self.command.console.add(text, "error" if code else "warning")
+        self.notify(text, severity="error" if code else "warning", markup=False, timeout=6)
+
+    def list_problems(self) -> None:
+        """Bring the problems pane up to date."""
+        self.desk.query_one(SidePane).count_problems(
+            self.desk.query_one(ProblemsPane).show(self.editor.areas)
+        )
+
+    def follow_theme(self) -> None:
+        """Take over the colours of a new theme where they are not CSS's."""
+        self.editor.follow_theme()
+        self.list_problems()
+
+    def snapshot_written(self, path: Path) -> None:
+        """Tell where the picture is."""
+        self.command.console.add(f"{path}", "notice")
+        self.notify(f"Saved {path}", markup=False, timeout=3)
+
+    def samples(self, separator: str) -> str:
+        """Return the last run's samples as a table: t, then every column."""
+        record = self.session.runs[-1]
+        head = separator.join(("t", *(column.name for column in record.columns)))
+        rows = record.rows[: record.count].tolist()
+        return "\n".join((head, *(separator.join(f"{value:.17g}" for value in row) for row in rows))) + "\n"
+
+    def write_up(self, summary: str, details: str) -> None:
+        """Keep a fault of ours in a file and say so; the session goes on."""
+        path = paths.state_folder() / "faults.log"
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("a", encoding="utf-8") as file:
+                file.write(details + "\n")
+            where = f"; details in {path}"
+        except OSError:
+            where = ""
+        self.complain(f"a fault of this program, not of yours: {summary}{where}", code=None)
+
+    def show_hint(self) -> None:
+        """Say in the status row what a paused or waiting program expects."""
+        hints = {
+            State.PAUSED: "Paused · Enter goes on · Space Enter ends",
+            State.ASKING: "The program waits for input · Ctrl+C breaks off",
+            State.STOPPED: "Stopped · F10 or go continues",
+        }
+        self.desk.query_one(StatusBar).hint = hints.get(self.session.status.state, "")
+
+    def send_breakpoints(self) -> None:
+        """Tell the engine the breakpoints of the active program."""
+        area = self.editor.active or self.editor.front
+        rows = (area.marks.row_then(row) for row in area.marks.breakpoints)
+        self.session.set_breakpoints({row + 1 for row in rows if row is not None})

@@ -1,0 +1,96 @@
+"""Keeps the editors' work safe.
+
+Checkpoints while the app runs, the session file at the end, recovery at the start.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from desire_tui.editor import recovery
+from desire_tui.editor.buffer import Buffer, NotText
+from desire_tui.editor.recovery import Leftover, SavedTab
+
+if TYPE_CHECKING:
+    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.editor_pane import EditorPane
+
+
+class Keeper:
+    """One app's recovery file."""
+
+    def __init__(self, editor: EditorPane) -> None:
+        self._editor = editor
+        self._last: list[SavedTab] = []
+        self.failed = False
+
+    def checkpoint(self) -> bool:
+        """Write unsaved work if it changed. Returns False the first time the folder cannot be written."""
+        dirty = [self._saved(area) for area in self._editor.areas if area.is_dirty]
+        if dirty == self._last:
+            return True
+        self._last = dirty
+        if recovery.store(recovery.recovery_file(), dirty):
+            return True
+        first, self.failed = not self.failed, True
+        return not first
+
+    def _saved(self, area: CodeArea, *, text: bool = True) -> SavedTab:
+        buffer = area.buffer
+        row, column = area.cursor_location
+        return SavedTab(
+            str(buffer.path) if buffer.path else None, buffer.label or buffer.name,
+            area.text if text else None,
+            row, column, area is self._editor.front.tab,
+        )  # fmt: skip
+
+    def leave(self) -> None:
+        """End well: remember which files were open, remove the recovery file."""
+        tabs = [self._saved(area, text=False) for area in self._editor.areas if area.buffer.path]
+        recovery.store(recovery.session_file(), tabs)
+        recovery.recovery_file().unlink(missing_ok=True)
+
+    async def adopt(self, leftover: Leftover) -> int:
+        """Open the tabs of a session that ended badly; returns how many."""
+        for tab in leftover.tabs:
+            if tab.text is None:
+                continue
+            buffer = _buffer_of(tab)
+            area = await self._editor.add(buffer, tab.text)
+            area.go_to(tab.row, tab.column)
+        self._last = []
+        self.checkpoint()
+        leftover.file.unlink(missing_ok=True)
+        return len(leftover.tabs)
+
+    async def restore(self) -> bool:
+        """Open the files of the last session; False if there are none."""
+        try:
+            tabs = recovery.read(recovery.session_file())
+        except (OSError, ValueError):
+            return False
+        front: CodeArea | None = None
+        opened = False
+        for tab in tabs:
+            try:
+                buffer = Buffer.from_file(Path(tab.path or ""))
+            except (OSError, NotText):
+                continue
+            area = await self._editor.add(buffer)
+            area.go_to(tab.row, tab.column)
+            front = area if tab.front else front
+            opened = True
+        if front is not None:
+            self._editor.show(front)
+        return opened
+
+
+def _buffer_of(tab: SavedTab) -> Buffer:
+    if tab.path is None:
+        return Buffer(label=tab.label)
+    path = Path(tab.path)
+    try:
+        return Buffer.from_file(path)
+    except (OSError, NotText):
+        return Buffer(path)

@@ -1,0 +1,164 @@
+"""How a program is drawn: Textual's TextArea with the language's colours and marks in the gutter.
+
+Overridden of TextArea: `_build_highlight_map` (colours without tree-sitter), `render_line` and `refresh`
+(gutter marks; only rows that look otherwise than before are drawn), `find_matching_bracket` (near the cursor
+only).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.segment import Segment
+from rich.style import Style
+from textual.cache import LRUCache
+from textual.geometry import Region
+from textual.strip import Strip
+from textual.widgets import TextArea
+
+from desire_tui.editor.brackets import partner
+from desire_tui.editor.highlighting import LineHighlights
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from textual.document._document import Location
+
+    from desire_tui.editor.document import Lines
+    from desire_tui.editor.line_marks import Marks
+
+GUTTER_SIGNS = {
+    "error": ("✖", "error"),
+    "warning": ("▲", "warning"),
+    "break": ("●", "error"),
+    "trace": ("▶", "success"),
+}
+"""Signs, each with the colour of the theme it is drawn in."""
+
+
+ROWS_KEPT = 1024
+"""So many drawn rows are kept: what a key does not change is not drawn again."""
+
+
+class DrawnText(TextArea):
+    """Draws lines with colours and `marks`."""
+
+    document: Lines
+
+    def __init__(self, marks: Marks) -> None:
+        self.marks = marks
+        self._drawn: LRUCache[tuple[object, ...], Strip] = LRUCache(ROWS_KEPT)
+        self._shown: dict[int, tuple[object, ...]] = {}
+        """How each row of the window looked when it was drawn."""
+        self._common: tuple[object, ...] = ()
+        self._is_due = False
+        super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
+        self._coloured = LineHighlights()
+        self._highlights = self._coloured
+
+    def on_mount(self) -> None:
+        """Take the colours of the app's theme."""
+        self.follow_theme()
+
+    def follow_theme(self) -> None:
+        """Take over the colours of the app's current theme."""
+        from desire_tui.common.themes import editor_theme
+
+        theme = editor_theme(self.app.current_theme)
+        self.register_theme(theme)
+        self.theme = theme.name
+
+    def _build_highlight_map(self) -> None:
+        highlights = self._highlights
+        highlights.clear()
+        if isinstance(highlights, LineHighlights):  # TextArea's own constructor comes here before
+            highlights.document = self.document
+            highlights.marks = self.marks.problems
+            highlights.found = self.marks.found
+
+    def refresh(
+        self, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False
+    ) -> Self:
+        """Draw again: the regions, or the rows that no longer look as they are shown."""
+        if regions or layout or recompose or not repaint or not self._shown:
+            return super().refresh(*regions, repaint=repaint, layout=layout, recompose=recompose)
+        if not self._is_due:
+            self._is_due = True
+            self.call_next(self._refresh_rows)  # after all that the key does
+        return self
+
+    def _refresh_rows(self) -> None:
+        self._is_due = False
+        top, width, shown = self.scroll_offset.y, self.size.width, self._shown
+        common = self._common_looks()
+        rows = [y for y in range(self.size.height) if self._looks(top + y, common) != shown.get(y)]
+        if rows:
+            super().refresh(*(Region(0, y, width, 1) for y in rows))
+
+    def render_lines(self, crop: Region) -> list[Strip]:
+        """Draw rows; blank ones before the style sheet was applied (a tab opened as a dialog closes)."""
+        if not self._component_styles:
+            return [Strip.blank(crop.width)] * crop.height
+        common = self._common_looks()
+        if common != self._common:
+            self._common = common
+            if self._theme:
+                self._theme.apply_css(self)
+        return super(TextArea, self).render_lines(crop)
+
+    def render_line(self, y: int) -> Strip:
+        """Draw a row, with its mark in the gutter; rows that look as before are kept."""
+        row = y + self.scroll_offset.y
+        looks = self._shown[y] = self._looks(row, self._common)
+        strip = self._drawn.get(looks)
+        if strip is None:
+            strip = self._drawn[looks] = self._signed(self._render_line(y), self._sign(row))
+        return strip
+
+    def _common_looks(self) -> tuple[object, ...]:
+        """Return what the looks of all rows depend on."""
+        return (
+            self.size.width, max(self.virtual_size.width, self.size.width), self.gutter_width,
+            self.scroll_offset.x, self.theme, self.rich_style, self.has_focus, LineHighlights.are_on(),
+        )  # fmt: skip
+
+    def _looks(self, row: int, common: tuple[object, ...]) -> tuple[object, ...]:
+        """Return all that a row's looks depend on."""
+        if row >= self.document.line_count:
+            return common
+        (top, left), (bottom, right) = sorted(self.selection)
+        selected = None
+        if top <= row <= bottom:
+            selected = (left if row == top else -1, right if row == bottom else -1, top == bottom)
+        cursor = None
+        bracket = self._matching_bracket_location
+        if self.cursor_location[0] == row:
+            cursor = (self._draw_cursor, self.cursor_location, bracket is not None)
+        partner_here = bracket if bracket is not None and bracket[0] == row else None
+        problems = (*self.marks.problems.get(row, ()), *self.marks.found.get(row, ()))
+        return (
+            common, row, self.document.get_line(row), self._coloured.before(row), self._sign(row), problems,
+            selected, cursor, partner_here,
+        )  # fmt: skip
+
+    def _signed(self, strip: Strip, sign: str | None) -> Strip:
+        if sign is None:
+            return strip
+        character, colour = GUTTER_SIGNS[sign]
+        width = self.gutter_width
+        left, right = strip.crop(0, width - 1), strip.crop(width)
+        style = next(iter(left), Segment("")).style or Style()
+        colour = str(getattr(self.app.current_theme, colour))
+        mark = Strip([Segment(character, style + Style(color=colour, bold=True))], 1)
+        return Strip.join([left, mark, right])
+
+    def _sign(self, row: int) -> str | None:
+        if row == self.marks.traced:
+            return "trace"
+        if problems := self.marks.problems.get(row):
+            return "error" if any(mark.style == "error" for mark in problems) else "warning"
+        return "break" if row in self.marks.breakpoints else None
+
+    def find_matching_bracket(self, bracket: str, search_from: Location) -> Location | None:
+        """Return where the partner of a bracket stands, if it stands near it."""
+        return partner(self.document.lines, search_from) if bracket in "([{)]}" and bracket else None

@@ -1,0 +1,53 @@
+"""Every problem of a program that can be told before it runs."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.check.declared import Survey
+from desire_tui.engine.check.unknown import misplaced, unknown_names
+from desire_tui.engine.check.uses import unfit_uses
+from desire_tui.engine.gc_pause import undisturbed_allocation
+from desire_tui.engine.lowering.lowering import functions_of, in_order
+from desire_tui.engine.lowering.segments import lower_segment
+from desire_tui.engine.structure.structure import structure as find_structure
+
+if TYPE_CHECKING:
+    from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.nodes import Program
+
+_WORD = re.compile(r"[A-Za-z][\w$]*")
+
+
+@undisturbed_allocation
+def check(program: Program) -> tuple[Diagnostic, ...]:
+    """Return all problems that can be told before a run, in the order of the text.
+
+    They come from syntax, structure and segments. A name counts as defined if any script statement before the
+    segment's first `drun` could assign it; sizes that the script computes are not checked.
+    """
+    found = find_structure(program)
+    problems = [*program.problems, *found.problems, *misplaced(program, found)]
+    survey = Survey(program, found)
+    functions = functions_of(found)
+    for text in program.segments:
+        scope = survey.scope_for(text)
+        problems.extend(lower_segment(text, scope, program.source, functions, found.submodels)[1])
+    problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
+    problems.extend(unfit_uses(program, found))
+    broken = _names_in_broken_lines(program)
+    return tuple(in_order(p for p in problems if p.code not in _MISSING or p.facts.get("name") not in broken))
+
+
+_MISSING = frozenset({19, 59, 70, 200, 201, 215})
+"""A name is unknown."""
+
+
+def _names_in_broken_lines(program: Program) -> set[str]:
+    """Return the names on lines that could not be parsed; they may be declared there: no second mistake."""
+    source, names = program.source, set[str]()
+    for problem in program.problems:
+        if problem.span is not None:
+            names.update(_WORD.findall(source.line(source.position(problem.span.start).row)))
+    return names

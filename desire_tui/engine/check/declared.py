@@ -1,0 +1,235 @@
+"""What a script declares and assigns, as far as a look at it tells: the names a segment may use.
+
+Loops, branches and jumps are not followed: an assignment that *could* be executed before the segment's first
+`drun` counts. Where the script jumps (`go to`) or stops (`STOP`: commands may follow), every assignment
+counts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from desire_tui.engine import nodes
+from desire_tui.engine.left_chains import chain
+from desire_tui.engine.library import power
+from desire_tui.engine.lowering.scope import SYSTEM_SLOTS, UNKNOWN, StaticScope
+from desire_tui.engine.nodes import Binary, Declare, Name, Number, Unary
+from desire_tui.engine.values import Kind, Quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from desire_tui.engine.nodes import Declared, DeclaredGroup, Expr, Placed, Program, SegmentText
+    from desire_tui.engine.structure.structure import Structure
+
+_KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
+ELEMENTS_MOST = 1 << 40
+
+
+@dataclass
+class _Seen:
+    """Names met so far along the script."""
+
+    scalars: set[str] = field(default_factory=set)
+    quantities: dict[str, Quantity] = field(default_factory=dict)
+
+
+class Survey:
+    """One walk over the script, kept at each segment's first `drun`."""
+
+    def __init__(self, program: Program, structure: Structure) -> None:
+        self._program = program
+        self._next = SYSTEM_SLOTS + (1 << 32)
+        self._constants = _constants(program.script)
+        self._body_lines = {id(p) for s in structure.submodels.values() for p in s.body}
+        self._seen = _Seen()
+        self._before: dict[str | None, set[str]] = {}
+        self._walk(program.script)
+        jumps = any(
+            isinstance(p.node, nodes.GoTo)
+            or (isinstance(p.node, nodes.Simple) and p.node.word in {"STOP", "go"})
+            for p in program.script
+        )
+        if jumps:
+            self._before.clear()
+        self._by_segments = _assigned_in_segments(program, structure)
+
+    @property
+    def array_names(self) -> frozenset[str]:
+        """Every array's name."""
+        return frozenset(name for name, q in self._seen.quantities.items() if q.shape)
+
+    @property
+    def everything(self) -> frozenset[str]:
+        """Every name that some statement of the program assigns or declares."""
+        return frozenset().union(self._seen.scalars, self._seen.quantities, *self._by_segments.values())
+
+    def scope_for(self, text: SegmentText) -> StaticScope:
+        """Return the names that `text` may use. Results of other segments count as the script's."""
+        scalars = set(self._before.get(text.label, self._seen.scalars))
+        for label, assigned in self._by_segments.items():
+            if label != text.label:
+                scalars |= assigned
+        quantities = [
+            Quantity(q.name, q.slot, q.shape, q.kind, q.is_state) for q in self._seen.quantities.values()
+        ]
+        return StaticScope(quantities, scalars, self._constants, self._next)
+
+    # ------------------------------------------------------------------------------------------ the walk
+
+    def _walk(self, script: Iterable[Placed]) -> None:
+        for placed in script:
+            node = placed.node
+            if id(placed) in self._body_lines:
+                continue
+            if isinstance(node, nodes.Drun):
+                self._before.setdefault(node.label, set(self._seen.scalars))
+            elif isinstance(node, Declare):
+                for group in node.groups:
+                    self._declare(node.kind, group)
+            else:
+                self._seen.scalars.update(_assigned_by(node))
+
+    def _declare(self, kind: str, group: DeclaredGroup) -> None:
+        first = self._next
+        for part in group.parts:
+            self._declare_part(kind, part)
+        if group.whole is None:
+            return
+        last = self._next
+        if len(group.parts) == 1 and len(group.parts[0].dimensions) > 1:
+            quantity = self._seen.quantities[group.parts[0].name]
+            size = UNKNOWN if UNKNOWN in quantity.shape else last - first
+        else:
+            sizes = [self._seen.quantities[p.name] for p in group.parts]
+            size = UNKNOWN if any(UNKNOWN in q.shape for q in sizes) else last - first
+        self._seen.quantities[group.whole] = Quantity(
+            group.whole, first, (size,), _KINDS[kind], is_state=kind == "STATE"
+        )
+
+    def _declare_part(self, kind: str, part: Declared) -> None:
+        shape = tuple(self._size(d) for d in part.dimensions)
+        size = 1
+        for n in shape:
+            size *= max(n, 1)
+        if size > ELEMENTS_MOST:
+            shape, size = tuple(UNKNOWN for _ in shape), 1
+        self._seen.quantities[part.name] = Quantity(
+            part.name, self._next, shape, _KINDS[kind], is_state=kind == "STATE"
+        )
+        self._next += size
+        if not shape and kind in {"INTEGER", "COMPLEX"}:
+            self._seen.scalars.add(part.name)
+        if kind == "COMPLEX":
+            self._seen.scalars.add("j")
+
+    def _size(self, node: Expr) -> int:
+        value = _evaluate(node, self._constants)
+        return int(value) if value is not None and 1 <= value < 1e12 else UNKNOWN
+
+
+def _assigned_by(node: nodes.Statement) -> tuple[str, ...]:
+    """Names that a script statement could give a value."""
+    if isinstance(node, nodes.Assign | nodes.Dot):
+        return (node.target.name,)
+    if isinstance(node, nodes.For):
+        return (node.variable.name,)
+    if isinstance(node, nodes.Read | nodes.Input):
+        return tuple(t.name for t in node.targets)
+    if isinstance(node, nodes.CallProcedure):
+        return tuple(r.name for r in node.references if isinstance(r, Name))
+    if isinstance(node, nodes.Procedure):
+        return (*node.values, *node.references)
+    return ()
+
+
+def _assigned_in_segments(program: Program, structure: Structure) -> dict[str | None, set[str]]:
+    bodies: set[str] = set()  # of all submodels: which of them a segment reaches is not looked for
+    for submodel in structure.submodels.values():
+        names: set[str] = set()
+        for placed in submodel.body:
+            names.update(_assigned_in_segment(placed.node))
+        bodies |= names.difference(submodel.dummies)
+    found: dict[str | None, set[str]] = {}
+    for segment in program.segments:
+        names = found.setdefault(segment.label, set())
+        for placed in segment.body:
+            names.update(_assigned_in_segment(placed.node))
+            if isinstance(placed.node, nodes.Bare | nodes.Invoke):
+                names |= bodies
+    return found
+
+
+def _assigned_in_segment(node: nodes.Statement) -> Iterable[str]:
+    """Names that a segment's statement could give a value."""
+    if isinstance(node, nodes.Assign | nodes.Dot | nodes.Derivative | nodes.FunctionTable):
+        return (node.target.name,)
+    if isinstance(node, nodes.Get | nodes.Delay):
+        return (node.variable.name,)
+    if isinstance(node, nodes.TrackHold):
+        return (node.held.name, node.tracked.name)
+    if isinstance(node, nodes.Bare | nodes.Invoke):
+        call = node if isinstance(node, nodes.Invoke) else node.value
+        return [a.name for a in getattr(call, "args", ()) if isinstance(a, Name)]
+    return ()
+
+
+def _constants(script: Iterable[Placed]) -> dict[str, float]:
+    """Scalars that the script assigns exactly once, and from constants: sizes mostly."""
+    values: dict[str, float] = {}
+    often: set[str] = set()
+    for placed in script:
+        node = placed.node
+        names = _assigned_by(node)
+        for name in names:
+            if name in values or name in often:
+                often.add(name)
+                values.pop(name, None)
+                continue
+            value = None
+            if isinstance(node, nodes.Assign) and isinstance(node.target, Name):
+                value = _evaluate(node.value, values)
+            if value is None:
+                often.add(name)
+            else:
+                values[name] = value
+    return values
+
+
+def _evaluate(node: Expr, known: dict[str, float]) -> float | None:
+    if isinstance(node, Number):
+        return node.value
+    if isinstance(node, Name):
+        return known.get(node.name)
+    if isinstance(node, Unary):
+        value = _evaluate(node.operand, known)
+        return None if value is None else -value if node.op == "-" else value
+    if not isinstance(node, Binary):
+        return None
+    first, steps = chain(node) if node.op != "^" else (node.left, [node])
+    result = _evaluate(first, known)
+    for step in steps:
+        right = _evaluate(step.right, known)
+        if result is None or right is None:
+            return None
+        result = _computed(step.op, result, right)
+    return result
+
+
+def _computed(op: str, left: float, right: float) -> float | None:
+    try:
+        match op:
+            case "+":
+                return left + right
+            case "-":
+                return left - right
+            case "*":
+                return left * right
+            case "/":
+                return left / right
+            case "^":
+                return power(left, right)
+    except (ArithmeticError, ValueError):
+        return None
+    return None

@@ -1,0 +1,52 @@
+"""In which order a program's states stand, told from its text: the order of its `d/dt` lines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.check.declared import Survey
+from desire_tui.engine.gc_pause import undisturbed_allocation
+from desire_tui.engine.nodes import Bare, Call, Derivative, Invoke, Name
+from desire_tui.engine.structure.structure import structure as find_structure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from desire_tui.engine.nodes import Placed, Program
+
+
+@undisturbed_allocation
+def state_order(program: Program) -> tuple[str, ...]:
+    """Return the names of the scalar states of all segments in the order of their `d/dt` lines.
+
+    Memory laid out in this order lets the compiled code load neighbouring states together (performance.md).
+    """
+    found = find_structure(program)
+    names: dict[str, None] = {}
+
+    def collect(statements: Iterable[Placed], rename: Mapping[str, str], depth: int) -> None:
+        for statement, _, _ in statements:
+            if isinstance(statement, Derivative):
+                if isinstance(statement.target, Name):
+                    names.setdefault(rename.get(statement.target.name, statement.target.name))
+                continue
+            if isinstance(statement, Invoke):
+                name, args = statement.name, statement.args
+            elif isinstance(statement, Bare) and isinstance(statement.value, Call):
+                name, args = statement.value.name, statement.value.args
+            else:
+                continue
+            submodel = found.submodels.get(name)
+            if submodel is None or depth > 20:
+                continue
+            inner = {
+                dummy: rename.get(argument.name, argument.name)
+                for dummy, argument in zip(submodel.dummies, args, strict=False)
+                if isinstance(argument, Name)
+            }
+            collect(submodel.body, inner, depth + 1)
+
+    for segment in program.segments:
+        collect(segment.body, {}, 0)
+    arrays = Survey(program, found).array_names
+    return tuple(name for name in names if name not in arrays)

@@ -1,0 +1,124 @@
+"""Names that a script uses and nobody ever assigns, declares or defines: most are misspelt.
+
+Only what no statement of the whole program could supply is reported, so a correct program never is.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine import nodes
+from desire_tui.engine.diagnostics import Diagnostic, closest
+from desire_tui.engine.library import LIBRARY
+from desire_tui.engine.nodes import Call, Element, Name, Node
+from desire_tui.engine.values import SYSTEM_VARIABLES
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+    from desire_tui.engine.nodes import Placed, Program, Statement
+    from desire_tui.engine.structure.structure import Structure
+
+_NAMES_ARE_NOT_READ = (
+    nodes.Declare, nodes.Label, nodes.GoTo, nodes.Drun, nodes.Restore, nodes.FileCommand, nodes.Submodel,
+    nodes.Procedure, nodes.Display, nodes.Simple,
+)  # fmt: skip
+_SEGMENT_ONLY = (
+    nodes.Derivative, nodes.VectorDerivative, nodes.Store, nodes.Get, nodes.Delay, nodes.TrackHold,
+    nodes.FunctionTable, nodes.Term, nodes.Sample, nodes.Request, nodes.Learn, nodes.Invoke,
+)  # fmt: skip
+_SEGMENT_WORDS = frozenset({"OUT", "step", "JACOBIAN"})
+_SCRIPT_CONSTANTS = frozenset({"j", "PI"})
+
+
+def unknown_names(
+    program: Program, structure: Structure, assigned: Collection[str], arrays: Collection[str]
+) -> list[Diagnostic]:
+    """Return errors 200 for names of the script that nothing assigns, 19 for elements of what is no array.
+
+    `assigned`: every name that could be, `arrays`: those declared as arrays.
+    """
+    if may_be_stopped(program):
+        return []  # commands may assign anything
+    known = {*assigned, *SYSTEM_VARIABLES, *_SCRIPT_CONSTANTS}
+    functions = {*LIBRARY, *structure.functions, "$In", "$Tr"}
+    in_bodies = {id(p) for s in structure.submodels.values() for p in s.body}
+    subscripted = {*arrays}
+    for procedure in structure.procedures.values():
+        subscripted.update(procedure.node.references, procedure.node.values)
+    problems: list[Diagnostic] = []
+    complained: set[str] = set()
+    for placed in program.script:
+        if id(placed) in in_bodies or isinstance(placed.node, _NAMES_ARE_NOT_READ + _SEGMENT_ONLY):
+            continue
+        for part in parts_read(placed.node):
+            name = part.name
+            if name in complained:
+                continue
+            is_call = isinstance(part, Call)
+            if isinstance(part, Element) and name in known and name not in subscripted:
+                complained.add(name)
+                facts = {"name": name, "close": closest(name, arrays)}
+                problems.append(Diagnostic("not-an-array", placed.span(part), facts, program.source))
+                continue
+            if name in (functions if is_call else known) or (is_call and name in known):
+                continue
+            complained.add(name)
+            problems.append(_problem(program, placed, part, functions if is_call else known))
+    return problems
+
+
+def may_be_stopped(program: Program) -> bool:
+    """Whether a script stops for commands."""
+    return any(isinstance(p.node, nodes.Simple) and p.node.word in {"STOP", "go"} for p in program.script)
+
+
+def misplaced(program: Program, structure: Structure) -> list[Diagnostic]:
+    """Return errors 300: statements of DYNAMIC segments in the script (bodies of submodels may hold them)."""
+    in_bodies = {id(p) for s in structure.submodels.values() for p in s.body}
+    return [
+        Diagnostic("not-in-script", placed.span(), {}, program.source)
+        for placed in program.script
+        if id(placed) not in in_bodies
+        and (
+            isinstance(placed.node, _SEGMENT_ONLY)
+            or (isinstance(placed.node, nodes.Simple) and placed.node.word in _SEGMENT_WORDS)
+        )
+    ]
+
+
+def _problem(
+    program: Program, placed: Placed, part: Name | Element | Call, known: Collection[str]
+) -> Diagnostic:
+    keys = {Call: "undefined-function", Element: "not-an-array"}
+    key = keys.get(part.__class__, "undefined-variable")
+    facts = {"name": part.name, "close": closest(part.name, known)}
+    return Diagnostic(key, placed.span(part), facts, program.source)
+
+
+def parts_read(statement: Statement) -> Iterator[Name | Element | Call]:
+    """Every name, element and call of a statement; FUNCTION bodies without their dummies.
+
+    Targets are among them, which does no harm: they are assigned.
+    """
+    dummies = statement.dummies if isinstance(statement, nodes.Function) else ()
+    rest: list[object] = [statement]
+    while rest:
+        part = rest.pop()
+        if isinstance(part, tuple):
+            rest.extend(reversed(part))
+        elif isinstance(part, Node):
+            if isinstance(part, Name | Element | Call) and part.name not in dummies:
+                yield part
+            rest.extend(getattr(part, field) for field in reversed(_parts(part.__class__)))
+
+
+_PARTS: dict[type, tuple[str, ...]] = {}
+
+
+def _parts(kind: type) -> tuple[str, ...]:
+    known = _PARTS.get(kind)
+    if known is None:
+        slots: tuple[str, ...] = getattr(kind, "__slots__", ())
+        known = _PARTS[kind] = tuple(s for s in slots if s not in {"start", "end", "name"})
+    return known

@@ -1,0 +1,89 @@
+"""Doubles one by one or several abreast: the same instructions over `double` or `<W x double>`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir.text import literal
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.ir.text import Text
+
+
+class Lanes:
+    """Writes elementwise instructions `width` elements wide into a text.
+
+    Every operation is one IEEE 754 operation on each element: no fast-math flag, no contraction, so neither
+    the width nor the optimiser's level changes a bit.
+    """
+
+    __slots__ = ("flags", "integers", "kind", "suffix", "text", "width")
+
+    def __init__(self, text: Text, width: int = 1) -> None:
+        self.text = text
+        self.width = width
+        self.kind = "double" if width == 1 else f"<{width} x double>"
+        self.integers = "i64" if width == 1 else f"<{width} x i64>"
+        self.flags = "i1" if width == 1 else f"<{width} x i1>"
+        self.suffix = "f64" if width == 1 else f"v{width}f64"
+
+    def const(self, value: float) -> str:
+        """Return a number in every lane."""
+        return literal(value) if self.width == 1 else f"splat (double {literal(value)})"
+
+    def whole(self, value: int) -> str:
+        """Return a 64-bit integer in every lane."""
+        return str(value) if self.width == 1 else f"splat (i64 {value})"
+
+    def add(self, a: str, b: str) -> str:
+        """Return a + b."""
+        return self.text.op(f"fadd {self.kind} {a}, {b}")
+
+    def sub(self, a: str, b: str) -> str:
+        """Return a - b."""
+        return self.text.op(f"fsub {self.kind} {a}, {b}")
+
+    def mul(self, a: str, b: str) -> str:
+        """Return a · b."""
+        return self.text.op(f"fmul {self.kind} {a}, {b}")
+
+    def div(self, a: str, b: str) -> str:
+        """Return a / b."""
+        return self.text.op(f"fdiv {self.kind} {a}, {b}")
+
+    def neg(self, a: str) -> str:
+        """Return -a."""
+        return self.text.op(f"fneg {self.kind} {a}")
+
+    def compare(self, relation: str, a: str, b: str) -> str:
+        """Return the flags of `a relation b`; `ogt`, `olt` … are false where an operand is not a number."""
+        return self.text.op(f"fcmp {relation} {self.kind} {a}, {b}")
+
+    def choose(self, flags: str, yes: str, no: str) -> str:
+        """Return yes where the flag is set, else no."""
+        return self.text.op(f"select {self.flags} {flags}, {self.kind} {yes}, {self.kind} {no}")
+
+    def intrinsic(self, name: str, a: str) -> str:
+        """Call an exactly defined function of LLVM's own: sqrt, fabs, round, trunc."""
+        function = f"llvm.{name}.{self.suffix}"
+        self.text.needs.add(f"declare {self.kind} @{function}({self.kind})")
+        return self.text.op(f"call {self.kind} @{function}({self.kind} {a})")
+
+    def outside(self, name: str, *args: str) -> str:
+        """Call a function of the mathematical library, under a name that LLVM does not know.
+
+        LLVM would rewrite `pow(x, 0.5)` and the like at some optimisation levels and not at others.
+        """
+        function = f"desire.{name}.{self.width}"
+        kinds = ", ".join([self.kind] * len(args))
+        self.text.needs.add(f"declare {self.kind} @{function}({kinds}) #1")
+        listed = ", ".join(f"{self.kind} {a}" for a in args)
+        return self.text.op(f"call {self.kind} @{function}({listed})")
+
+    def splat(self, scalar: str) -> str:
+        """Return a scalar value in every lane."""
+        if self.width == 1:
+            return scalar
+        one = self.text.op(f"insertelement {self.kind} poison, double {scalar}, i64 0")
+        zeros = f"<{self.width} x i32> zeroinitializer"
+        return self.text.op(f"shufflevector {self.kind} {one}, {self.kind} poison, {zeros}")

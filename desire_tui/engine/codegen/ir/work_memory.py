@@ -1,0 +1,98 @@
+"""What compiled code knows besides values and memory: where its own work arrays and pieces are."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.runtime.run_memory import RunMemory
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.ir.text import Text
+
+PASSES = ("derivative", "step", "full", "tail")
+"""The pass with its flags folded in: later stages, step starts, communication points, after `term`."""
+
+
+class Context(ctypes.Structure):
+    """One model's tables. A table of pieces is an array of function addresses that ends with 0.
+
+    The addresses in a table may be replaced at any moment by those of faster code that computes the same
+    bits.
+    """
+
+    _fields_ = (
+        ("memory", ctypes.c_uint64),  # the RunMemory of the call under way
+        ("values", ctypes.c_uint64),
+        ("temps", ctypes.c_uint64),  # scratch vectors of the pieces
+        ("term", ctypes.c_int64),  # number of the `term` that fired in the last pass, or -1
+        ("hurry", ctypes.c_int64),  # not 0: come back at the next step, faster code is there
+        ("derivative", ctypes.c_uint64),  # tables of pieces
+        ("step", ctypes.c_uint64),
+        ("full", ctypes.c_uint64),
+        ("tail", ctypes.c_uint64),
+        ("states", ctypes.c_int64),
+        ("state_slots", ctypes.c_uint64),  # int64 slot of each state
+        ("x", ctypes.c_uint64),  # first state, where the states stand in a row
+        ("x0", ctypes.c_uint64),  # states at the step's start
+        ("k1", ctypes.c_uint64),  # derivatives of each stage
+        ("k2", ctypes.c_uint64),
+        ("k3", ctypes.c_uint64),
+        ("k4", ctypes.c_uint64),
+        ("columns", ctypes.c_uint64),  # int64 slot of each sampled column
+        ("column_count", ctypes.c_int64),
+        ("interval", ctypes.c_uint64),  # rules 9 … 16: `stiff.interval` and its structure
+        ("problem", ctypes.c_uint64),
+    )
+
+
+_KINDS = {ctypes.c_double: "double", ctypes.c_int64: "i64", ctypes.c_int32: "i32", ctypes.c_uint64: "ptr"}
+
+
+class Fields:
+    """Reads and writes the fields of a C structure in a text. 64-bit unsigned fields are pointers."""
+
+    __slots__ = ("_base", "_offsets", "_text")
+
+    def __init__(self, text: Text, structure: type[ctypes.Structure], base: str) -> None:
+        self._text = text
+        self._base = base
+        self._offsets = _offsets(structure)
+
+    def at(self, name: str) -> str:
+        """Return the field's address."""
+        offset, _ = self._offsets[name]
+        return self._text.op(f"getelementptr i8, ptr {self._base}, i64 {offset}")
+
+    def load(self, name: str, *, volatile: bool = False) -> str:
+        """Read the field; `volatile`: another thread may have written it."""
+        kind = self._offsets[name][1]
+        return self._text.op(f"load {'volatile ' if volatile else ''}{kind}, ptr {self.at(name)}")
+
+    def store(self, name: str, value: str) -> None:
+        """Write the field."""
+        kind = self._offsets[name][1]
+        self._text.do(f"store {kind} {value}, ptr {self.at(name)}")
+
+
+def _offsets(structure: type[ctypes.Structure]) -> dict[str, tuple[int, str]]:
+    known = _TABLES.get(structure)
+    if known is None:
+        fields = [(entry[0], entry[1]) for entry in structure._fields_]
+        known = _TABLES[structure] = {
+            name: (getattr(structure, name).offset, _KINDS[kind]) for name, kind in fields
+        }
+    return known
+
+
+_TABLES: dict[type[ctypes.Structure], dict[str, tuple[int, str]]] = {}
+
+
+def memory_fields(text: Text, base: str = "%m") -> Fields:
+    """Fields of the run's memory."""
+    return Fields(text, RunMemory, base)
+
+
+def context_fields(text: Text, base: str = "%c") -> Fields:
+    """Fields of the model's context."""
+    return Fields(text, Context, base)

@@ -1,0 +1,79 @@
+"""Keeps compiled code by its text: what was compiled once is not compiled again."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from typing import TYPE_CHECKING, NamedTuple
+
+from desire_tui.engine.codegen.jit.compiler import compile_text, module_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from desire_tui.engine.codegen.jit.compiler import Code
+    from desire_tui.engine.codegen.jit.pass_pieces import Piece
+
+_KEPT_MOST = 2000
+
+
+class Compiled(NamedTuple):
+    """A function's address, and the code that holds it: keep both."""
+
+    address: int
+    code: Code
+
+
+class Store:
+    """Functions by name (which is a digest of the text) and quality."""
+
+    def __init__(self) -> None:
+        self._known: OrderedDict[tuple[str, bool], Compiled] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def find(self, name: str, *, fast: bool) -> Compiled | None:
+        """Return what is there already."""
+        with self._lock:
+            found = self._known.get((name, fast))
+            if found is not None:
+                self._known.move_to_end((name, fast))
+            return found
+
+    def quick(self, pieces: Iterable[Piece]) -> dict[str, Compiled]:
+        """Return all pieces compiled, the best code that is there; what is missing is compiled at level 0."""
+        found: dict[str, Compiled] = {}
+        missing: dict[str, Piece] = {}
+        for piece in pieces:
+            known = self.find(piece.name, fast=True) or self.find(piece.name, fast=False)
+            if known is not None:
+                found[piece.name] = known
+            else:
+                missing[piece.name] = piece
+        if missing:
+            code = compile_text(_module(missing.values()), level=0)
+            for name in missing:
+                found[name] = self._keep(name, Compiled(code.address(name), code), fast=False)
+        return found
+
+    def fast(self, piece: Piece, *, slp: bool = True) -> Compiled:
+        """Return a piece compiled as well as LLVM can; `slp`: neighbours are computed two or more abreast."""
+        known = self.find(piece.name, fast=True)
+        if known is not None:
+            return known
+        code = compile_text(_module([piece]), level=2, slp=slp)
+        return self._keep(piece.name, Compiled(code.address(piece.name), code), fast=True)
+
+    def _keep(self, name: str, compiled: Compiled, *, fast: bool) -> Compiled:
+        with self._lock:
+            self._known[name, fast] = compiled
+            while len(self._known) > _KEPT_MOST:
+                self._known.popitem(last=False)
+        return compiled
+
+
+def _module(pieces: Iterable[Piece]) -> str:
+    listed = list(pieces)
+    needs: set[str] = set()
+    for piece in listed:
+        needs |= piece.needs
+    return module_text([piece.text for piece in listed], needs)

@@ -1,0 +1,85 @@
+"""Cuts a pass into compiled pieces of a few dozen statements.
+
+Code shape matters more than the optimiser's level: one function with 1,401 equations costs LLVM ten times as
+much as fourteen with 100. A piece is kept by its text, so a one-line edit compiles one piece.
+"""
+
+from __future__ import annotations
+
+from hashlib import blake2b
+from typing import TYPE_CHECKING, NamedTuple
+
+from desire_tui.engine.codegen.ir.cells import MemoryCells
+from desire_tui.engine.codegen.ir.text import Text
+from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.scalar.rerolling import Rolled
+from desire_tui.engine.codegen.vector.vectors import Statements
+from desire_tui.engine.lowered import Guard
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from desire_tui.engine.lowered import Action
+
+STATEMENTS_MOST = 64
+_ROLLED_WEIGHT = 8  # a loop and its rest cost about as much to compile
+
+
+class Piece(NamedTuple):
+    """A function `void NAME(ptr values, ptr derivatives, ptr context)`; its name comes from its text.
+
+    `temps`: doubles of scratch memory it wants at `Context.temps`.
+    """
+
+    name: str
+    text: str
+    needs: frozenset[str]
+    temps: int = 0
+
+
+def cut(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]]:
+    """Group statements that stand one after the other; an `if` with its body is never cut."""
+    group: list[Action | Rolled] = []
+    size = 0
+    for action in actions:
+        weight = _weight(action)
+        if group and size + weight > STATEMENTS_MOST:
+            yield group
+            group, size = [], 0
+        group.append(action)
+        size += weight
+    if group:
+        yield group
+
+
+def _weight(action: Action | Rolled) -> int:
+    if isinstance(action, Guard):
+        return 1 + sum(_weight(a) for a in (*action.body, *action.orelse))
+    return _ROLLED_WEIGHT if isinstance(action, Rolled) else 1
+
+
+def write(actions: Sequence[Action | Rolled]) -> Piece:
+    """Write one piece."""
+    text = Text()
+    statements = Statements(text, MemoryCells(text), machine().width)
+    statements.write(actions)
+    body = "\n".join(text.lines)
+    start = ["entry:", *text.allocas]
+    if "ptr %m," in body or "ptr %random" in body:
+        start.append("%m = load ptr, ptr %c")
+    if "ptr %random" in body:
+        start.append(f"%random.at = getelementptr i8, ptr %m, i64 {_RANDOM_OFFSET}")
+        start.append("%random = load ptr, ptr %random.at")
+    whole = "\n".join((*start, body, "ret void"))
+    name = "p" + blake2b(whole.encode(), digest_size=10).hexdigest()
+    function = f"define void @{name}(ptr noalias %v, ptr noalias %dx, ptr noalias %c) #0 {{\n{whole}\n}}"
+    return Piece(name, function, frozenset(text.needs), statements.temps)
+
+
+def _random_offset() -> int:
+    from desire_tui.engine.runtime.run_memory import RunMemory
+
+    return int(RunMemory.random.offset)
+
+
+_RANDOM_OFFSET = _random_offset()

@@ -1,0 +1,174 @@
+"""Storage for models of any size: states and derivatives in arrays, passes as tables of compiled pieces.
+
+Nothing here depends on the model but whether its states stand side by side, so one compiled loop serves all
+models of a rule.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir.counted_loops import elementwise, fetch, loop, put
+from desire_tui.engine.codegen.ir.lanes import Lanes
+from desire_tui.engine.codegen.ir.work_memory import context_fields, memory_fields
+from desire_tui.engine.codegen.jit.pass_functions import call_table
+from desire_tui.engine.codegen.loop.stage_sums import scaled, weighted
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.integration.tableaus import Row
+
+
+class ArrayStorage:
+    """Implements `storage.Storage`. `contiguous`: the states stand side by side in the values."""
+
+    def __init__(self, text: Text, stages: int, width: int, *, contiguous: bool) -> None:
+        self.text = text
+        self.stages = stages
+        self.vector = width if contiguous else 1
+        self.contiguous = contiguous
+        self.lanes = Lanes(text)
+        self.memory = memory_fields(text)
+        self.context = context_fields(text)
+
+    # ------------------------------------------------------------------ coming and going
+
+    def enter(self) -> None:
+        """Name the arrays."""
+        names = {"v": "values", "x": "x", "x0": "x0", "slots": "state_slots", "columns": "columns"}
+        names |= {f"k{stage}": f"k{stage}" for stage in range(1, max(self.stages, 1) + 1)}
+        for name, field in names.items():
+            self.text.do(f"%{name} = load ptr, ptr {self.context.at(field)}")
+        self.text.do(f"%n = load i64, ptr {self.context.at('states')}")
+        self.text.do(f"%column.count = load i64, ptr {self.context.at('column_count')}")
+
+    def leave(self) -> None:
+        """Everything is in memory all the time."""
+
+    def load(self, slot: int) -> str:
+        """Read a scalar."""
+        return self.text.op(f"load double, ptr {self._at(slot)}")
+
+    def store(self, slot: int, value: str) -> None:
+        """Write a scalar."""
+        self.text.do(f"store double {value}, ptr {self._at(slot)}")
+
+    def _at(self, slot: int) -> str:
+        return self.text.op(f"getelementptr double, ptr %v, i64 {slot}")
+
+    # ------------------------------------------------------------------ passes and steps
+
+    def run_pass(self, kind: str, stage: int) -> None:
+        """Call the pieces of a pass one after the other."""
+        call_table(self.text, self.context.load(kind), f"%k{stage}")
+
+    def _states(self, body: Callable[[Lanes, str, str, str], None]) -> None:
+        """Write a loop over the states: `body(lanes, number, base, index)`, the state at base[index]."""
+        if self.contiguous:
+            elementwise(self.text, "%n", self.vector, lambda lanes, i: body(lanes, i, "%x", i))
+            return
+
+        def one(i: str) -> None:
+            at = self.text.op(f"getelementptr i64, ptr %slots, i64 {i}")
+            body(self.lanes, i, "%v", self.text.op(f"load i64, ptr {at}"))
+
+        loop(self.text, "0", "%n", 1, one)
+
+    def save(self) -> None:
+        """Keep the states at a step's start."""
+        self._states(lambda lanes, i, base, at: put(lanes, "%x0", i, fetch(lanes, base, at)))
+
+    def advance(self, row: Row, dt: str, *, last: bool) -> None:  # noqa: ARG002 - as registers
+        """States ← saved states + dt·Σ row·k."""
+        factor = scaled(self.lanes, row, dt)
+
+        def one(lanes: Lanes, i: str, base: str, at: str) -> None:
+            total = weighted(lanes, row, lambda stage: fetch(lanes, f"%k{stage}", i))
+            step = lanes.mul(lanes.splat(factor), total)
+            put(lanes, base, at, lanes.add(fetch(lanes, "%x0", i), step))
+
+        self._states(one)
+
+    def restore(self) -> None:
+        """States ← saved states."""
+        self._states(lambda lanes, i, base, at: put(lanes, base, at, fetch(lanes, "%x0", i)))
+
+    def difference(self, row: Row, dt: str) -> tuple[str, str]:
+        """Largest test difference and its state."""
+        lanes, text = self.lanes, self.text
+        factor = scaled(lanes, row, dt)
+        most, where = text.alloca("double"), text.alloca("i64")
+        text.do(f"store double 0.0, ptr {most}")
+        text.do(f"store i64 0, ptr {where}")
+        checked = text.op(f"add i64 {self.memory.load('checked')}, -1")
+        relative = text.op(f"icmp slt i64 {checked}, 0")
+
+        def one(i: str) -> None:
+            total = weighted(lanes, row, lambda stage: fetch(lanes, f"%k{stage}", i))
+            absolute = lanes.mul(factor, lanes.intrinsic("fabs", total))
+            size = lanes.add(lanes.intrinsic("fabs", fetch(lanes, "%x0", i)), lanes.const(1.0))
+            mine = text.op(f"icmp eq i64 {checked}, {i}")
+            own = lanes.choose(mine, absolute, lanes.const(0.0))
+            value = lanes.choose(relative, lanes.div(absolute, size), own)
+            before = text.op(f"load double, ptr {most}")
+            larger = lanes.compare("ogt", value, before)
+            text.do(f"store double {lanes.choose(larger, value, before)}, ptr {most}")
+            place = text.op(f"load i64, ptr {where}")
+            text.do(f"store i64 {text.op(f'select i1 {larger}, i64 {i}, i64 {place}')}, ptr {where}")
+
+        loop(text, "0", "%n", 1, one)
+        return text.op(f"load double, ptr {most}"), text.op(f"load i64, ptr {where}")
+
+    # ------------------------------------------------------------------ looking
+
+    def wild(self) -> str:
+        """Whether some state is inf or nan: x - x is 0 for every finite x, and so is the sum."""
+        wide, single = Lanes(self.text, self.vector), self.lanes
+        sums = {lanes.width: self.text.alloca(lanes.kind) for lanes in (wide, single)}
+        for lanes in (wide, single):
+            self.text.do(f"store {lanes.kind} zeroinitializer, ptr {sums[lanes.width]}")
+
+        def one(lanes: Lanes, _i: str, base: str, at: str) -> None:
+            x = fetch(lanes, base, at)
+            before = self.text.op(f"load {lanes.kind}, ptr {sums[lanes.width]}")
+            total = lanes.add(before, lanes.sub(x, x))
+            self.text.do(f"store {lanes.kind} {total}, ptr {sums[lanes.width]}")
+
+        self._states(one)
+        total = self.text.op(f"load double, ptr {sums[1]}")
+        if self.vector > 1:
+            parts = self.text.op(f"load {wide.kind}, ptr {sums[self.vector]}")
+            for lane in range(self.vector):
+                total = single.add(total, self.text.op(f"extractelement {wide.kind} {parts}, i64 {lane}"))
+        return single.compare("uno", total, total)
+
+    def width(self) -> str:
+        """Doubles in a row."""
+        return self.text.op("add i64 %column.count, 1")
+
+    def row(self, at: str, t: str) -> str:
+        """Write t and the columns."""
+        text, lanes = self.text, self.lanes
+        text.do(f"store double {t}, ptr {at}")
+        rest = text.op(f"getelementptr double, ptr {at}, i64 1")
+        total = text.alloca("double")
+        text.do(f"store double 0.0, ptr {total}")
+
+        def one(i: str) -> None:
+            slot = text.op(f"load i64, ptr {text.op(f'getelementptr i64, ptr %columns, i64 {i}')}")
+            value = fetch(lanes, "%v", slot)
+            put(lanes, rest, i, value)
+            before = text.op(f"load double, ptr {total}")
+            text.do(f"store double {lanes.add(before, lanes.sub(value, value))}, ptr {total}")
+
+        loop(text, "0", "%column.count", 1, one)
+        all_in_all = text.op(f"load double, ptr {total}")
+        return lanes.compare("uno", all_in_all, all_in_all)
+
+    def keep_first_stage(self) -> None:
+        """k1 stays in its array."""
+
+    def recall_first_stage(self) -> None:
+        """Nothing to do: it is there."""

@@ -1,0 +1,49 @@
+"""The run loops as compiled functions: one for all array models of a rule, one for each small model."""
+
+from __future__ import annotations
+
+import functools
+from hashlib import blake2b
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir.text import Text
+from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.jit.pass_pieces import Piece
+from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
+from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
+from desire_tui.engine.codegen.loop.run_loop import Driver
+from desire_tui.engine.integration import TABLEAUS
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered import Action
+
+
+@functools.cache
+def array_loop(rule: int, *, contiguous: bool) -> Piece:
+    """Write the loop over arrays: the same for all models of a rule."""
+    text = Text()
+    tableau = TABLEAUS.get(rule)
+    stages = tableau.stages if tableau is not None else 1
+    storage = ArrayStorage(text, stages, machine().width, contiguous=contiguous)
+    Driver(text, storage, tableau).write()
+    return named(text)
+
+
+def register_loop(
+    passes: dict[str, tuple[Action, ...]], rule: int, states: list[int], columns: list[int]
+) -> Piece:
+    """Write the loop of a small model, its passes in line."""
+    text = Text()
+    tableau = TABLEAUS.get(rule)
+    stages = tableau.stages if tableau is not None else 1
+    storage = RegisterStorage(text, passes, states, columns, stages)
+    Driver(text, storage, tableau).write()
+    return named(text)
+
+
+def named(text: Text) -> Piece:
+    """Make the loop's body a function, named by its content."""
+    body = text.body()
+    name = "r" + blake2b(body.encode(), digest_size=10).hexdigest()
+    function = f"define i32 @{name}(ptr %m, ptr %c) #0 {{\n{body}\n}}"
+    return Piece(name, function, frozenset(text.needs))

@@ -1,0 +1,65 @@
+"""Steps of constant length (all rules but 4, 7 and 8; language.md 11)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.runtime.run_memory import Ended, Phase
+from desire_tui.engine.values import DT, T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.loop.run_loop import Driver
+    from desire_tui.engine.integration.tableaus import Tableau
+
+TOLERANCE = 1e-9
+"""Relative to DT: a step end this little before a communication point is at it."""
+
+
+class FixedStep:
+    """Writes a step of DT; where the rule lets the program set DT, a new DT begins a new count of steps."""
+
+    def __init__(self, driver: Driver, tableau: Tableau) -> None:
+        self.driver = driver
+        self.tableau = tableau
+
+    def write(self) -> None:
+        """Write everything from the saved states to the next pass."""
+        driver, tableau, storage = self.driver, self.tableau, self.driver.storage
+        if tableau.dt_may_change:
+            self._follow_step()
+        else:
+            driver.put("h", driver.get("dt_base"))
+        dt = driver.get("h")
+        for stage in range(1, tableau.stages):
+            storage.advance(tableau.a[stage], dt, last=False)
+            storage.store(T, driver.counted_time(float(tableau.c[stage]), dt))
+            driver.run_pass("derivative", stage + 1)
+        storage.advance(tableau.b, dt, last=True)
+        storage.store(T, driver.counted_time(1.0, dt))
+        driver.count("k")
+        driver.count("steps")
+        driver.arrived(self._reached())
+
+    def _reached(self) -> str:
+        lanes = self.driver.lanes
+        slack = lanes.mul(lanes.const(TOLERANCE), self.driver.get("h"))
+        limit = lanes.sub(self.driver.get("t_next"), slack)
+        return lanes.compare("oge", self.driver.storage.load(T), limit)
+
+    def _follow_step(self) -> None:
+        """H ← DT; a changed DT begins a new count of steps."""
+        driver, text = self.driver, self.driver.text
+        dt = driver.storage.load(DT)
+        text.branch(driver.lanes.compare("une", dt, driver.get("dt_base")), "step.changed", "step.same")
+        text.begin("step.changed")
+        forward = driver.lanes.compare("ogt", dt, driver.lanes.const(0.0))
+        text.branch(forward, "step.forward", "stalled")
+        text.begin("stalled")
+        driver.leave(Ended.STALLED, Phase.ENDED)
+        text.begin("step.forward")
+        driver.put("t_base", driver.storage.load(T))
+        driver.put("k", "0")
+        driver.put("dt_base", dt)
+        text.jump("step.same")
+        text.begin("step.same")
+        driver.put("h", dt)

@@ -1,0 +1,198 @@
+"""The run loop of language.md 8.2 as one function; what depends on rule or storage is asked from parts.
+
+The loop, in blocks:
+
+    point  ── full pass, sample, end? ──► step          (`again`, `point`: the phases a call may begin with)
+    again  ── step pass; `term`? ──► step
+    step   ── the rule: stages, new states, t ──► attend where something is to be looked at, else again
+    attend ── stop flag, inf and nan ──► point or again
+
+Times are t_base + k·dt_base while DT does not change. A fixed step that ends at t ≥ t_start + point·COMINT -
+1e-9·DT has reached the next point.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE, FixedStep
+from desire_tui.engine.codegen.loop.frame import LoopFrame
+from desire_tui.engine.codegen.loop.variable_steps import VariableStep
+from desire_tui.engine.runtime.run_memory import Ended, Phase
+from desire_tui.engine.values import DT, T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.loop.storage import Storage
+    from desire_tui.engine.integration.tableaus import Tableau
+
+_CHECK_EVERY = 1024
+"""Steps between two looks for inf and nan inside a communication interval; a power of 2."""
+
+
+class Driver(LoopFrame):
+    """Writes the function `i32 @run(ptr memory, ptr context)`; `tableau` None: rule 0, no steps."""
+
+    def __init__(self, text: Text, storage: Storage, tableau: Tableau | None) -> None:
+        super().__init__(text, storage)
+        self.tableau = tableau
+
+    def write(self) -> None:
+        """Write the whole body."""
+        text = self.text
+        self.enter()
+        self._next_point()
+        text.branch(self._rows_full(), "full", "enter")
+        text.begin("enter")
+        text.do(
+            f"switch i32 {self.get('phase')}, label %over [ i32 {int(Phase.AT_POINT)}, label %point"
+            f" i32 {int(Phase.IN_STEP)}, label %again i32 {int(Phase.AFTER_POINT)}, label %recall ]"
+        )
+        text.begin("full")
+        self.leave(Ended.RUNNING)
+        text.begin("over")
+        self.leave(Ended.TMAX)
+        text.begin("recall")
+        self.storage.recall_first_stage()
+        text.jump("step")
+        self._point()
+        if self.tableau is None:
+            text.begin("again")
+            text.jump("point")
+            self._next_without_rule()
+        else:
+            self._again()
+            self._step(self.tableau)
+        self._attend()
+        self.exit()
+
+    # ------------------------------------------------------------------ small things
+
+    def _next_point(self) -> None:
+        """t_next ← t_start + point·COMINT."""
+        index = self.text.op(f"sitofp i64 {self.memory.load('point')} to double")
+        span = self.lanes.mul(index, self.memory.load("comint"))
+        self.put("t_next", self.lanes.add(self.memory.load("t_start"), span))
+
+    def _rows_full(self) -> str:
+        return self.text.op(f"icmp sge i64 {self.memory.load('row')}, {self.memory.load('row_limit')}")
+
+    def _clear_term(self) -> None:
+        self.context.store("term", "-1")
+
+    def _fired(self) -> str:
+        return self.text.op(f"icmp sge i64 {self.context.load('term')}, 0")
+
+    # ------------------------------------------------------------------ a communication point
+
+    def _point(self) -> None:
+        text = self.text
+        text.begin("point")
+        self._clear_term()
+        self.run_pass("full", 1)
+        index = self.memory.load("point")
+        self.memory.store("point", text.op(f"add i64 {index}, 1"))
+        last = text.op(f"or i1 {self._fired()}, {self._at_end(index)}")
+        self.put("last", last)
+        beyond = text.op(f"srem i64 {index}, {self.memory.load('every')}")
+        due = text.op(f"icmp eq i64 {beyond}, 0")
+        text.branch(text.op(f"or i1 {last}, {due}"), "sample", "sampled")
+        self._sample()
+        text.begin("sampled")
+        self._next_point()
+        if self.tableau is None:  # rule 0 goes on to the next point even after the last sample
+            self.storage.store(T, self.get("t_next"))
+        text.branch(self.get("last"), "finish", "onward")
+        text.begin("finish")
+        fired = self._fired()
+        self.memory.store("which", self.context.load("term"))
+        self.put("ended", text.op(f"select i1 {fired}, i32 {int(Ended.TERM)}, i32 {int(Ended.TMAX)}"))
+        self.put("phase", str(int(Phase.ENDED)))
+        text.jump("exit")
+        text.begin("onward")
+        text.branch(self._rows_full(), "point.full", "step")
+        text.begin("point.full")  # come back now: the caller sees the values as they were sampled
+        self.storage.keep_first_stage()
+        self.leave(Ended.RUNNING, Phase.AFTER_POINT)
+
+    def _at_end(self, index: str) -> str:
+        """Whether point `index` is the run's last one."""
+        if self.tableau is None:
+            following = self.text.op(f"add i64 {index}, 1")
+            return self.text.op(f"icmp sge i64 {following}, {self.memory.load('nn')}")
+        lanes = self.lanes
+        slack = lanes.mul(lanes.const(TOLERANCE), self.storage.load(DT))
+        end = lanes.add(self.memory.load("t_start"), self.memory.load("t_max"))
+        return lanes.compare("oge", self.storage.load(T), lanes.sub(end, slack))
+
+    def _sample(self) -> None:
+        """Write a row; inf or nan in it ends the run without it."""
+        text = self.text
+        text.begin("sample")
+        row = self.memory.load("row")
+        start = text.op(f"mul i64 {row}, {self.storage.width()}")
+        at = text.op(f"getelementptr double, ptr {self.memory.load('rows')}, i64 {start}")
+        bad = self.storage.row(at, self.storage.load(T))
+        text.branch(bad, "wild", "sample.kept")
+        text.begin("sample.kept")
+        self.memory.store("row", text.op(f"add i64 {row}, 1"))
+        text.jump("sampled")
+
+    def _next_without_rule(self) -> None:
+        text = self.text
+        text.begin("step")
+        self.put("reached", "1")
+        stop = text.op(f"icmp ne i32 {self.memory.load('stop', volatile=True)}, 0")
+        self.put("stop", stop)
+        text.branch(text.op(f"or i1 {stop}, {self.hurried()}"), "attend", "point")
+
+    # ------------------------------------------------------------------ steps
+
+    def _again(self) -> None:
+        text = self.text
+        text.begin("again")
+        self._clear_term()
+        self.run_pass("step", 1)
+        text.branch(self._fired(), "tail", "step")
+        text.begin("tail")
+        self.storage.run_pass("tail", 1)
+        self.put("last", "1")
+        text.jump("sample")
+
+    def _step(self, tableau: Tableau) -> None:
+        self.text.begin("step")
+        self.storage.save()
+        step = VariableStep if tableau.variable else FixedStep
+        step(self, tableau).write()
+
+    def arrived(self, reached: str) -> None:
+        """End a step; `reached`: it ended on a communication point."""
+        text = self.text
+        self.put("reached", reached)
+        mask = 0 if self.tableau is not None and self.tableau.variable else _CHECK_EVERY - 1
+        since = text.op(f"and i64 {self.get('steps')}, {mask}")
+        due = text.op(f"icmp eq i64 {since}, 0")
+        stop = text.op(f"icmp ne i32 {self.memory.load('stop', volatile=True)}, 0")
+        self.put("stop", stop)
+        looked = text.op(f"or i1 {due}, {stop}")
+        asked = text.op(f"or i1 {looked}, {self.hurried()}")
+        text.branch(text.op(f"or i1 {asked}, {reached}"), "attend", "again")
+
+    def _attend(self) -> None:
+        """Write what happens where a step has ended and something is to be looked at."""
+        text = self.text
+        text.begin("attend")
+        text.branch(self.storage.wild(), "wild", "attend.finite")
+        text.begin("wild")
+        self.leave(Ended.NOT_FINITE, Phase.ENDED)
+        text.begin("attend.finite")
+        phases = f"i32 {int(Phase.AT_POINT)}, i32 {int(Phase.IN_STEP)}"
+        reached = self.get("reached")
+        self.put("phase", text.op(f"select i1 {reached}, {phases}"))
+        stop = self.get("stop")
+        self.put("ended", text.op(f"select i1 {stop}, i32 {int(Ended.STOPPED)}, i32 {int(Ended.RUNNING)}"))
+        text.branch(text.op(f"or i1 {stop}, {self.hurried()}"), "exit", "attend.on")
+        text.begin("attend.on")
+        self.storage.leave()  # others watch the values while the run goes on
+        self.memory.store("steps", self.get("steps"))
+        text.branch(reached, "point", "again")

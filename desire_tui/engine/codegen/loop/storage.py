@@ -1,0 +1,59 @@
+"""What the run loop asks of the place where states, derivatives and scalars live."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from desire_tui.engine.integration.tableaus import Row
+
+
+class Storage(Protocol):
+    """Where states, derivatives and scalars are: stack cells (`register_storage`) or arrays (`array_storage`)."""
+
+    def enter(self) -> None:
+        """Begin the function."""
+
+    def leave(self) -> None:
+        """Bring the values up to date before a return."""
+
+    def load(self, slot: int) -> str:
+        """Read t or another scalar."""
+        ...
+
+    def store(self, slot: int, value: str) -> None:
+        """Write it."""
+
+    def run_pass(self, kind: str, stage: int) -> None:
+        """Write a pass whose derivatives are those of a stage, from 1."""
+
+    def save(self) -> None:
+        """Keep the states at a step's start."""
+
+    def advance(self, row: Row, dt: str, *, last: bool) -> None:
+        """States ← saved states + dt·Σ row·k."""
+
+    def restore(self) -> None:
+        """States ← saved states."""
+
+    def difference(self, row: Row, dt: str) -> tuple[str, str]:
+        """Return the largest test difference, and the number of the state it belongs to."""
+        ...
+
+    def wild(self) -> str:
+        """Return an i1: some state is inf or nan."""
+        ...
+
+    def width(self) -> str:
+        """Return the number of doubles in a row: t and the columns."""
+        ...
+
+    def row(self, at: str, t: str) -> str:
+        """Write a row of samples; return an i1: some column is inf or nan."""
+        ...
+
+    def keep_first_stage(self) -> None:
+        """Put k1 where the next call finds it."""
+
+    def recall_first_stage(self) -> None:
+        """Get it back."""

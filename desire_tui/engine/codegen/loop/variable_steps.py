@@ -1,0 +1,139 @@
+"""Variable steps, rules 4, 7 and 8 (language.md 11): try, judge, halve or double."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.integration.tableaus import STILL_MOST
+from desire_tui.engine.runtime.run_memory import Ended, Phase
+from desire_tui.engine.values import DT, ERRMAX, T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.loop.run_loop import Driver
+    from desire_tui.engine.integration.tableaus import Tableau
+
+_TOLERANCE = 1e-9
+"""A step that would end this near to a communication point (relative to what is left) ends on it."""
+
+
+class VariableStep:
+    """Writes the step of a rule that controls it.
+
+    A step ends on every communication point. A test difference above ERMAX halves the step and repeats it
+    from the same states and the same k1; half a step below DTMIN is a deadlock. A difference below ERMIN
+    doubles DT up to DTMAX, unless the step was shortened for a communication point.
+    """
+
+    def __init__(self, driver: Driver, tableau: Tableau) -> None:
+        self.driver = driver
+        self.tableau = tableau
+        self.text = driver.text
+        self.lanes = driver.lanes
+        self.storage = driver.storage
+
+    def write(self) -> None:
+        """Write everything from the chosen step to the next pass."""
+        self._choose()
+        self.text.jump("try")
+        self.text.begin("try")
+        self._stages()
+        self._judge()
+
+    def _choose(self) -> None:
+        """H ← DT, or what is left to the next communication point."""
+        lanes = self.lanes
+        here, dt = self.storage.load(T), self.storage.load(DT)
+        self.driver.put("t_here", here)
+        left = lanes.sub(self.driver.get("t_next"), here)
+        lands = lanes.compare("oge", dt, lanes.mul(left, lanes.const(1.0 - _TOLERANCE)))
+        cut = lanes.compare("ogt", dt, lanes.mul(left, lanes.const(1.0 + _TOLERANCE)))
+        self.driver.put("lands", lands)
+        self.driver.put("cut", cut)
+        self.driver.put("h", lanes.choose(lands, left, dt))
+
+    def _stages(self) -> None:
+        lanes, driver, tableau = self.lanes, self.driver, self.tableau
+        dt = driver.get("h")
+        for stage in range(1, tableau.stages):
+            self.storage.advance(tableau.a[stage], dt, last=False)
+            c = float(tableau.c[stage])
+            part = dt if c == 1.0 else lanes.mul(lanes.const(c), dt)
+            self.storage.store(T, lanes.add(driver.get("t_here"), part))
+            driver.run_pass("derivative", stage + 1)
+
+    def _judge(self) -> None:
+        text, lanes, driver = self.text, self.lanes, self.driver
+        assert self.tableau.test is not None
+        dt = driver.get("h")
+        difference, state = self.storage.difference(self.tableau.test, dt)
+        too_large = lanes.compare("ogt", difference, driver.memory.load("error_max"))
+        text.branch(too_large, "reject", "accept")
+        self._reject(difference, state, dt)
+        self._accept(difference, dt)
+
+    def _reject(self, difference: str, state: str, dt: str) -> None:
+        text, lanes, driver = self.text, self.lanes, self.driver
+        text.begin("reject")
+        half = lanes.mul(lanes.const(0.5), dt)
+        stuck = lanes.compare("olt", half, driver.memory.load("dt_min"))
+        text.branch(stuck, "deadlock", "halve")
+        text.begin("deadlock")
+        self.storage.restore()
+        self.storage.store(T, driver.get("t_here"))
+        self.storage.store(ERRMAX, difference)
+        driver.memory.store("which", state)
+        driver.leave(Ended.DEADLOCK, Phase.ENDED)
+        text.begin("halve")
+        driver.memory.store("rejected", text.op(f"add i64 {driver.memory.load('rejected')}, 1"))
+        self.storage.store(DT, half)
+        driver.put("h", half)
+        driver.put("lands", "0")
+        driver.put("cut", "0")
+        text.jump("try")
+
+    def _accept(self, difference: str, dt: str) -> None:
+        text, lanes, driver, storage = self.text, self.lanes, self.driver, self.storage
+        text.begin("accept")
+        lands, here = driver.get("lands"), driver.get("t_here")
+        there = lanes.add(here, dt)
+        self._stall(lands, lanes.compare("ogt", there, here), dt)
+        storage.restore()
+        storage.store(T, here)
+        driver.leave(Ended.STALLED, Phase.ENDED)
+        text.begin("forward")
+        storage.advance(self.tableau.b, dt, last=True)
+        driver.count("steps")
+        storage.store(T, lanes.choose(lands, driver.get("t_next"), there))
+        self._note_extremes(dt)
+        small = lanes.compare("olt", difference, driver.memory.load("error_min"))
+        whole = text.op(f"xor i1 {driver.get('cut')}, 1")
+        grows = text.op(f"and i1 {small}, {whole}")
+        now = storage.load(DT)
+        doubled = lanes.mul(lanes.const(2.0), now)
+        most = driver.memory.load("dt_max")
+        wider = lanes.choose(lanes.compare("olt", doubled, most), doubled, most)
+        storage.store(DT, lanes.choose(grows, wider, now))
+        driver.arrived(lands)
+
+    def _stall(self, lands: str, moves: str, dt: str) -> None:
+        """End the run if DT is not above 0, or if t has stood still for too long; `k` counts such steps.
+
+        For some steps it may: before a state becomes infinite, DT falls below what t can resolve.
+        """
+        text, driver = self.text, self.driver
+        moves = text.op(f"or i1 {lands}, {moves}")
+        still = text.op(f"add i64 {driver.get('k')}, 1")
+        driver.put("k", text.op(f"select i1 {moves}, i64 0, i64 {still}"))
+        short = text.op(f"icmp slt i64 {driver.get('k')}, {STILL_MOST}")
+        positive = text.op(f"or i1 {lands}, {self.lanes.compare('ogt', dt, self.lanes.const(0.0))}")
+        text.branch(text.op(f"and i1 {short}, {positive}"), "forward", "stalled")
+        text.begin("stalled")
+
+    def _note_extremes(self, dt: str) -> None:
+        """Smallest and largest step so far; 0 means none yet."""
+        lanes, memory, op = self.lanes, self.driver.memory, self.text.op
+        least, most = memory.load("dt_least"), memory.load("dt_most")
+        none = lanes.compare("oeq", least, lanes.const(0.0))
+        less = op(f"or i1 {none}, {lanes.compare('olt', dt, least)}")
+        memory.store("dt_least", lanes.choose(less, dt, least))
+        memory.store("dt_most", lanes.choose(lanes.compare("ogt", dt, most), dt, most))

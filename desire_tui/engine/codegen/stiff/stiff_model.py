@@ -1,0 +1,188 @@
+"""A segment as native code under a rule 9 … 16: compiled passes, CVODE's steps, no Python between."""
+
+from __future__ import annotations
+
+import ctypes
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.codegen.ir.work_memory import PASSES, Context
+from desire_tui.engine.codegen.jit.native_model import passes_of
+from desire_tui.engine.codegen.jit.pass_functions import PassFunctions
+from desire_tui.engine.codegen.jit.piece_tables import Tables
+from desire_tui.engine.codegen.stiff.fixed_functions import StiffFunctions, fast_functions, first_functions
+from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
+from desire_tui.engine.integration.advice import Probe, advice
+from desire_tui.engine.integration.pattern import Pattern
+from desire_tui.engine.integration.plan import is_own, kind_of, plan
+from desire_tui.engine.integration.system import Functions, Natives, StiffSystem
+from desire_tui.engine.lowering.jacobian import checked_array
+from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
+from desire_tui.engine.passes.sparsity import dependence
+from desire_tui.engine.runtime.run_faults import first_not_finite
+from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
+from desire_tui.engine.values import DT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.codegen.jit.backend import NativeBackend
+    from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.integration.plan import Plan
+    from desire_tui.engine.lowered import Action, Segment
+    from desire_tui.engine.values import Values
+
+_RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
+
+
+class StiffModel:
+    """Implements `runtime.backend.Model`. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
+
+    def __init__(self, backend: NativeBackend, segment: Segment, rule: int, values: Values) -> None:
+        self.rule, self._segment, self._values = rule, segment, values
+        self._passes = passes = passes_of(segment)
+        self._advised = False
+        extra, directions, array = _jacobian_passes(segment, rule, values)
+        self._extra = extra
+        self._array = array
+        inner = {"derivative": passes["derivative"]} | extra
+        if acts_at_steps(segment):
+            inner["step"] = passes["step"]
+        own = frozenset({"step", "jacobian"})
+        self._functions = functions = PassFunctions(backend.store, values, segment.order, inner, own)
+        addresses = {name: functions.address(name) for name in inner}
+        addresses["derivatives"] = addresses.pop("derivative")
+        way = _plan(segment, rule, extra)
+        self._own = is_own(rule, segment.order, way)
+        self._system = partial(
+            StiffSystem,
+            rule,
+            way,
+            values.address,
+            [(s.slot, s.first, s.count) for s in segment.states],
+            Functions(**addresses),
+            directions=directions,
+            array=array,
+        )
+        self._tables = Tables(backend.store, passes)
+        self._fill_context(segment)
+        self._better: StiffFunctions | None = None
+        self._use(first_functions(segment.order, own=self._own))
+        loop = stiff_loop()  # does little between two intervals: quick code is good enough
+        self._loop = backend.store.quick([loop])[loop.name]
+        self._run = _RUN(self._loop.address)
+        self._runs, self._improver = 0, backend.improver
+        backend.improver.add(self._tables)
+        backend.improver.add(functions)
+
+    def _use(self, natives: StiffFunctions) -> None:
+        """Connect the solver's callbacks and the interval loop."""
+        self.system = self._system(Natives(natives.rhs, natives.weights, natives.jacobian, self._own))
+        self.context.interval = natives.own_interval if self._own else natives.interval
+        self.context.problem = ctypes.addressof(self.system.problem)
+
+    def _fill_context(self, segment: Segment) -> None:
+        order = segment.order
+        self._slots = np.concatenate([np.arange(s.slot, s.slot + s.count) for s in segment.states]).astype(
+            np.int64
+        )
+        self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
+        self._temps, self._k1 = np.zeros(self._tables.temps), np.zeros(order)
+        self.context = context = Context(values=self._values.address, states=order)
+        for kind in PASSES:
+            setattr(context, kind, self._tables.addresses[kind])
+        context.temps, context.k1 = self._temps.ctypes.data, self._k1.ctypes.data
+        context.x0 = self._k1.ctypes.data  # saved by the loop, never used: k1 is not either
+        context.state_slots = self._slots.ctypes.data
+        context.columns, context.column_count = self._columns.ctypes.data, self._columns.size
+
+    def improve(self) -> Iterator[None]:
+        """Compile a fast solver (`background.Improvable`)."""
+        self._better = fast_functions(self._slots.size, own=self._own)
+        yield
+
+    def advice(self) -> tuple[Diagnostic, ...]:
+        """Return warnings about the run that is to start here, once for a model."""
+        if self._advised or not is_pure(self._passes["derivative"]):
+            return ()
+        self._advised = True
+        values, slots, order = self._values.data, self._slots, self._slots.size
+        memory, kept, k = (
+            RunMemory(values=self._values.address),
+            self._values.data[self._slots].copy(),
+            np.zeros(order),
+        )
+
+        def derivatives(x: NDArray[np.float64]) -> NDArray[np.float64]:
+            values[slots] = x
+            self._functions.call("derivative", memory, k.ctypes.data)
+            values[slots] = kept
+            return k
+
+        def jacobian() -> NDArray[np.float64]:
+            self._clear_array()
+            self._functions.call("jacobian", memory)
+            return values[self._array : self._array + order * order].reshape(order, order).copy()
+
+        sure = self._array and is_pure(self._extra["jacobian"])  # what it draws or remembers must stay
+        return advice(self.rule, self._segment, Probe(kept, derivatives, jacobian if sure else None))
+
+    def advance(self, memory: RunMemory) -> Ended:
+        """Run on (`runtime.run_memory`)."""
+        if memory.phase == Phase.AT_POINT and memory.point == 0:
+            self._runs += 1
+            if self._runs == 2:  # a program with a single run would only wait for it at its end
+                self._improver.add(self)
+            better, self._better = self._better, None
+            if better is not None:
+                self._use(better)
+            self.system.begin(memory, self._values.cells[DT])
+            self._clear_array()
+        system = self.system
+        system.problem.memory = self.context.memory = ctypes.addressof(memory)
+        ended = Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
+        system.report(memory)
+        if ended is Ended.SOLVER:
+            memory.suspect = system.suspect()
+        elif ended is Ended.NOT_FINITE:
+            memory.which = first_not_finite(self._values.data, self._slots, self._columns)
+        return ended
+
+    def _clear_array(self) -> None:
+        """Elements of J that JACOBIAN does not assign are 0, whatever the script left there."""
+        if self._array:
+            self._values.data[self._array : self._array + self.system.n**2] = 0.0
+
+
+def _jacobian_passes(
+    segment: Segment, rule: int, values: Values
+) -> tuple[dict[str, tuple[Action, ...]], int, int]:
+    """Return the pass that a rule with a Jacobian needs, and the slots of the directions and of the array."""
+    if kind_of(rule) != "jacobian":
+        return {}, 0, 0
+    if segment.jacobian is not None:
+        slot = checked_array(segment, values)
+        return {"jacobian": jacobian_pass(segment, segment.order)}, 0, slot
+    try:
+        tangent = differentiate(segment, values.room)
+    except NotDifferentiable:
+        return {}, 0, 0
+    return {"tangent": tangent.body}, tangent.directions, 0
+
+
+def _plan(segment: Segment, rule: int, extra: Mapping[str, object]) -> Plan:
+    order = segment.order
+    if kind_of(rule) in {"fixed-point", "diagonal"}:
+        pattern = Pattern.of(order, np.zeros(0, np.int32), np.zeros(0, np.int32))
+    elif "jacobian" in extra:
+        assert segment.jacobian is not None
+        rows, columns = ([getattr(e, side) for e in segment.jacobian.entries] for side in ("row", "column"))
+        pattern = Pattern.of(order, np.array(rows, np.int32), np.array(columns, np.int32))
+    else:
+        pattern = Pattern.of(order, *dependence(segment))
+    return plan(rule, pattern, program="jacobian" in extra, tangent="tangent" in extra)

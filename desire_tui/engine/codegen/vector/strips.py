@@ -1,0 +1,63 @@
+"""A strip of neighbouring elements, one vector wide, of the loop over an array statement."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.ir.lanes import Lanes
+
+
+@dataclass(frozen=True, slots=True)
+class Strip:
+    """Elements `index` … `index + active - 1` (an LLVM value), of a row where there are rows.
+
+    `active` < the width: only so many lanes are real. `edge`: a shifted operand may reach outside.
+    `row`, `column`: of the first element, where the statement has rows; the strip stays in its row.
+    """
+
+    lanes: Lanes
+    index: str
+    active: int
+    edge: bool = False
+    row: str = ""
+    column: str = ""
+
+    def fetch(self, base: str, index: str | None = None) -> str:
+        """Read the strip's elements of the array at `base`; lanes that are not active hold 0."""
+        lanes, text = self.lanes, self.lanes.text
+        at = text.op(f"getelementptr double, ptr {base}, i64 {self.index if index is None else index}")
+        if self.active == lanes.width:
+            return text.op(f"load {lanes.kind}, ptr {at}, align 8")
+        result = "zeroinitializer"
+        for lane in range(self.active):
+            one = at if lane == 0 else text.op(f"getelementptr double, ptr {at}, i64 {lane}")
+            value = text.op(f"load double, ptr {one}")
+            result = text.op(f"insertelement {lanes.kind} {result}, double {value}, i64 {lane}")
+        return result
+
+    def fetch_shifted(self, base: str, by: int, count: int) -> str:
+        """Read x[i + by], 0 outside 0 … count - 1."""
+        lanes, text = self.lanes, self.lanes.text
+        index = text.op(f"add i64 {self.index}, {by}")
+        if not self.edge:
+            return self.fetch(base, index)
+        assert self.active == 1
+        inside = text.op(f"icmp ult i64 {index}, {count}")
+        safe = text.op(f"select i1 {inside}, i64 {index}, i64 0")
+        at = text.op(f"getelementptr double, ptr {base}, i64 {safe}")
+        value = text.op(f"select i1 {inside}, double {text.op(f'load double, ptr {at}')}, double 0.0")
+        return text.op(f"insertelement {lanes.kind} zeroinitializer, double {value}, i64 0")
+
+    def put(self, base: str, value: str) -> None:
+        """Write the strip's elements of the array at `base`."""
+        lanes, text = self.lanes, self.lanes.text
+        at = text.op(f"getelementptr double, ptr {base}, i64 {self.index}")
+        if self.active == lanes.width:
+            text.do(f"store {lanes.kind} {value}, ptr {at}, align 8")
+            return
+        for lane in range(self.active):
+            one = at if lane == 0 else text.op(f"getelementptr double, ptr {at}, i64 {lane}")
+            part = text.op(f"extractelement {lanes.kind} {value}, i64 {lane}")
+            text.do(f"store double {part}, ptr {one}")

@@ -1,0 +1,178 @@
+"""The pages: which graph a run, a plot or a SHOW goes to, and the last ones to page back through."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.graph.model import Curve, Frame, Graph, ShownArray
+from desire_tui.engine.graph.settings import DisplaySettings
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.lowered import Picture, Request
+    from desire_tui.engine.runtime.run_record import RunRecord
+
+PAGES_MAX = 32
+
+
+class GraphBook:
+    """The display: its settings and its last pages. Changed on the session's thread, read from any."""
+
+    def __init__(self) -> None:
+        self.settings = DisplaySettings()
+        self.pages: list[Graph] = []
+        self.pages_max = PAGES_MAX
+        self._made = 0
+        self._fresh = True  # the next run starts a page whatever `display` says
+
+    def __iter__(self) -> Iterator[Graph]:
+        return iter(list(self.pages))
+
+    def __len__(self) -> int:
+        return len(self.pages)
+
+    @property
+    def current(self) -> Graph | None:
+        """The newest page."""
+        return self.pages[-1] if self.pages else None
+
+    def begin_program(self) -> None:
+        """`erun`: settings as at the start; the program's first run gets a new page."""
+        self.settings = DisplaySettings()
+        self._fresh = True
+
+    def display(self, mode: str, args: Sequence[float], scale: float) -> bool:
+        """Carry out a `display` statement; returns whether a page changed."""
+        self.settings.apply(mode, args)
+        if mode in ("A", "B"):
+            self._open_plot(scale, nonnegative=mode == "B")
+            return True
+        if mode == "F" and self.current is not None:
+            page = self.current
+            page.curves, page.shown = [], []
+            page.points = type(page.points)()
+            page.erased += 1
+            return True
+        return False
+
+    def plot(self, x: float, y: float, color: int | None, scale: float) -> None:
+        """Put a point on the interpreter plot, opening one (`display A`) if there is none."""
+        page = self.current
+        if page is None or page.frame.kind != "plot":
+            page = self._open_plot(scale, nonnegative=False)
+        page.points.add(x, y, self.settings.curve_color(0) if color is None else color % 16)
+
+    def show(self, name: str, values: NDArray[np.float64], columns: int, scale: float) -> None:
+        """Put a picture of an array on a page of its own."""
+        page = self._page(Frame("picture", 0.0, 1.0, 0.0, 1.0, scale), name)
+        page.shown.append(ShownArray(name, max(columns, 1), scale, values))
+
+    def begin_run(self, record: RunRecord, pictures: Sequence[Picture] = ()) -> Graph | None:
+        """Put a run's curves on a new page, or with `display 2` on the current one. None: nothing to show."""
+        request = next((r for r in record.requests if r.kind != "type"), None)
+        if self.settings.mode == 0:
+            return None
+        if request is None:
+            return self._begin_pictures(record, pictures) if pictures else None
+        frame = run_frame(record, request)
+        page = self.current
+        if self._fresh or self.settings.mode == 1 or page is None:
+            page = self._page(frame, "")
+        self._fresh = False
+        page.frame, page.caption = frame, caption(request)
+        self._dress(page)
+        page.curves.extend(self._curves(record, request, frame))
+        self._films(page, record, pictures)
+        return page
+
+    def compare(self, records: Sequence[RunRecord]) -> Graph | None:
+        """Show runs of one segment over each other on a page of their own, each in other colours.
+
+        None where they have no graph, or the display is off. The next run starts another page.
+        """
+        pages = [(record, next((r for r in record.requests if r.kind != "type"), None)) for record in records]
+        page, first = None, 0
+        for record, request in pages:
+            if request is None or self.settings.mode == 0:
+                return None
+            page = page or self._page(run_frame(record, request), caption(request))
+            page.curves.extend(self._curves(record, request, page.frame, first))
+            first = len(page.curves)
+        self._fresh = True
+        return page
+
+    def chart(self, frame: Frame, text: str, curves: Iterable[Curve]) -> Graph:
+        """Show curves on a page of their own. The next run starts another page."""
+        page = self._page(frame, text)
+        page.curves.extend(curves)
+        self._fresh = True
+        return page
+
+    def _curves(
+        self, record: RunRecord, request: Request, frame: Frame, first_color: int = 0
+    ) -> Iterator[Curve]:
+        first = 1 + record.first_column(request)
+        names = [column.name for column in request.columns]
+        joined = record.rule != 0 or request.kind == "dispt"
+        if request.kind == "dispt":
+            pairs = [(-1, i) for i in range(len(names))]
+        elif request.kind == "dispxy":
+            pairs = [(0, i) for i in range(1, len(names))]
+        else:
+            pairs = [(i, i + 1) for i in range(0, len(names) - 1, 2)]
+        for number, (x, y) in enumerate(pairs):
+            color = self.settings.curve_color(first_color + number)
+            yield Curve(
+                name=names[y], x_name="t" if x < 0 else names[x], color=color, record=record,
+                y_column=first + y, x_column=0 if x < 0 else first + x, frame=frame,
+                thickness=self.settings.thickness, joined=joined,
+            )  # fmt: skip
+
+    def _begin_pictures(self, record: RunRecord, pictures: Sequence[Picture]) -> Graph:
+        frame = Frame("picture", 0.0, 1.0, 0.0, 1.0, record.scale)
+        page = self._page(frame, ", ".join(p.name for p in pictures))
+        self._films(page, record, pictures)
+        return page
+
+    def _films(self, page: Graph, record: RunRecord, pictures: Sequence[Picture]) -> None:
+        for number, picture in enumerate(pictures):
+            columns = max(picture.columns, 1)
+            page.shown.append(ShownArray(picture.name, columns, record.scale, None, record, number))
+
+    def _open_plot(self, scale: float, *, nonnegative: bool) -> Graph:
+        return self._page(Frame("plot", 0.0 if nonnegative else -scale, scale, -scale, scale, scale), "")
+
+    def _page(self, frame: Frame, text: str) -> Graph:
+        self._made += 1
+        page = Graph(self._made, frame, text)
+        self._dress(page)
+        self.pages.append(page)
+        del self.pages[: -self.pages_max]
+        return page
+
+    def _dress(self, page: Graph) -> None:
+        page.net, page.white = self.settings.net_color, self.settings.white
+        page.thickness, page.has_keys = self.settings.thickness, not self.settings.one_color
+
+
+def run_frame(record: RunRecord, request: Request) -> Frame:
+    """Return the frame of a run's graph: t0 … t0 + TMAX or -scale … scale, by -scale … scale."""
+    scale = abs(record.scale) or 1.0
+    if request.kind == "dispt":
+        return Frame("dispt", record.t0, record.t0 + record.t_max, -scale, scale, scale)
+    assert request.kind != "type"
+    return Frame(request.kind, -scale, scale, -scale, scale, scale)
+
+
+def caption(request: Request) -> str:
+    """Return the caption: `x, y vs. t`."""
+    names = [column.name for column in request.columns]
+    if request.kind == "dispt":
+        return f"{', '.join(names)} vs. t"
+    if request.kind == "dispxy":
+        return f"{', '.join(names[1:])} vs. {names[0]}"
+    return ", ".join(f"{y} vs. {x}" for x, y in zip(names[::2], names[1::2], strict=False))

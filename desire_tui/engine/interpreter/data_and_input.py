@@ -1,0 +1,172 @@
+"""`data`, `read`, `restore`, `input`: values from lists in the script, from files, from the console."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from functools import partial
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.interpreter.assignment import storer
+from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
+from desire_tui.engine.interpreter.entries import Entries
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.expression_translation import literal
+from desire_tui.engine.nodes import Data, Input, Name, Read, Restore
+from desire_tui.engine.values import Kind, Quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.interpreter.code_table import Operation
+    from desire_tui.engine.interpreter.machine import Machine
+    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.nodes import Target
+
+    Store = Callable[[complex], None]
+
+
+class DataList:
+    """All `data` items of a script, and the next one to be read."""
+
+    def __init__(self, machine: Machine) -> None:
+        self._machine = machine
+        self._code = machine.script
+        self._places = machine.structure.data
+        self._list = 0
+        self._item = 0
+        self._evaluators: dict[tuple[int, int], Callable[[], complex]] = {}
+
+    def forget(self) -> None:
+        """Forget how items are evaluated: all names were cleared."""
+        self._evaluators.clear()
+
+    def rewind(self, place: int = 0) -> None:
+        """Go on with the first list at or behind this place of the script."""
+        self._list, self._item = bisect_left(self._places, place), 0
+
+    def next(self) -> complex:
+        """Return the next item's value, evaluated now; error 51 if there is none."""
+        while self._list < len(self._places):
+            place = self._places[self._list]
+            node = self._code.text.placed[place].node
+            assert isinstance(node, Data)
+            if self._item < len(node.items):
+                self._item += 1
+                value = literal(node.items[self._item - 1])
+                return value if value is not None else self._evaluate(place, self._item - 1)
+            self._list, self._item = self._list + 1, 0
+        raise Fault("out-of-data")
+
+    def _evaluate(self, place: int, item: int) -> complex:
+        from desire_tui.engine.interpreter.statement_context import Site
+
+        known = self._evaluators.get((place, item))
+        if known is None:
+            site = Site(self._machine, self._code, place)
+            assert isinstance(site.node, Data)
+            try:
+                known = site.value(site.node.items[item])[0]
+            except Fault as fault:
+                if fault.placed is None:
+                    fault.placed, fault.source = site.placed, self._code.text.source
+                raise
+            self._evaluators[place, item] = known
+        return known()
+
+
+def read(site: Site) -> Operation:
+    """`read a, B, c[2]`."""
+    node = site.node
+    assert isinstance(node, Read)
+    machine = site.machine
+    fillers = [filler(site, target) for target in node.targets]
+
+    def action() -> None:
+        for fill in fillers:
+            fill(machine.data.next)
+
+    return site.then(action)
+
+
+def restore(site: Site) -> Operation:
+    """`restore`, `restore label`, `restore 210`; error 68."""
+    node = site.node
+    assert isinstance(node, Restore)
+    data, place = site.machine.data, 0
+    if node.target is not None:
+        found = site.machine.structure.place(node.target)
+        if found is None:
+            raise Fault("no-such-label", node, name=node.target)
+        place = found
+    return site.then(lambda: data.rewind(place))
+
+
+def filler(site: Site, target: Target) -> Callable[[Callable[[], complex]], None]:
+    """Return a function that fills a target, a whole array row by row, from a supply of values."""
+    if isinstance(target, Name):
+        meaning = site.scope.assigned(target)
+        if isinstance(meaning, Quantity) and meaning.shape:
+            return _array_filler(site, target, meaning)
+    store = storer(site, target)
+    return lambda supply: store(supply())
+
+
+def _array_filler(site: Site, target: Name, quantity: Quantity) -> Callable[[Callable[[], complex]], None]:
+    cells, slot, size, kind = site.values.cells, quantity.slot, quantity.size, quantity.kind
+    helpers, check = site.machine.build.names, site.machine.check
+
+    def fill(supply: Callable[[], complex]) -> None:
+        for index in range(size):
+            value = supply()
+            if kind is Kind.COMPLEX:
+                helpers["set_complex"](slot + 2 * index, complex(value))
+            elif value.imag != 0.0:
+                raise Fault("complex-to-real", target, name=target.name)
+            else:
+                number = value.real
+                cells[slot + index] = helpers["to_integer"](number) if kind is Kind.INTEGER else number
+            if index % 1000 == 999:
+                check()
+
+    return fill
+
+
+def get_input(site: Site) -> Operation:
+    """`input x, A` from the console, `input #n, x` from a file."""
+    node = site.node
+    assert isinstance(node, Input)
+    if site.code.is_command and node.channel is None:
+        raise Fault("not-a-command", node, word="input")
+    fillers = [filler(site, target) for target in node.targets]
+    if node.channel is not None:
+        number, channels = site.whole(node.channel), site.machine.channels
+
+        def from_file() -> None:
+            channel = number()
+            entries = Entries(site, lambda: channels.read_line(channel), f"channel {channel}")
+            for fill in fillers:
+                fill(entries.next)
+
+        return site.then(from_file)
+
+    kinds = [
+        (site.scope.assigned(t) if isinstance(t, Name) else site.scope.array(t)).kind for t in node.targets
+    ]
+
+    def from_console() -> None:
+        entries = Entries(site, lambda: "", "console")
+        for target, kind, fill in zip(node.targets, kinds, fillers, strict=True):
+            entries.ask(target.name, partial(_misfit, target.name, kind))
+            fill(entries.next)
+
+    return site.then(from_console)
+
+
+def _misfit(name: str, kind: Kind, value: complex) -> Diagnostic | None:
+    """Return what keeps a target of this kind from taking a value: errors 84 and 20."""
+    if kind is not Kind.COMPLEX and value.imag != 0.0:
+        return Diagnostic("complex-to-real", facts={"name": name})
+    if kind is Kind.INTEGER and abs(value.real) > WHOLE_LIMIT:
+        return Diagnostic("integer-overflow", facts={"value": f"{value.real:g}"})
+    return None

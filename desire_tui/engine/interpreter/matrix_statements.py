@@ -1,0 +1,188 @@
+"""`MATRIX`, `Vector`, `DOT`, `AVG` in scripts, on real arrays (language.md section 7; book, section 6.2)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.interpreter.array_expressions import ArrayExpressions, conform
+from desire_tui.engine.interpreter.assignment import storer
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.left_chains import chain
+from desire_tui.engine.nodes import (
+    Dot,
+    Expr,
+    MatrixAssign,
+    Name,
+    Number,
+    Transposed,
+    Unary,
+    VectorAssign,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.interpreter.code_table import Operation
+    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.values import Quantity
+
+    Array = NDArray[np.float64]
+
+TEMPORARIES = 3
+"""Arrays of the target's size that a statement holds at a time."""
+
+
+def matrix(site: Site) -> Operation:
+    """`MATRIX C = A * B + …`; `= 1` the identity, `= 0` all zeroes; `DELTA` adds."""
+    node = site.node
+    assert isinstance(node, MatrixAssign)
+    target = site.array(Name(node.name, node.start, node.end))
+    if len(target.shape) != 2:
+        raise Fault("not-a-matrix", Name(node.name, node.start, node.end), name=node.name)
+    rows, columns = target.shape
+    expressions = ArrayExpressions(site, true_products=True)
+    value = expressions.assigned(node.value, target.shape)
+    bounds = [site.real(b) if b is not None else None for b in (node.lower, node.upper)]
+    mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
+    view = site.numbers(target)
+    identity = isinstance(node.value, Number) and node.value.value == 1.0 and not node.delta
+
+    @np.errstate(all="ignore")  # the result is looked at
+    def action() -> None:
+        site.needs_room(TEMPORARIES * target.size, node)
+        result = value()
+        if identity:
+            result = np.eye(rows, columns)
+        if np.ndim(result) == 0 and not identity and not node.delta and result != 0.0:
+            raise Fault("matrix-from-number", node.value, name=node.name)
+        result = conform(result, target.shape, node, node.name)
+        result = view + result if node.delta else result
+        if bounds != [None, None]:
+            lower, upper = (b() if b is not None else None for b in bounds)
+            result = np.clip(result, lower, upper)
+        if mask is not None:
+            np.copyto(view, result, where=conform(mask, target.shape, node, node.name) != 0.0)
+        else:
+            view[...] = result
+
+    return site.then(action)
+
+
+def vector(site: Site) -> Operation:
+    """`Vector y = A * x + b`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
+    node = site.node
+    assert isinstance(node, VectorAssign)
+    target = site.array(Name(node.name, node.start, node.end))
+    if len(target.shape) != 1:
+        raise Fault("not-a-vector", Name(node.name, node.start, node.end), name=node.name)
+    value = ArrayExpressions(site, true_products=False).assigned(node.value, target.shape)
+    mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
+    view = site.numbers(target)
+
+    @np.errstate(all="ignore")  # the result is looked at
+    def action() -> None:
+        site.needs_room(TEMPORARIES * target.size, node)
+        result = conform(value(), target.shape, node, node.name)
+        if node.delta:
+            result = view + result
+        if node.largest:
+            result = _largest_only(result)
+        if mask is not None:
+            result = np.where(conform(mask, target.shape, node, node.name) != 0.0, 0.0, result)
+        view[...] = result
+
+    return site.then(action)
+
+
+def _largest_only(vector: Array) -> Array:
+    """Keep the largest element (ties: the highest index); all others become 0."""
+    place = len(vector) - 1 - int(np.argmax(vector[::-1]))
+    result = np.zeros_like(vector)
+    result[place] = vector[place]
+    return result
+
+
+def dot(site: Site) -> Operation:
+    """`DOT s = u*v + u*1 + u*A*v + u*A%*v`; `AVG` divides by the vectors' length."""
+    node = site.node
+    assert isinstance(node, Dot)
+    terms = [_DotTerm(site, sign, term) for sign, term in _terms(node.value, 1.0)]
+    store = storer(site, node.target)
+
+    @np.errstate(all="ignore")  # the result is looked at
+    def action() -> None:
+        total = sum(term.value() for term in terms)
+        store(float(total / terms[0].length if node.average else total))
+
+    return site.then(action)
+
+
+def _terms(node: Expr, sign: float) -> list[tuple[float, Expr]]:
+    """Split a sum into signed terms, from left to right."""
+    if isinstance(node, Unary):
+        return _terms(node.operand, sign if node.op == "+" else -sign)
+    following: list[tuple[float, Expr]] = []
+    first, steps = chain(node)
+    while steps and steps[-1].op in {"+", "-"}:
+        step = steps.pop()
+        following += _terms(step.right, sign if step.op == "+" else -sign)[::-1]
+    if not following:
+        return [(sign, node)]
+    return [*_terms(steps[-1] if steps else first, sign), *following[::-1]]
+
+
+def _factors(node: Expr) -> list[Expr]:
+    first, steps = chain(node)
+    right: list[Expr] = []
+    while steps and steps[-1].op == "*":
+        right += _factors(steps.pop().right)[::-1]
+    if not right:
+        return [node]
+    return [*_factors(steps[-1] if steps else first), *right[::-1]]
+
+
+class _DotTerm:
+    """One product: a vector, perhaps a matrix, and a vector or 1."""
+
+    def __init__(self, site: Site, sign: float, node: Expr) -> None:
+        factors = _factors(node)
+        if not 2 <= len(factors) <= 3:
+            raise Fault("script-dot-term", node)
+        while isinstance(first := factors[0], Unary):  # `-u*v`
+            sign, factors[0] = sign if first.op == "+" else -sign, first.operand
+        self._sign = sign
+        left = self._vector(site, factors[0])
+        self._left = site.numbers(left)
+        self.length = left.size
+        last = factors[-1]
+        ones = isinstance(last, Number) and last.value == 1.0 and len(factors) == 2
+        self._right = None if ones else site.numbers(self._vector(site, last))
+        self._matrix = self._find_matrix(site, factors[1]) if len(factors) == 3 else None
+        shape = self._matrix.shape if self._matrix is not None else (self.length, self.length)
+        right = self.length if self._right is None else len(self._right)
+        if shape != (self.length, right):
+            have = str(self.length) if self._matrix is None else f"{self.length}, {shape[0]}×{shape[1]}"
+            raise Fault("nonconformable", node, have=have, want=right)
+
+    def _vector(self, site: Site, node: Expr) -> Quantity:
+        quantity = site.array(node)
+        if len(quantity.shape) != 1:
+            raise Fault("not-a-vector", node, name=quantity.name)
+        return quantity
+
+    def _find_matrix(self, site: Site, node: Expr) -> Array:
+        name = Name(node.name, node.start, node.end) if isinstance(node, Transposed) else node
+        quantity = site.array(name)
+        if len(quantity.shape) != 2:
+            raise Fault("not-a-matrix", node, name=quantity.name)
+        view = site.numbers(quantity)
+        return view.T if isinstance(node, Transposed) else view
+
+    def value(self) -> float:
+        """Return the signed sum of products."""
+        if self._right is None:
+            return self._sign * float(np.sum(self._left))
+        right = self._right if self._matrix is None else self._matrix @ self._right
+        return self._sign * float(self._left @ right)

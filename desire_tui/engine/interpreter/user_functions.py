@@ -1,0 +1,163 @@
+"""`FUNCTION f(a$, b$) = expression`: compiled once for each combination of argument kinds.
+
+The body may use program variables, evaluated at call time; dummies are local. An argument may be a whole
+array where the body uses its dummy as one (`func1`, subscripts).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.interpreter import python_ast as py
+from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.name_resolution import Local, Meaning, Scope
+from desire_tui.engine.interpreter.python_ast import Typed, at
+from desire_tui.engine.left_chains import chain
+from desire_tui.engine.nodes import Binary, Call, Element, Function, Name, Pair, Unary
+from desire_tui.engine.values import Kind, Quantity
+
+if TYPE_CHECKING:
+    import ast
+    from collections.abc import Callable
+
+    from desire_tui.engine.interpreter.compile_python import Builder
+    from desire_tui.engine.interpreter.expression_translation import Translator
+    from desire_tui.engine.nodes import Expr, Placed
+    from desire_tui.engine.source import Source
+
+
+class Functions:
+    """The program's FUNCTIONs."""
+
+    def __init__(
+        self, definitions: dict[str, Placed], scope: Scope, build: Builder, source: Source | None
+    ) -> None:
+        self.definitions = definitions
+        self._sources: dict[str, Source | None] = dict.fromkeys(definitions, source)
+        self._scope = scope
+        self._build = build
+        self._compiled: dict[tuple[object, ...], tuple[str, Kind]] = {}
+        self._open: list[str] = []
+
+    def define(self, definitions: dict[str, Placed], source: Source | None) -> None:
+        """Add FUNCTIONs, or replace those of the same name."""
+        self.definitions.update(definitions)
+        self._sources.update(dict.fromkeys(definitions, source))
+        self.forget()
+
+    def forget(self) -> None:
+        """Forget compiled code: all names were cleared, or a FUNCTION was defined anew."""
+        self._compiled.clear()
+
+    def call(self, node: Call, translator: Translator) -> Typed:
+        """Translate a call; error 56 for a wrong number of arguments, 52 for recursion."""
+        definition, placed = self._definition(node)
+        args: list[ast.expr] = []
+        meanings: list[Meaning] = []
+        for number, argument in enumerate(node.args):
+            whole = _whole_array(argument, translator.scope)
+            if whole is not None:
+                meanings.append(whole)
+                continue
+            code, kind = translator.finite(argument)
+            args.append(code)
+            meanings.append(Local(f"p{number}", kind))
+        name, kind = self._function(definition, placed, meanings)
+        return Typed(at(py.call(name, *args), node), kind)
+
+    def of_elements(self, node: Call, scope: Scope) -> tuple[Callable[..., float], list[bool]]:
+        """Return a FUNCTION of real numbers, for calls element by element, and which arguments it wants.
+
+        Where its body uses a dummy as an array, that array belongs to the function and is no argument.
+        Errors 56, 52, and 84 for a COMPLEX result.
+        """
+        definition, placed = self._definition(node)
+        meanings: list[Meaning] = []
+        for number, (argument, dummy) in enumerate(zip(node.args, definition.dummies, strict=True)):
+            whole = _whole_array(argument, scope) if is_used_as_array(dummy, definition.body) else None
+            meanings.append(whole if whole is not None else Local(f"p{number}", Kind.REAL))
+        name, kind = self._function(definition, placed, meanings)
+        if kind is Kind.COMPLEX:
+            raise Fault("complex-not-possible", node)
+        made: Callable[..., float] = self._build.names[name]
+        return made, [isinstance(meaning, Local) for meaning in meanings]
+
+    def _definition(self, node: Call) -> tuple[Function, Placed]:
+        placed = self.definitions[node.name]
+        definition = placed.node
+        assert isinstance(definition, Function)
+        if len(node.args) != len(definition.dummies):
+            facts = {"given": len(node.args), "needed": len(definition.dummies), "where": ""}
+            raise Fault("arguments-do-not-match", node, name=node.name, **facts)
+        if node.name in self._open:
+            raise Fault("script-function-recursion", node, name=node.name)
+        return definition, placed
+
+    def _function(self, definition: Function, placed: Placed, meanings: list[Meaning]) -> tuple[str, Kind]:
+        from desire_tui.engine.interpreter.expression_translation import Translator
+
+        key = (definition.name, *(m.kind if isinstance(m, Local) else m for m in meanings))
+        known = self._compiled.get(key)
+        if known is not None:
+            return known
+        scope = self._scope.inner(dict(zip(definition.dummies, meanings, strict=True)))
+        source = self._sources[definition.name]
+        self._open.append(definition.name)
+        try:
+            code, kind = Translator(scope, self._build, self).expression(definition.body)
+        except Fault as fault:
+            if fault.placed is None:
+                fault.placed, fault.source = placed, source
+            raise
+        finally:
+            self._open.pop()
+        if self._calls_in(definition.body) > 1:  # such FUNCTIONs may take for ever: 2, 4, 8 … calls
+            code = py.last([py.call("check"), code])
+        parameters = tuple(m.variable for m in meanings if isinstance(m, Local))
+        made = self._build.function([py.give(code)], placed, source, parameters)
+        name = self._build.share("u", made)
+        self._compiled[key] = name, kind
+        return name, kind
+
+    def _calls_in(self, body: Expr) -> int:
+        """Return how often an expression calls the program's FUNCTIONs."""
+        match body:
+            case Call(name, args):
+                return (name in self.definitions) + sum(map(self._calls_in, args))
+            case Element(_, subscripts):
+                return sum(map(self._calls_in, subscripts))
+            case Binary():
+                first, steps = chain(body)
+                parts = [body.left, body.right] if not steps else [first, *(step.right for step in steps)]
+                return sum(map(self._calls_in, parts))
+            case Pair(left, right):
+                return self._calls_in(left) + self._calls_in(right)
+            case Unary(_, operand):
+                return self._calls_in(operand)
+        return 0
+
+
+def is_used_as_array(dummy: str, body: Expr) -> bool:
+    """Whether an expression subscripts a name or passes it to a table function."""
+    match body:
+        case Element(name, subscripts):
+            return name == dummy or any(is_used_as_array(dummy, part) for part in subscripts)
+        case Call(name, args):
+            tables = args[{"func1": 1, "func2": 2}.get(name, len(args)) :]
+            return Name(dummy) in tables or any(is_used_as_array(dummy, part) for part in args)
+        case Binary():
+            first, steps = chain(body)
+            parts = [body.left, body.right] if not steps else [first, *(step.right for step in steps)]
+            return any(is_used_as_array(dummy, part) for part in parts)
+        case Pair(left, right):
+            return is_used_as_array(dummy, left) or is_used_as_array(dummy, right)
+        case Unary(_, operand):
+            return is_used_as_array(dummy, operand)
+    return False
+
+
+def _whole_array(node: Expr, scope: Scope) -> Quantity | None:
+    if not isinstance(node, Name):
+        return None
+    meaning = scope.find(node.name)
+    return meaning if isinstance(meaning, Quantity) and meaning.shape else None

@@ -1,0 +1,188 @@
+"""Vector, matrix and DOT statements of a segment (language.md 9.2, 9.3)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.left_chains import chain
+from desire_tui.engine.lowered import DotTerm, SetDot, SetMat, SetVec, Vec
+from desire_tui.engine.lowering.expressions import lower
+from desire_tui.engine.lowering.products import array, matrix_vector, nonconformable, note_read, unsigned
+from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
+from desire_tui.engine.lowering.targets import mark_array, mark_set, matrix, scalar_slot, vector
+from desire_tui.engine.nodes import Binary, Name, Number, Unary
+
+if TYPE_CHECKING:
+    from desire_tui.engine import nodes
+    from desire_tui.engine.lowering.builder import Builder
+    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.values import Quantity
+
+
+def vector_assign(builder: Builder, node: nodes.VectorAssign) -> None:
+    """`Vector y = v`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
+    context = builder.context
+    quantity = _target(context, node)
+    if quantity is None:
+        return
+    count = quantity.shape[0]
+    mask = _mask(builder, node, node.mask, (count,))
+    context.target = (quantity.slot, count)
+    if node.delta:
+        context.flow.read_range(quantity.slot, count)
+    value = lower(context, node.value, (count,))
+    context.target = None
+    mode: Literal["set", "add", "largest"] = "add" if node.delta else "largest" if node.largest else "set"
+    made = SetVec(quantity.slot, count, value, context.where(node), mode, mask)
+    builder.body.append(made)
+    context.flow.assignments.append(made)
+    mark_array(context, quantity.slot, count)
+
+
+def vector_derivative(builder: Builder, node: nodes.VectorDerivative) -> None:
+    """`Vectr d/dt x = v`. Error 101 for a second one."""
+    context = builder.context
+    quantity = _target(context, node)
+    if quantity is None:
+        return
+    count = quantity.shape[0]
+    value = lower(context, node.value, (count,))
+    if count != UNKNOWN:
+        if builder.is_second(quantity.slot, count):
+            context.report("state-twice", node, name=quantity.name)
+        elif other := builder.overlaid(quantity.slot, count, quantity):
+            context.report("state-twice-overlaid", node, name=quantity.name, other=other)
+    builder.derivative(quantity.slot, count, value, context.where(node), array=True)
+
+
+def _target(context: Context, node: nodes.VectorAssign | nodes.VectorDerivative) -> Quantity | None:
+    """Return the vector that a statement assigns; None: there is none, its right side has been checked."""
+    quantity = vector(context, node, node.name)
+    if quantity is None:
+        lower(context, node.value, (UNKNOWN,))
+    return quantity
+
+
+def matrix_assign(builder: Builder, node: nodes.MatrixAssign) -> None:
+    """`MATRIX W = [M] sum; min, max` and `DELTA W = …`."""
+    context = builder.context
+    quantity = matrix(context, node, node.name)
+    if quantity is None:
+        return
+    rows, cols = quantity.shape
+    size = size_of(quantity)
+    mask = _mask(builder, node, node.mask, (rows, cols))
+    context.target = (quantity.slot, size)
+    if node.delta or mask is not None:
+        context.flow.read_range(quantity.slot, size)
+    value = lower(context, node.value, (rows, cols))
+    lower_bound = None if node.lower is None else lower(context, node.lower, (rows, cols))
+    upper_bound = None if node.upper is None else lower(context, node.upper, (rows, cols))
+    context.target = None
+    made = SetMat(
+        quantity.slot, rows, cols, value, context.where(node), "add" if node.delta else "set",
+        lower_bound, upper_bound, mask,
+    )  # fmt: skip
+    builder.body.append(made)
+    context.flow.assignments.append(made)
+    mark_array(context, quantity.slot, size)
+
+
+def dot(builder: Builder, node: nodes.Dot) -> None:
+    """`DOT s = u*v + u*1 + u*A*v`, `AVG s = …`: operands are names."""
+    context = builder.context
+    slot = scalar_slot(context, node.target)
+    terms: list[DotTerm] = []
+    for sign, term in _terms(node.value, 1.0):
+        made = _dot_term(builder, sign, term)
+        if made is not None:
+            terms.append(made)
+    if node.average:
+        for other in terms[1:]:
+            if not agree(other.left.count, terms[0].left.count):
+                context.report("average-lengths", node)
+                break
+    if slot is not None:
+        done = SetDot(slot, tuple(terms), node.average, context.where(node))
+        builder.body.append(done)
+        context.flow.assignments.append(done)
+        mark_set(context, node.target, slot)
+
+
+def _terms(node: Expr, sign: float) -> list[tuple[float, Expr]]:
+    """Split a sum into signed terms, from left to right."""
+    if isinstance(node, Unary):
+        return _terms(node.operand, -sign if node.op == "-" else sign)
+    following: list[tuple[float, Expr]] = []
+    first, steps = chain(node)
+    while steps and steps[-1].op in "+-":
+        step = steps.pop()
+        following += _terms(step.right, sign if step.op == "+" else -sign)[::-1]
+    if not following:
+        return [(sign, node)]
+    return [*_terms(steps[-1] if steps else first, sign), *following[::-1]]
+
+
+def _dot_term(builder: Builder, sign: float, node: Expr) -> DotTerm | None:
+    context = builder.context
+    factors: list[Expr] = []
+    rest = node
+    while isinstance(rest, Binary) and rest.op == "*":
+        factors.append(rest.right)
+        rest = rest.left
+    leading, first = unsigned(rest)
+    sign *= leading
+    factors.append(first)
+    factors.reverse()
+    if len(factors) not in (2, 3) or not isinstance(first, Name):
+        context.report("dot-term", node)
+        return None
+    u = array(context, first)
+    if u is None:
+        return None
+    if len(u.shape) != 1:
+        context.report("vector-target", first, name=u.name, dimensions=len(u.shape))
+        return None
+    count = u.shape[0]
+    note_read(context, first, u.slot, count, 0)
+    left = Vec(u.slot, count)
+    if len(factors) == 3:
+        product = matrix_vector(context, factors[1], factors[2], count)
+        if product is None:
+            context.report("dot-term", node)
+            return None
+        return DotTerm(sign, left, product)
+    second = factors[1]
+    if isinstance(second, Number) and second.value == 1.0:
+        return DotTerm(sign, left, None)
+    if not isinstance(second, Name):
+        context.report("dot-term", second)
+        return None
+    v = array(context, second)
+    if v is None:
+        return None
+    if len(v.shape) != 1 or not agree(v.shape[0], count):
+        nonconformable(context, second, v.name, v.shape, (count,))
+        return None
+    note_read(context, second, v.slot, v.shape[0], 0)
+    return DotTerm(sign, left, Vec(v.slot, count))
+
+
+def _mask(builder: Builder, node: nodes.Node, name: str | None, extent: tuple[int, ...]) -> int | None:
+    """Return the slot of a mask array of the right shape. Error 74."""
+    if name is None:
+        return None
+    context = builder.context
+    place = Name(name, node.start, node.end)
+    quantity = array(context, place)
+    if quantity is None:
+        return None
+    same = len(quantity.shape) == len(extent) and all(
+        agree(a, b) for a, b in zip(quantity.shape, extent, strict=True)
+    )
+    if not same:
+        nonconformable(context, place, quantity.name, quantity.shape, extent)
+        return None
+    note_read(context, place, quantity.slot, size_of(quantity), 0)
+    return quantity.slot

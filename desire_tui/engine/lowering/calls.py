@@ -1,0 +1,132 @@
+"""Calls in a segment: library functions, tables, and FUNCTIONs, which are expanded where they are called."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.library import LIBRARY
+from desire_tui.engine.lowered import Op, Table1, Table2
+from desire_tui.engine.lowered.effects import DRAWS, operands
+from desire_tui.engine.lowering import expressions
+from desire_tui.engine.lowering.lowering_context import BAD, DEPTH_MAX, EXPANSIONS_MOST, Argument, Frame
+from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
+from desire_tui.engine.nodes import Call, Name
+from desire_tui.engine.values import Kind, Quantity
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowering.expressions import Extent
+    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.nodes import Expr
+
+LEVELS_MOST = 200
+"""Levels of an expression with its FUNCTIONs expanded; later stages follow them recursively."""
+
+
+def call(context: Context, node: Call, extent: Extent) -> Value:
+    """Lower a call. Errors 59 (unknown), 56 (arguments), 52 (recursion), and those of the arguments."""
+    if node.name in context.functions:
+        return _expanded(context, node, extent)
+    entry = LIBRARY.get(node.name)
+    if entry is None:
+        known = [*context.functions, *(n for n, f in LIBRARY.items() if "D" in f.where)]
+        close = closest(node.name, known)
+        return context.report("unknown-function-in-dynamic", node, name=node.name, close=close)
+    if "D" not in entry.where:
+        return context.report("script-function", node, name=node.name)
+    if not entry.fewest <= len(node.args) <= entry.most:
+        return context.report(
+            "library-arguments", node, name=node.name, parameters=entry.parameters, given=len(node.args)
+        )
+    if node.name == "func1":
+        return table1(context, node, extent)
+    if node.name == "func2":
+        return table2(context, node, extent)
+    if node.name in DRAWS:
+        return Op(node.name, ())
+    return Op(node.name, tuple([expressions.lower(context, argument, extent) for argument in node.args]))
+
+
+def _expanded(context: Context, node: Call, extent: Extent) -> Value:
+    context.reads.append("")
+    function = context.functions[node.name]
+    dummies = function.node.dummies
+    frame = context.frame
+    if node.name in frame.calls or len(frame.calls) > DEPTH_MAX:
+        return context.report("function-recursion", node, name=node.name)
+    if len(dummies) != len(node.args):
+        return context.report(
+            "function-arguments", node, name=node.name, wanted=len(dummies), given=len(node.args)
+        )
+    context.expansions += 1
+    if context.expansions > EXPANSIONS_MOST:
+        if context.once("FUNCTION expansions"):
+            context.report("too-many-expansions", node, name=node.name, most=EXPANSIONS_MOST)
+        return BAD
+    arguments = {d: Argument(a, frame) for d, a in zip(dummies, node.args, strict=True)}
+    invoked, called = (*frame.invoked, context.span(node)), (*frame.calls, node.name)
+    context.enter(Frame(function.at, {}, arguments, invoked, called))
+    value = expressions.lower(context, function.node.body, extent)
+    context.enter(frame)
+    if not frame.calls and levels_of(value) > LEVELS_MOST:
+        return context.report("expression-too-deep", node, limit=LEVELS_MOST)
+    return value
+
+
+def levels_of(value: Value) -> int:
+    """Return how deep an expression is; parts that stand at several places are looked at once."""
+    depth: dict[int, int] = {}
+    rest = [value]
+    while rest:
+        part = rest[-1]
+        inner = operands(part)
+        missing = [a for a in inner if id(a) not in depth]
+        if missing and id(part) not in depth:
+            rest.extend(missing)
+        else:
+            depth[id(part)] = 1 + max((depth[id(a)] for a in inner), default=0)
+            rest.pop()
+    return depth[id(value)]
+
+
+def _array(context: Context, node: Expr) -> Quantity | None:
+    """Return the array a table function's argument names. Errors 36, 19."""
+    context.reads.append("")
+    if not isinstance(node, Name):
+        context.report("table-not-a-name", node)
+        return None
+    quantity = context.quantity(node.name)
+    if quantity is None or not quantity.shape or quantity.kind is not Kind.REAL:
+        arrays = (q.name for q in context.scope.names.values() if q.shape)
+        name = context.actual(node.name)
+        context.report("array-not-declared", node, name=name, close=closest(name, arrays))
+        return None
+    size = size_of(quantity)
+    if size != UNKNOWN:
+        context.flow.read_range(quantity.slot, size)
+    return quantity
+
+
+def table1(context: Context, node: Call, extent: Extent) -> Value:
+    """Lower `func1(x; F)`: F is a vector of 2n elements, breakpoints first."""
+    x = expressions.lower(context, node.args[0], extent)
+    table = _array(context, node.args[1])
+    if table is None:
+        return BAD
+    size = size_of(table)
+    if size != UNKNOWN and (size % 2 or size < 2):
+        return context.report("table-size", node.args[1], name=table.name, size=size)
+    return Table1(x, table.slot, size // 2)
+
+
+def table2(context: Context, node: Call, extent: Extent) -> Value:
+    """Lower `func2(x, y; F, X, Y)`: F[n, m] over X[n] and Y[m]."""
+    x = expressions.lower(context, node.args[0], extent)
+    y = expressions.lower(context, node.args[1], extent)
+    f, xs, ys = (_array(context, argument) for argument in node.args[2:])
+    if f is None or xs is None or ys is None:
+        return BAD
+    if len(f.shape) != 2 or not (agree(f.shape[0], size_of(xs)) and agree(f.shape[1], size_of(ys))):
+        return context.report("table2-size", node, f=f.name, x=xs.name, y=ys.name)
+    return Table2(x, y, f.slot, f.shape[0], f.shape[1], xs.slot, ys.slot)

@@ -1,0 +1,84 @@
+"""The JACOBIAN part of a segment: helper variables and entries J[i, k] (language.md 9.7)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.lowered import Entry, Jacobian
+from desire_tui.engine.lowering.expressions import lower
+from desire_tui.engine.lowering.scope import UNKNOWN
+from desire_tui.engine.lowering.statements import assign
+from desire_tui.engine.lowering.subscripts import constant
+from desire_tui.engine.nodes import Assign, Element
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowering.builder import Builder
+    from desire_tui.engine.lowering.submodels import Line
+    from desire_tui.engine.values import Values
+
+
+def checked_array(segment: Segment, values: Values) -> int:
+    """Return the slot of a JACOBIAN segment's array. DesireError 230: it is not n by n."""
+    given, order = segment.jacobian, segment.order
+    assert given is not None
+    for quantity in values:
+        if quantity.slot == given.slot and len(quantity.shape) == 2 and quantity.shape != (order, order):
+            shape = " by ".join(map(str, quantity.shape))
+            facts = {"name": quantity.name, "n": order, "shape": shape}
+            raise DesireError(Diagnostic("jacobian-shape", None, facts, segment.source))
+    return given.slot
+
+
+def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
+    """Lower the statements behind JACOBIAN. Errors 219, 229 without any element, 230 for one out of range."""
+    context = builder.context
+    known = len(context.problems)
+    entries: list[Entry] = []
+    matrix: str | None = None
+    slot: int | None = None
+    outer, builder.body = builder.body, []
+    for node, frame in lines:
+        context.enter(frame)
+        if not isinstance(node, Assign):
+            context.report("illegal-in-jacobian", node)
+            continue
+        target = node.target
+        quantity = context.quantity(target.name) if isinstance(target, Element) else None
+        if not isinstance(target, Element) or quantity is None or len(quantity.shape) != 2:
+            place = len(builder.body)
+            assign(builder, node)
+            builder.body[place:place] = context.before
+            context.before.clear()
+            continue
+        if matrix not in (None, quantity.name):
+            context.report("second-jacobian", target, name=quantity.name, first=matrix)
+            continue
+        matrix, slot = quantity.name, quantity.slot
+        if len(target.subscripts) != 2:
+            context.report("subscript-count", target, name=matrix, count=2)
+            continue
+        value = lower(context, node.value)
+        builder.body += context.before
+        context.before.clear()
+        row, column = (constant(context, s) for s in target.subscripts)
+        if row is None or column is None:
+            continue
+        order = builder.states.order
+        size = min((n for n in quantity.shape if n != UNKNOWN), default=order)
+        if size < order:
+            context.report("jacobian-too-small", target, name=quantity.name, order=order)
+        elif not (1 <= row < order + 1 and 1 <= column < order + 1):
+            context.report("jacobian-entry", target, order=order)
+        else:
+            entries.append(Entry(int(row) - 1, int(column) - 1, value, context.where(node)))
+    body, builder.body = tuple(builder.body), outer
+    if slot is None:
+        if len(context.problems) == known:
+            context.enter(lines[0][1])
+            context.report("jacobian-missing", lines[0][0], n=builder.states.order)
+        return None
+    return Jacobian(slot, body, tuple(entries))

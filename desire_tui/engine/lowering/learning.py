@@ -1,0 +1,63 @@
+"""CLEARN, PLEARN and INTP: learning statements of a segment (docs/neural.md)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered import Const, Learn
+from desire_tui.engine.lowering.expressions import lower
+from desire_tui.engine.lowering.products import array, nonconformable
+from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
+from desire_tui.engine.lowering.targets import mark_array
+from desire_tui.engine.nodes import Name
+
+if TYPE_CHECKING:
+    from desire_tui.engine import nodes
+    from desire_tui.engine.lowering.builder import Builder
+    from desire_tui.engine.values import Quantity
+
+
+def learn(builder: Builder, node: nodes.Learn) -> None:
+    """`CLEARN v = W(x) lrate, crit[#]`, `PLEARN y = W*x; lrate`, `INTP v = W*x; thresh`.
+
+    W is rows × cols, the output has `rows` elements, the input `cols`. Errors 70, 74, 75, 218.
+    """
+    context = builder.context
+    out = _ranked(builder, node, node.output, 1)
+    weights = _ranked(builder, node, node.weights, 2)
+    given = _ranked(builder, node, node.input, 1)
+    rate = lower(context, node.rate)
+    criterion = None if node.criterion is None else lower(context, node.criterion)
+    if out is None or weights is None or given is None:
+        return
+    for quantity, wanted in ((out, weights.shape[0]), (given, weights.shape[1])):
+        if not agree(quantity.shape[0], wanted):
+            nonconformable(
+                context, Name(quantity.name, node.start, node.end), quantity.name, quantity.shape, (wanted,)
+            )
+            return
+    rows = weights.shape[0]
+    counts = context.scope.hidden(rows) if node.conscience and rows != UNKNOWN else None
+    full = context.scope.hidden(1) if criterion is not None and criterion != Const(0.0) else None
+    if full is not None:
+        builder.watch(full, context.where(node))
+    for quantity in (given, weights, out):
+        if UNKNOWN not in quantity.shape and quantity is not out:
+            context.flow.read_range(quantity.slot, size_of(quantity))
+    builder.body.append(
+        Learn(
+            node.kind, out.slot, out.shape[0], weights.slot, given.slot, given.shape[0],
+            rate, criterion, counts, context.where(node), full,
+        )
+    )  # fmt: skip
+    mark_array(context, out.slot, out.shape[0])
+
+
+def _ranked(builder: Builder, node: nodes.Learn, name: str, rank: int) -> Quantity | None:
+    place = Name(name, node.start, node.end)
+    quantity = array(builder.context, place)
+    if quantity is not None and len(quantity.shape) != rank:
+        key = "vector-target" if rank == 1 else "matrix-target"
+        builder.context.report(key, place, name=quantity.name, dimensions=len(quantity.shape))
+        return None
+    return quantity

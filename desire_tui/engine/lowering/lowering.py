@@ -1,0 +1,63 @@
+"""From a parsed program to a lowered segment, with the values that hold at its `drun`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.gc_pause import undisturbed_allocation
+from desire_tui.engine.lowering.lowering_context import FunctionText
+from desire_tui.engine.lowering.scope import LiveScope
+from desire_tui.engine.lowering.segments import lower_segment
+from desire_tui.engine.nodes import Function
+from desire_tui.engine.structure.structure import structure as find_structure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.nodes import Program
+    from desire_tui.engine.structure.structure import Structure
+    from desire_tui.engine.values import Values
+
+
+@undisturbed_allocation
+def lower(
+    program: Program,
+    label: str | None,
+    values: Values,
+    structure: Structure | None = None,
+    rule: int | None = None,
+) -> Segment:
+    """Return a segment ready for a back end, names and shapes as they are now.
+
+    `label` None means the unlabelled one. DesireError: every problem of the segment at once; 215 or 68 if
+    there is no such segment.
+    """
+    text = program.segment(label)
+    if text is None:
+        key = "no-dynamic-segment" if label is None else "no-such-segment"
+        raise DesireError(Diagnostic(key, facts={"label": label}, source=program.source))
+    found = structure if structure is not None else find_structure(program)
+    scope = LiveScope(values)
+    segment, problems = lower_segment(text, scope, program.source, functions_of(found), found.submodels, rule)
+    if problems:
+        raise DesireError(*in_order(problems))
+    return segment
+
+
+def functions_of(structure: Structure) -> dict[str, FunctionText]:
+    """Return the program's FUNCTIONs by name."""
+    return {
+        name: FunctionText(placed.node, placed.at)
+        for name, placed in structure.functions.items()
+        if isinstance(placed.node, Function)
+    }
+
+
+def in_order(problems: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """Sort by place; of several that say the same about one place, the first stays."""
+    unique: dict[tuple[int, object], Diagnostic] = {}
+    for problem in problems:
+        unique.setdefault((problem.code, problem.span or id(problem)), problem)
+    return sorted(unique.values(), key=lambda d: d.span or (0, 0))

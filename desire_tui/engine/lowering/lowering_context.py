@@ -1,0 +1,198 @@
+"""Where the lowering stands: the place in the text, the names that hold here, the problems found so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from desire_tui.engine.diagnostics import Diagnostic, closest
+from desire_tui.engine.library import LIBRARY
+from desire_tui.engine.lowered import Const, Load, Where
+from desire_tui.engine.lowering.persistence import Flow
+from desire_tui.engine.nodes import Name
+from desire_tui.engine.source import Source, Span
+from desire_tui.engine.values import Kind, Quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from desire_tui.engine.lowered import Action, Value
+    from desire_tui.engine.lowering.scope import Scope
+    from desire_tui.engine.nodes import Expr, Function, Node
+
+BAD = Const(0.0)
+"""Stands for an expression that has been complained about."""
+
+DEPTH_MAX = 60
+"""Nested FUNCTION calls and invocations; deeper ones are recursion in all but name."""
+
+EXPANSIONS_MOST = 20_000
+"""FUNCTION calls that one segment may expand: 20 FUNCTIONs that each call the next twice make a million."""
+
+PLACES_MOST = 4
+"""Places that a message names besides its own: the nearest uses, and the line of the segment."""
+
+
+@dataclass
+class Argument:
+    """An argument of a FUNCTION being expanded: lowered at its first use, then shared by all uses.
+
+    `outer` is the frame in which its text `node` stands.
+    """
+
+    node: Expr
+    outer: Frame
+    value: Value | None = None
+
+
+_NO_NAMES: Mapping[str, str] = {}
+_NO_ARGUMENTS: Mapping[str, Argument] = {}
+
+
+class Frame(NamedTuple):
+    """How names read in the text being lowered: dummies stand for something else.
+
+    `at` is the offset of the statement's raw text in the source; `rename` gives a submodel's dummies their
+    actual names, `arguments` a FUNCTION's its arguments. `invoked` are the places of the invocations and
+    calls that led here, the innermost last, `calls` the names of the FUNCTIONs among them.
+    """
+
+    at: int
+    rename: Mapping[str, str] = _NO_NAMES
+    arguments: Mapping[str, Argument] = _NO_ARGUMENTS
+    invoked: tuple[Span, ...] = ()
+    calls: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class FunctionText:
+    """A FUNCTION statement and the offset of its raw text."""
+
+    node: Function
+    at: int
+
+
+class Context:
+    """State shared by everything that lowers one segment.
+
+    `assigned` holds the place of the first assignment to each scalar of the segment.
+    """
+
+    def __init__(self, scope: Scope, source: Source, functions: Mapping[str, FunctionText]) -> None:
+        self.scope = scope
+        self.source = source
+        self.functions = functions
+        self.flow = Flow()
+        self.frame = Frame(0)
+        self.plain = True
+        """Names read as they are written: the frame replaces none."""
+        self.problems: list[Diagnostic] = []
+        self.assigned: dict[str, tuple[Span, ...]] = {}
+        self.derivative_places: dict[int, Where] = {}
+        self.assigned_arrays = False
+        self.expansions = 0
+        self.own: str | None = None
+        """The scalar that the present statement assigns."""
+        self.target: tuple[int, int] | None = None
+        """Slots of the array that the present statement assigns; None where it may be read freely."""
+        self.complained: set[str] = set()
+        self.reads: list[str] = []
+        """Names that the expression being lowered has read; "" for what is more than reading a name."""
+        self.row_chosen: Where | None = None
+        """Where a row `P#` is read first, if the segment leaves iRow to the script."""
+        self.before: list[Action] = []
+        """What the present statement computes first: the pieces of its long chains (`long_chains`)."""
+        self.redefines_library = not functions.keys().isdisjoint(LIBRARY)
+
+    def enter(self, frame: Frame) -> None:
+        """Go on in another text."""
+        self.frame = frame
+        self.plain = not (frame.rename or frame.arguments)
+
+    # ------------------------------------------------------------------------------------------ places
+
+    def span(self, part: Node) -> Span:
+        """Place of a part of the statement being lowered."""
+        return Span(self.frame.at + part.start, self.frame.at + part.end)
+
+    def where(self, part: Node) -> Where:
+        """Place for a lowered statement."""
+        frame = self.frame
+        return Where(
+            Span(frame.at + part.start, frame.at + part.end), frame.invoked[0] if frame.invoked else None
+        )
+
+    def report(self, key: str, part: Node | Span, **facts: object) -> Const:
+        """Note a problem; the result stands for the expression that cannot be lowered."""
+        span = part if isinstance(part, Span) else self.span(part)
+        if isinstance(part, Name) and span.end - span.start > len(part.name):
+            span = self.source.name_within(span, part.name)  # a statement that keeps the name alone
+        places = self.frame.invoked[::-1]
+        if len(places) > PLACES_MOST:
+            places = (*places[: PLACES_MOST - 1], places[-1])
+        related = tuple(Diagnostic("expanded-here", s, {}, self.source) for s in places)
+        self.problems.append(Diagnostic(key, span, facts, self.source, related=related))
+        return BAD
+
+    def once(self, name: str) -> bool:
+        """Whether this name has not been complained about yet."""
+        if name in self.complained:
+            return False
+        self.complained.add(name)
+        return True
+
+    # ------------------------------------------------------------------------------------------ names
+
+    def actual(self, name: str) -> str:
+        """Return what a name of the text stands for: itself, or the argument given for a dummy."""
+        frame = self.frame
+        while name in frame.arguments:
+            argument = frame.arguments[name]
+            if not isinstance(argument.node, Name):
+                return name
+            name, frame = argument.node.name, argument.outer
+        return frame.rename.get(name, name)
+
+    def quantity(self, name: str) -> Quantity | None:
+        """Return the quantity a name of the text stands for."""
+        return self.scope.names.get(self.actual(name))
+
+    def read(self, node: Name) -> Value:
+        """Read a scalar. Reports errors 200, 69, 218."""
+        name = self.actual(node.name)
+        load = self.flow.ready.get(name)
+        if load is not None:
+            return load
+        quantity = self.scope.names.get(name)
+        if quantity is not None and quantity.shape:
+            return self.report("array-as-number", node, name=name)
+        if quantity is not None and quantity.kind is Kind.COMPLEX:
+            return self.report("complex-in-dynamic", node, name=name)
+        if quantity is None or not self.scope.is_defined(quantity):
+            return self._undefined(node, name, quantity)
+        load = Load(quantity.slot)
+        if name in self.assigned:
+            self.flow.read_slot(quantity.slot)
+        else:
+            self.flow.ready[name] = load
+        return load
+
+    def _undefined(self, node: Name, name: str, quantity: Quantity | None) -> Value:
+        places = self.assigned.get(name)
+        if places is None:
+            if self.once(name):
+                known = [n for n in (*self.scope.names, *self.assigned) if n != name]
+                self.report("undefined-in-segment", node, name=name, close=closest(name, known))
+            return BAD
+        if name == self.own and quantity is not None:
+            # difference equation x = x + e whose target is new: starts at 0 [O]
+            self.flow.read_slot(quantity.slot)
+            return Load(quantity.slot)
+        if self.once(name):
+            line = self.source.position(places[0].start).row
+            self.report("used-before-set", node, name=name, line=line)
+        return BAD
+
+    def known_function(self, name: str) -> bool:
+        """Whether `name` can be called in a segment."""
+        return name in self.functions or (name in LIBRARY and "D" in LIBRARY[name].where)

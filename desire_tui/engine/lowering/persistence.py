@@ -1,0 +1,98 @@
+"""What has surely been set at a point of the pass, and what is read before that.
+
+A scalar that a statement reads before the pass has surely set it keeps its value from pass to pass: a
+difference equation, a sample-hold variable, a relay. Every assignment to such a number is *persistent* and
+must be carried out in every pass it belongs to (language.md 9.1, 9.2; book, sections 3.3.1 and 4.4).
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered import Guard, Load, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowering.scope import SYSTEM_SLOTS
+from desire_tui.engine.passes.intervals import Intervals
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered import Action
+
+Assignment = Set | SetVec | SetMat | SetDot
+Snapshot = tuple[dict[str, "Load"], set[int], Intervals]
+
+
+@dataclass
+class Flow:
+    """Bookkeeping along the statements of one segment.
+
+    `ready`: names that can be read here without more ado, each with the `Load` that reads it.
+    `set_slots`, `set_ranges`: numbers surely set by now; `early_slots`, `early_ranges`: read before that.
+    """
+
+    ready: dict[str, Load] = field(default_factory=dict)
+    set_slots: set[int] = field(default_factory=set)
+    set_ranges: Intervals = field(default_factory=Intervals)
+    early_slots: set[int] = field(default_factory=set)
+    early_ranges: Intervals = field(default_factory=Intervals)
+    assignments: list[Assignment] = field(default_factory=list)
+
+    def snapshot(self) -> Snapshot:
+        """Return what is surely set here, to come back to when a guard ends."""
+        return dict(self.ready), set(self.set_slots), self.set_ranges.copy()
+
+    def restore(self, saved: Snapshot) -> None:
+        """Forget what was set inside a guard."""
+        self.ready, self.set_slots, self.set_ranges = saved
+
+    def keep_common(self, other: Snapshot) -> None:
+        """After if/else: surely set is what both branches set."""
+        ready, slots, ranges = other
+        self.ready = {name: load for name, load in self.ready.items() if name in ready}
+        self.set_slots &= slots
+        self.set_ranges = self.set_ranges.common(ranges)
+
+    def read_slot(self, slot: int) -> None:
+        """Note that a number which the segment may assign is read."""
+        if slot not in self.set_slots and not self.set_ranges.covers(slot, 1):
+            self.early_slots.add(slot)
+
+    def read_range(self, slot: int, count: int) -> None:
+        """Note that a whole array is read."""
+        if not self.set_ranges.covers(slot, count):
+            self.early_ranges.add(slot, count)
+
+    def mark_persistent(self, states: list[tuple[int, int]]) -> None:
+        """Mark the assignments whose numbers are read early, or that move a state or system variable.
+
+        `states`: slot and count of each range of states.
+        """
+        slots, ranges = self.early_slots, self.early_ranges
+        for slot, count in states:
+            if count == 1:
+                slots.add(slot)
+            else:
+                ranges.add(slot, count)
+        early = sorted(slots)
+        for made in self.assignments:
+            slot = made.slot
+            if isinstance(made, Set | SetDot):
+                kept = slot in slots or slot < SYSTEM_SLOTS or ranges.touches(slot, 1)
+            else:
+                count = made.count if isinstance(made, SetVec) else made.rows * made.cols
+                kept = made.mode == "add" or (isinstance(made, SetMat) and made.mask_slot is not None)
+                at = bisect_left(early, slot)
+                kept = kept or (at < len(early) and early[at] < slot + count) or ranges.touches(slot, count)
+            if kept:
+                made.persistent = True  # type: ignore[misc]  # nodes are frozen for the type checker only
+
+
+def walk(actions: tuple[Action, ...] | list[Action]) -> list[Action]:
+    """Return all actions, those inside guards included, in order."""
+    found: list[Action] = []
+    for action in actions:
+        found.append(action)
+        if isinstance(action, Guard):
+            found.extend(walk(action.body))
+            found.extend(walk(action.orelse))
+    return found

@@ -1,0 +1,195 @@
+"""A DYNAMIC program segment, lowered: the table of contents of this folder.
+
+expansion (submodels in line) → states (numbered) → statements in order (expressions, arrays, requests,
+learning) → persistence (flow) → `lowered.Segment`. All problems of the segment are found, not only the first.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from desire_tui.engine import nodes
+from desire_tui.engine.lowered import Load, Segment, StateRange
+from desire_tui.engine.lowering import arrays, learning, requests, statements, targets
+from desire_tui.engine.lowering.builder import Builder
+from desire_tui.engine.lowering.calls import LEVELS_MOST
+from desire_tui.engine.lowering.jacobian import lower_jacobian
+from desire_tui.engine.lowering.lowering_context import Context
+from desire_tui.engine.lowering.scope import UNKNOWN
+from desire_tui.engine.lowering.states import StateTable
+from desire_tui.engine.lowering.submodels import expand
+from desire_tui.engine.nodes import Derivative, Element, Name, VectorDerivative
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.lowering.lowering_context import FunctionText
+    from desire_tui.engine.lowering.scope import Scope
+    from desire_tui.engine.lowering.submodels import Line
+    from desire_tui.engine.nodes import SegmentText, Target
+    from desire_tui.engine.source import Source
+    from desire_tui.engine.structure.structure import SubmodelText
+
+_HANDLERS: dict[type, Callable[[Builder, Any], None]] = {
+    nodes.Assign: statements.assign,
+    nodes.Derivative: statements.derivative,
+    nodes.VectorDerivative: arrays.vector_derivative,
+    nodes.VectorAssign: arrays.vector_assign,
+    nodes.MatrixAssign: arrays.matrix_assign,
+    nodes.Dot: arrays.dot,
+    nodes.Store: statements.store,
+    nodes.Get: statements.get,
+    nodes.Delay: statements.delay,
+    nodes.TrackHold: statements.track_hold,
+    nodes.FunctionTable: statements.table,
+    nodes.Term: statements.term,
+    nodes.If: statements.condition,
+    nodes.Simple: statements.simple,
+    nodes.Sample: statements.sample,
+    nodes.Request: requests.request,
+    nodes.Show: requests.show,
+    nodes.Learn: learning.learn,
+}
+
+_SCALAR_TARGETS: dict[type, Callable[[Any], tuple[Target, ...]]] = {
+    nodes.Assign: lambda n: (n.target,),
+    nodes.Dot: lambda n: (n.target,),
+    nodes.Get: lambda n: (n.variable,),
+    nodes.Delay: lambda n: (n.variable,),
+    nodes.TrackHold: lambda n: (n.held, n.tracked),
+    nodes.FunctionTable: lambda n: (n.target,),
+    nodes.Request: lambda n: n.items if n.kind == "recover" else (),
+}
+_ARRAY_TARGETS = (nodes.VectorAssign, nodes.MatrixAssign, nodes.Store, nodes.Learn, nodes.Delay)
+
+
+def lower_segment(
+    text: SegmentText,
+    scope: Scope,
+    source: Source,
+    functions: Mapping[str, FunctionText],
+    submodels: Mapping[str, SubmodelText],
+    rule: int | None = None,
+) -> tuple[Segment, list[Diagnostic]]:
+    """Return the lowered segment and every problem found in it."""
+    context = Context(scope, source, functions)
+    lines = expand(context, text.body, submodels)
+    jacobian_lines = expand(context, text.jacobian, submodels)
+    _collect_targets(context, lines)
+    _collect_targets(context, jacobian_lines)
+    builder = Builder(context, _states(context, lines), rule)
+    _ready_from_start(builder, lines)
+    for node, frame in lines:
+        context.enter(frame)
+        handler = _HANDLERS.get(node.__class__)
+        if handler is None:
+            context.report(
+                "illegal-in-dynamic", node, word=source.text[slice(*context.span(node))].split(" ")[0]
+            )
+        else:
+            outer, place = builder.body, len(builder.body)
+            try:
+                handler(builder, node)
+            except RecursionError:
+                context.enter(frame)
+                context.report("expression-too-deep", node, limit=LEVELS_MOST)
+            if context.before:
+                outer[place:place] = context.before
+                context.before.clear()
+    body = builder.finish()
+    jacobian = lower_jacobian(builder, jacobian_lines) if jacobian_lines else None
+    context.flow.mark_persistent([(r.slot, r.count) for r in builder.states.ranges])
+    segment = Segment(
+        label=text.label, source=source, body=body, states=tuple(builder.states.ranges),
+        requests=tuple(builder.requests), pictures=tuple(builder.pictures),
+        stash=tuple(builder.stash), recover=tuple(builder.recover), jacobian=jacobian,
+        counters=builder.counters, scalars=_scalars(context), names=builder.names,
+        exhausted=tuple(builder.exhausted), row_chosen=context.row_chosen,
+    )  # fmt: skip
+    return segment, context.problems
+
+
+def _collect_targets(context: Context, lines: Sequence[Line]) -> None:
+    """Note where each scalar of the segment is first assigned, and whether arrays are."""
+    for node, frame in lines:
+        get_targets = _SCALAR_TARGETS.get(node.__class__)
+        if get_targets is not None:
+            context.enter(frame)
+            for target in get_targets(node):
+                if isinstance(target, Element):
+                    context.assigned_arrays = True
+                    continue
+                name = frame.rename.get(target.name, target.name)
+                if name not in context.assigned:
+                    context.assigned[name] = (context.span(node),)
+                    context.scope.scalar(name)
+        if isinstance(node, _ARRAY_TARGETS):
+            context.assigned_arrays = True
+
+
+def _states(context: Context, lines: Sequence[Line]) -> StateTable:
+    found: list[StateRange] = []
+    for node, frame in lines:
+        if isinstance(node, Derivative):
+            context.enter(frame)
+            target = node.target
+            if isinstance(target, Name):
+                name = frame.rename.get(target.name, target.name)
+                known = context.scope.names.get(name)
+                if known is None or not known.shape:
+                    slot = context.scope.scalar(name, is_state=True).slot
+                    where = context.derivative_places[id(node)] = context.where(node)
+                    found.append(StateRange(name, slot, len(found), 1, where))
+            else:
+                found.extend(_element_state(context, node, target, len(found)))
+        elif isinstance(node, VectorDerivative):
+            context.enter(frame)
+            quantity = context.quantity(node.name)
+            if quantity is not None and len(quantity.shape) == 1 and quantity.shape[0] != UNKNOWN:
+                quantity.is_state = True
+                count, where = quantity.shape[0], context.where(node)
+                found.append(StateRange(quantity.name, quantity.slot, len(found), count, where))
+    return StateTable(found)
+
+
+def _element_state(context: Context, node: Derivative, target: Element, number: int) -> list[StateRange]:
+    # problems of the subscripts are reported when the statement itself is lowered
+    known, complained = len(context.problems), set(context.complained)
+    slot = targets.scalar_slot(context, target)
+    del context.problems[known:]
+    context.complained = complained
+    quantity = context.quantity(target.name)
+    if slot is None or quantity is None:
+        return []
+    quantity.is_state = True
+    first = slot - quantity.slot
+    subscripts = []
+    for size in reversed(quantity.shape):
+        subscripts.append(first % size + 1)
+        first //= size
+    name = f"{quantity.name}[{','.join(str(s) for s in reversed(subscripts))}]"
+    return [StateRange(name, slot, number, 1, context.where(node))]
+
+
+def _ready_from_start(builder: Builder, lines: Sequence[Line]) -> None:
+    """States that nobody assigns, t, and recovered variables can be read anywhere."""
+    context = builder.context
+    ready = context.flow.ready
+    if "t" not in context.assigned:
+        ready["t"] = Load(T)
+    for state in builder.states.ranges:
+        if state.count == 1 and state.name not in context.assigned:
+            ready[state.name] = Load(state.slot)
+            builder.names[state.slot] = state.name
+    for node, frame in lines:
+        if isinstance(node, nodes.Request) and node.kind == "recover":
+            context.enter(frame)
+            for item in node.items:
+                targets.mark_held(context, item)
+
+
+def _scalars(context: Context) -> tuple[int, ...]:
+    found = (context.scope.names.get(name) for name in context.assigned)
+    return tuple(q.slot for q in found if q is not None and not q.shape)

@@ -1,0 +1,186 @@
+"""Scalar statements of a segment: assignments, derivatives, guards, time histories, delays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered import DelayLine, Get, Load, Set, Store, Terminate, TrackHold
+from desire_tui.engine.lowering.expressions import lower
+from desire_tui.engine.lowering.lowering_cache import lower_kept
+from desire_tui.engine.lowering.lowering_context import BAD
+from desire_tui.engine.lowering.products import array
+from desire_tui.engine.lowering.scope import UNKNOWN, size_of
+from desire_tui.engine.lowering.subscripts import constant
+from desire_tui.engine.lowering.targets import mark_held, mark_set, scalar_slot
+from desire_tui.engine.nodes import Element, Name
+
+if TYPE_CHECKING:
+    from desire_tui.engine import nodes
+    from desire_tui.engine.lowering.builder import Builder
+    from desire_tui.engine.values import Quantity
+
+
+def assign(builder: Builder, node: nodes.Assign) -> None:
+    """`y = e`: defined variable or difference equation."""
+    context = builder.context
+    target = node.target
+    context.own = context.actual(target.name) if isinstance(target, Name) else None
+    slot = scalar_slot(context, target)
+    value = lower_kept(context, node.value)
+    context.own = None
+    if slot is not None:
+        made = Set(slot, value, context.where(node))
+        builder.body.append(made)
+        context.flow.assignments.append(made)
+        mark_set(context, target, slot)
+
+
+def derivative(builder: Builder, node: nodes.Derivative) -> None:
+    """`d/dt x = e`, `d/dt x[i] = e`. Error 101 for a second one."""
+    context = builder.context
+    slot = scalar_slot(context, node.target)
+    value = lower_kept(context, node.value)
+    if slot is None:
+        return
+    array_of = context.quantity(node.target.name) if isinstance(node.target, Element) else None
+    if builder.is_second(slot, 1):
+        context.report("state-twice", node.target, name=context.actual(node.target.name))
+    elif array_of is not None and UNKNOWN not in array_of.shape:
+        other = builder.overlaid(slot, 1, array_of)
+        if other is not None:
+            context.report("state-twice-overlaid", node.target, name=array_of.name, other=other)
+    where = context.derivative_places.get(id(node)) if context.plain else None
+    builder.derivative(slot, 1, value, where or context.where(node))
+
+
+def term(builder: Builder, node: nodes.Term) -> None:
+    """`term e`."""
+    context = builder.context
+    builder.body.append(Terminate(lower(context, node.value), builder.terms, context.where(node)))
+    builder.terms += 1
+
+
+def condition(builder: Builder, node: nodes.If) -> None:
+    """`if e`; a script's `if C then` is error 219."""
+    context = builder.context
+    if node.value is None:
+        context.report("then-in-segment", node)
+        return
+    value = lower_kept(context, node.value)
+    builder.open("if", context.where(node), value)
+
+
+def simple(builder: Builder, node: nodes.Simple) -> None:
+    """`OUT`, `step`, `else`, `end if`; anything else is error 219."""
+    context = builder.context
+    if node.word == "OUT":
+        builder.open("out", context.where(node))
+    elif node.word == "step":
+        builder.open("step", context.where(node))
+    elif node.word == "else":
+        if not builder.otherwise():
+            context.report("stray-else", node, word=node.word)
+    elif node.word in {"end if", "proceed"}:
+        if not builder.end_if():
+            context.report("stray-else", node, word=node.word)
+    else:
+        context.report("illegal-in-dynamic", node, word=node.word)
+
+
+def sample(builder: Builder, node: nodes.Sample) -> None:
+    """`SAMPLE m`: m is fixed now and truncated. Error 8 for a second one, 44 for m < 1."""
+    context = builder.context
+    if "SAMPLE" in builder.once_only:
+        context.report("second-sample", node)
+        return
+    builder.once_only["SAMPLE"] = context.span(node)
+    every = constant(context, node.every)
+    # 13.98 counts as 13, but a whole number computed with a rounding error counts as itself
+    whole = 1 if every is None else int(every * (1 + 1e-9)) if abs(every) < 1e15 else 0
+    if whole < 1:
+        context.report("sample-below-one", node.every, value=f"{every:g}")
+        whole = 1
+    builder.open("sample", context.where(node), every=whole)
+
+
+def store(builder: Builder, node: nodes.Store) -> None:
+    """`store X = x`."""
+    context = builder.context
+    quantity = history(builder, node, node.array)
+    value = lower(context, node.variable)
+    if quantity is not None and isinstance(value, Load):
+        count = size_of(quantity)
+        context.flow.set_ranges.add(quantity.slot, max(count, 1))
+        builder.body.append(Store(quantity.slot, count, value.slot, builder.counter(), context.where(node)))
+
+
+def get(builder: Builder, node: nodes.Get) -> None:
+    """`get x = X`."""
+    context = builder.context
+    quantity = history(builder, node, node.array)
+    slot = scalar_slot(context, node.variable)
+    if quantity is not None and slot is not None:
+        count = size_of(quantity)
+        builder.body.append(Get(slot, quantity.slot, count, builder.counter(), context.where(node)))
+        mark_held(context, node.variable)
+
+
+def delay(builder: Builder, node: nodes.Delay) -> None:
+    """`tdelay y = D(x, tau` and `delay y = D(x, tau`."""
+    context = builder.context
+    buffer = history(builder, node, node.buffer)
+    slot = scalar_slot(context, node.variable)
+    source = lower(context, node.source)
+    tau = lower(context, node.tau)
+    if buffer is not None and slot is not None:
+        builder.names[buffer.slot] = buffer.name
+        made = DelayLine(
+            slot,
+            buffer.slot,
+            size_of(buffer),
+            source,
+            tau,
+            node.per_step,
+            builder.counter(),
+            context.where(node),
+        )
+        builder.body.append(made)
+        mark_held(context, node.variable)
+
+
+def track_hold(builder: Builder, node: nodes.TrackHold) -> None:
+    """`trkhld y, y0 = p, x`: both keep their values from pass to pass, 0 at first."""
+    context = builder.context
+    control, value = lower(context, node.control), lower(context, node.value)
+    held, tracked = scalar_slot(context, node.held), scalar_slot(context, node.tracked)
+    if held is not None and tracked is not None:
+        builder.body.append(TrackHold(held, tracked, control, value, context.where(node)))
+        mark_held(context, node.held)
+        mark_held(context, node.tracked)
+
+
+def table(builder: Builder, node: nodes.FunctionTable) -> None:
+    """`func y = F(x`, `func2 f = F(x, y; X, Y`."""
+    context = builder.context
+    slot = scalar_slot(context, node.target)
+    value = lower(context, node.call)
+    if slot is not None and value is not BAD:
+        made = Set(slot, value, context.where(node))
+        builder.body.append(made)
+        context.flow.assignments.append(made)
+        mark_set(context, node.target, slot)
+
+
+def history(builder: Builder, node: nodes.Node, name: str) -> Quantity | None:
+    """Return the one-dimensional array of `store`, `get` or a delay. Errors 19, 75."""
+    context = builder.context
+    place = Name(name, node.start, node.end)
+    quantity = array(context, place)
+    if quantity is None:
+        return None
+    if len(quantity.shape) != 1:
+        context.report("history-not-vector", place, name=quantity.name)
+        return None
+    if quantity.shape[0] != UNKNOWN:
+        context.flow.read_range(quantity.slot, quantity.shape[0])
+    return quantity

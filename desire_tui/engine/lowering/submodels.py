@@ -1,0 +1,86 @@
+"""Submodels are expanded in line: their dummies stand for the invocation's arguments (language.md 9.6)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.library import LIBRARY
+from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, Frame
+from desire_tui.engine.nodes import Bare, Call, Invoke, Name
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.nodes import Expr, Placed, Statement
+    from desire_tui.engine.structure.structure import SubmodelText
+
+LINES_MOST = 1_000_000
+"""Statements that a segment may have when its submodels are expanded."""
+
+Line = tuple["Statement", Frame]
+
+
+def expand(
+    context: Context, statements: Sequence[Placed], submodels: Mapping[str, SubmodelText]
+) -> list[Line]:
+    """Return the statements with every invocation replaced by its body. Errors 201, 56, 52, 209."""
+    lines: list[Line] = []
+    for statement, at, _ in statements:
+        if isinstance(statement, Invoke):
+            context.frame = Frame(at)
+            _invoke(context, statement, statement.name, statement.args, submodels, lines)
+        elif isinstance(statement, Bare) and isinstance(statement.value, Call):
+            context.frame = Frame(at)
+            _invoke(context, statement, statement.value.name, statement.value.args, submodels, lines)
+        else:
+            lines.append((statement, Frame(at)))
+    return lines
+
+
+def _invoke(
+    context: Context,
+    node: Invoke | Bare,
+    name: str,
+    args: tuple[Expr, ...],
+    submodels: Mapping[str, SubmodelText],
+    lines: list[Line],
+) -> None:
+    frame = context.frame
+    submodel = submodels.get(name)
+    if submodel is None:
+        key = (
+            "function-as-statement" if name in context.functions or name in LIBRARY else "undefined-submodel"
+        )
+        context.report(key, node, name=name, close=closest(name, submodels))
+        return
+    if name in frame.calls or len(frame.calls) > DEPTH_MAX:
+        context.report("submodel-recursion", node, name=name)
+        return
+    if len(lines) > LINES_MOST:
+        if context.once("SUBMODEL expansions"):
+            context.report("too-many-lines", node, name=name, most=LINES_MOST)
+        return
+    if len(args) != len(submodel.dummies):
+        context.report("submodel-arguments", node, name=name, wanted=len(submodel.dummies), given=len(args))
+        return
+    rename: dict[str, str] = {}
+    for dummy, argument in zip(submodel.dummies, args, strict=True):
+        if isinstance(argument, Name):
+            rename[dummy] = frame.rename.get(argument.name, argument.name)
+        else:
+            context.report("submodel-argument-not-name", argument, name=name)
+            return
+    invoked = (*frame.invoked, context.span(node))
+    calls = (*frame.calls, name)
+    for statement, at, _ in submodel.body:
+        inner = Frame(at, rename, {}, invoked, calls)
+        context.frame = inner
+        if isinstance(statement, Invoke):
+            _invoke(context, statement, statement.name, statement.args, submodels, lines)
+        elif isinstance(statement, Bare) and isinstance(statement.value, Call):
+            _invoke(context, statement, statement.value.name, statement.value.args, submodels, lines)
+        else:
+            lines.append((statement, inner))
+    context.frame = frame

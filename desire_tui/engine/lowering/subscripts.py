@@ -1,0 +1,161 @@
+"""Numbers that a segment needs at compile time: subscripts, shifts, SAMPLE's m, channels.
+
+Subscripts are real expressions of the script's values, checked against the bounds (error 2), then truncated
+(language.md 3).
+"""
+
+from __future__ import annotations
+
+from operator import add, mul, sub, truediv
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.left_chains import chain
+from desire_tui.engine.library import LIBRARY, power
+from desire_tui.engine.lowering.lowering_context import Argument, Frame
+from desire_tui.engine.lowering.scope import UNKNOWN
+from desire_tui.engine.nodes import Binary, Call, Element, Name, Number, Unary
+from desire_tui.engine.values import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.nodes import Expr
+
+_OPERATIONS: dict[str, Callable[[float, float], float]] = {
+    "+": add, "-": sub, "*": mul, "/": truediv, "^": power,
+}  # fmt: skip
+
+
+def constant(context: Context, node: Expr) -> float | None:
+    """Return the present value of an expression; None where it cannot be told, or was complained about."""
+    if isinstance(node, Number):
+        return node.value
+    try:
+        return _value(context, node)
+    except (ArithmeticError, ValueError):
+        context.report("constant-not-computable", node)
+        return None
+
+
+def whole(context: Context, node: Expr) -> int | None:
+    """Return the present value, truncated."""
+    value = constant(context, node)
+    if value is None:
+        return None
+    if not abs(value) < 1e15:
+        context.report("constant-not-computable", node)
+        return None
+    return int(value)
+
+
+def element(context: Context, node: Element) -> tuple[int | None, str]:
+    """Return a subscripted name's slot, and the name with its subscripts worked out.
+
+    The slot is None for a subscript that is not known yet and after errors 2, 19, 69, 218, 73.
+    """
+    name = context.actual(node.name)
+    quantity = context.scope.names.get(name)
+    if quantity is None or not quantity.shape:
+        key = "function-with-brackets" if context.known_function(node.name) else "array-not-declared"
+        arrays = (q.name for q in context.scope.names.values() if q.shape)
+        context.report(key, node, name=name, close=closest(name, arrays))
+        return None, name
+    if quantity.kind is Kind.COMPLEX:
+        context.report("complex-in-dynamic", node, name=name)
+        return None, name
+    if len(node.subscripts) != len(quantity.shape):
+        context.report("subscript-count", node, name=name, count=len(quantity.shape))
+        return None, name
+    slot: int | None = 0
+    shown = []
+    for number, (subscript, size) in enumerate(zip(node.subscripts, quantity.shape, strict=True), 1):
+        value = constant(context, subscript)
+        shown.append("…" if value is None else str(int(value)) if abs(value) < 1e15 else str(value))
+        if value is None or size == UNKNOWN:
+            slot = None
+        elif not 1 <= value < size + 1:
+            context.report(
+                "subscript-out-of-range", subscript, name=name, value=f"{value:g}", size=size, number=number
+            )
+            slot = None
+        elif slot is not None:
+            slot = slot * size + int(value) - 1
+    return (None if slot is None else quantity.slot + slot), f"{name}[{','.join(shown)}]"
+
+
+def _value(context: Context, node: Expr) -> float | None:
+    if isinstance(node, Number):
+        return node.value
+    if isinstance(node, Name):
+        return _named(context, node)
+    if isinstance(node, Unary):
+        value = _value(context, node.operand)
+        return None if value is None else -value if node.op == "-" else value
+    if isinstance(node, Binary) and node.op in _OPERATIONS:
+        first, steps = chain(node) if node.op != "^" else (node.left, [node])
+        result = _value(context, first)
+        for step in steps:
+            right = _value(context, step.right)
+            if step.op not in _OPERATIONS:
+                context.report("constant-not-computable", step)
+                return None
+            result = None if result is None or right is None else _OPERATIONS[step.op](result, right)
+        return result
+    if isinstance(node, Element):
+        slot, _ = element(context, node)
+        quantity = context.quantity(node.name)
+        return (
+            None
+            if slot is None or quantity is None
+            else context.scope.constant(quantity, slot - quantity.slot)
+        )
+    if isinstance(node, Call):
+        return _called(context, node)
+    context.report("constant-not-computable", node)
+    return None
+
+
+def _named(context: Context, node: Name) -> float | None:
+    name = node.name
+    argument = context.frame.arguments.get(name)
+    if argument is not None:
+        inner = context.frame
+        context.enter(argument.outer)
+        value = _value(context, argument.node)
+        context.enter(inner)
+        return value
+    quantity = context.quantity(name)
+    if quantity is None or not (quantity.shape or context.scope.is_defined(quantity)):
+        name = context.actual(name)
+        if context.once(name):
+            context.report("undefined-subscript", node, name=name, close=closest(name, context.scope.names))
+        return None
+    if quantity.shape:
+        context.report("array-as-number", node, name=quantity.name)
+        return None
+    return context.scope.constant(quantity)
+
+
+def _called(context: Context, node: Call) -> float | None:
+    function = context.functions.get(node.name)
+    if function is not None and len(function.node.dummies) == len(node.args):
+        inner = context.frame
+        if node.name in inner.calls:
+            context.report("function-recursion", node, name=node.name)
+            return None
+        arguments = {d: Argument(a, inner) for d, a in zip(function.node.dummies, node.args, strict=True)}
+        invoked, called = (*inner.invoked, context.span(node)), (*inner.calls, node.name)
+        context.enter(Frame(function.at, {}, arguments, invoked, called))
+        value = _value(context, function.node.body)
+        context.enter(inner)
+        return value
+    entry = LIBRARY.get(node.name)
+    if entry is None or entry.value is None or entry.kind == "table" or "D" not in entry.where:
+        context.report("constant-not-computable", node)
+        return None
+    values = [_value(context, argument) for argument in node.args]
+    if any(v is None for v in values):
+        return None
+    return float(entry.value(*values))  # type: ignore[arg-type]  # none of them is None

@@ -1,0 +1,117 @@
+"""Keeps a canvas up to date with a graph: each call draws only the samples that came since the last."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.graph.model import Frame
+from desire_tui.engine.graph.polylines import thin_columns, to_unit
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.graph.model import Curve, Graph
+    from desire_tui.engine.outputs.braille_canvas import Canvas
+
+    Floats = NDArray[np.float64]
+    Window = tuple[float, float, float, float]
+
+WHOLE: Window = (0.0, 1.0, 0.0, 1.0)
+SAMPLES_MOST = 200_000
+"""Samples one call draws of a curve, so that the first look at ten million of them does not block."""
+
+
+class Painter:
+    """Draws one graph on one canvas through a window (left, right, bottom, top) in frame units."""
+
+    def __init__(self, canvas: Canvas, graph: Graph, window: Window = WHOLE) -> None:
+        self.canvas, self.graph, self.window = canvas, graph, window
+        self._drawn: dict[int, int] = {}
+        self._points = 0
+        self._pictures = 0
+        self._erased = graph.erased
+        canvas.clear()
+
+    def update(self) -> bool:
+        """Draw what is new; returns whether there may be more at once (a long curve seen first)."""
+        if self.graph.erased != self._erased:
+            self._erased = self.graph.erased
+            self._drawn.clear()
+            self._points = self._pictures = 0
+            self.canvas.clear()
+        more = False
+        for curve in list(self.graph.curves):
+            more |= self._curve(curve)
+        self._plot_points()
+        self._picture()
+        return more
+
+    def _curve(self, curve: Curve) -> bool:
+        count = curve.count
+        drawn = self._drawn.get(id(curve), 0)
+        if count == drawn:
+            return False
+        stop = min(count, drawn + SAMPLES_MOST)
+        # the last sample drawn is the first end of the next line
+        x, y = curve.samples(max(drawn - 1, 0) if curve.joined else drawn, stop)
+        x, y = self._through(*to_unit(curve.frame, x, y))
+        if curve.joined:
+            if curve.frame.kind == "dispt":
+                x, y = thin_columns(x, y, self.canvas.width)
+            self.canvas.line(x, y, curve.color, curve.thickness)
+        else:
+            self.canvas.dots(x, y, curve.color, curve.thickness)
+        self._drawn[id(curve)] = stop
+        return stop < count
+
+    def _plot_points(self) -> None:
+        points = self.graph.points
+        if points.count == self._points or self.graph.frame.kind != "plot":
+            return
+        x, y, colors = points.so_far()
+        x, y, colors = x[self._points :], y[self._points :], colors[self._points :]
+        self._points += len(x)
+        x, y = self._through(*to_unit(self.graph.frame, x, y))
+        for color in np.unique(colors):
+            chosen = colors == color
+            self.canvas.dots(x[chosen], y[chosen], int(color), self.graph.thickness)
+
+    def _picture(self) -> None:
+        """SHOW: side by side, dots as dense as the value is large (ordered dithering), sign by colour."""
+        shown = self.graph.shown
+        state = sum(len(s.record.pictures) if s.record is not None else 1 for s in shown)
+        if not shown or state == self._pictures:
+            return
+        self._pictures = state
+        self.canvas.clear()
+        for number, array in enumerate(shown):
+            values = array.latest()
+            if values is not None:
+                self._grey(values / (array.scale or 1.0), number / len(shown), (number + 1) / len(shown))
+
+    def _grey(self, values: Floats, left: float, right: float) -> None:
+        canvas = self.canvas
+        first, last = (
+            round(left * canvas.width),
+            max(round(right * canvas.width) - 1, round(left * canvas.width) + 1),
+        )
+        rows = np.minimum(np.arange(canvas.height) * values.shape[0] // canvas.height, values.shape[0] - 1)
+        wide = last - first
+        columns = np.minimum(np.arange(wide) * values.shape[1] // wide, values.shape[1] - 1)
+        seen = values[np.ix_(rows, columns)]
+        limit = (_BAYER[np.arange(canvas.height)[:, None] % 4, np.arange(wide)[None, :] % 4] + 0.5) / 16
+        for color, lit in ((_POSITIVE, seen > limit), (_NEGATIVE, -seen > limit)):
+            row, column = np.nonzero(lit)
+            x = (column + first + 0.5) / canvas.width
+            canvas.dots(x, 1.0 - (row + 0.5) / canvas.height, color)
+
+    def _through(self, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+        """Frame units to the window's."""
+        left, right, bottom, top = self.window
+        return to_unit(Frame("plot", left, right, bottom, top, 1.0), x, y)
+
+
+_BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
+_POSITIVE, _NEGATIVE = 14, 9

@@ -1,0 +1,193 @@
+"""A graph as a picture file: PNG, SVG, PDF, drawn by matplotlib (Figure + Agg, never pyplot)."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from threading import Lock
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
+from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, to_unit
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from desire_tui.engine.graph.model import Curve, Graph
+
+    Tint = tuple[float, float, float]
+
+KINDS = (".png", ".svg", ".pdf")
+_INCHES = (8.0, 5.0)
+_DOTS_PER_INCH = 150
+_WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
+_SPINE = 2 * 72 / _DOTS_PER_INCH  # two dots: crisp
+_COLUMNS = 4000  # finer than any printer shows at this size
+_FONT = 11
+_drawing = Lock()  # the settings are matplotlib's own, and two threads may want pictures
+
+
+def write_picture(graph: Graph, path: Path) -> None:
+    """Write a graph. DesireError 34: an ending that is no picture's; 106: the file cannot be written."""
+    kind = path.suffix.lower()
+    if kind not in KINDS:
+        raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
+    try:
+        _write(graph, path, kind[1:], _INCHES, _DOTS_PER_INCH)
+    except OSError as reason:
+        facts = {"path": path, "reason": reason.strerror or reason}
+        raise DesireError(Diagnostic("file-unwritable", facts=facts)) from None
+
+
+def png_of(graph: Graph, width: int, height: int) -> bytes:
+    """Return a graph as a PNG of `width` × `height` dots."""
+    wide = _INCHES[0]
+    buffer = BytesIO()
+    _write(graph, buffer, "png", (wide, wide * height / width), width / wide)
+    return buffer.getvalue()
+
+
+def _write(
+    graph: Graph, target: Path | BytesIO, kind: str, inches: tuple[float, float], dots_per_inch: float
+) -> None:
+    import logging
+
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its font cache is nobody's business here
+    from matplotlib import rc_context
+
+    with _drawing, rc_context({"svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000}):
+        figure = draw(graph, inches)
+        figure.savefig(target, format=kind, dpi=dots_per_inch, facecolor=figure.get_facecolor())
+
+
+def draw(graph: Graph, inches: tuple[float, float] = _INCHES) -> Figure:
+    """Return a graph as a figure: same window, colours, caption, keys and thickness as on the screen."""
+    from matplotlib.figure import Figure
+
+    ground = _tint(WHITE if graph.white else BLACK, graph)
+    ink = _tint(BLACK if graph.white else 7, graph)
+    figure = Figure(figsize=inches, facecolor=ground, layout="constrained")
+    if graph.frame.kind == "picture":
+        _draw_pictures(figure, graph, ink)
+        return figure
+    axes = figure.add_subplot()
+    axes.set_facecolor(ground)
+    frame = graph.frame
+    axes.set_xlim(frame.left, frame.right)
+    axes.set_ylim(frame.bottom, frame.top)
+    axes.set_xticks(frame.x_ticks)
+    axes.set_yticks(frame.y_ticks)
+    _dress(axes, graph, ink)
+    for curve in graph.curves:
+        _draw_curve(axes, curve, graph)
+    _draw_points(axes, graph)
+    axes.set_title(graph.title, loc="left", color=ink, fontsize=_FONT)
+    axes.set_xlabel(graph.caption, color=ink, fontsize=_FONT)
+    if graph.keys:
+        _draw_keys(figure, graph, ink)
+    return figure
+
+
+def _dress(axes: Axes, graph: Graph, ink: Tint) -> None:
+    net = None if graph.net is None else _tint(graph.net, graph)
+    for spine in axes.spines.values():
+        spine.set_visible(net is not None)
+        if net is not None:
+            spine.set_color(net)
+            spine.set_linewidth(_SPINE)
+    axes.tick_params(colors=ink, labelsize=_FONT, length=4 if net is not None else 0)
+    axes.ticklabel_format(useOffset=False)
+    if net is None:
+        return
+    frame = graph.frame
+    axes.set_xticks(np.linspace(frame.left, frame.right, 11)[1:-1], minor=True)
+    axes.set_yticks(np.linspace(frame.bottom, frame.top, 9)[1:-1], minor=True)
+    axes.tick_params(which="minor", colors=net, length=2)
+    axes.grid(visible=True, which="major", color=net, linewidth=0.7, alpha=0.75)
+    axes.grid(visible=True, which="minor", color=net, linewidth=0.4, alpha=0.25)
+
+
+def _draw_curve(axes: Axes, curve: Curve, graph: Graph) -> None:
+    """Draw in frame units: a curve of an earlier run keeps its own scale."""
+    x, y = to_unit(curve.frame, *curve.samples())
+    color, width = _curve_tint(curve.color, graph), _WIDTHS[curve.thickness]
+    if not curve.joined:
+        with np.errstate(invalid="ignore"):
+            inside = (x >= 0) & (x <= 1) & (y >= 0) & (y <= 1)
+        axes.plot(
+            x[inside], y[inside], linestyle="none", marker="o", markersize=0.8 * width, markeredgewidth=0,
+            color=color, transform=axes.transAxes,
+        )  # fmt: skip
+        return
+    if curve.frame.kind == "dispt":
+        x, y = thin_columns(x, y, _COLUMNS)
+    x1, y1, x2, y2 = clip_polyline(x, y)
+    path_x, path_y = _connected(x1, y1, x2, y2)
+    axes.plot(
+        path_x, path_y, color=color, linewidth=width, solid_joinstyle="round", transform=axes.transAxes,
+        clip_on=False, zorder=3,
+    )  # fmt: skip
+
+
+def _connected(x1: Any, y1: Any, x2: Any, y2: Any) -> tuple[Any, Any]:
+    """Segments end to end as one path, broken by nan where they do not meet."""
+    if not len(x1):
+        return x1, y1
+    broken = np.flatnonzero((x1[1:] != x2[:-1]) | (y1[1:] != y2[:-1])) + 1
+    paths = []
+    for first, last in ((x1, x2), (y1, y2)):
+        points = np.append(first, last[-1])
+        # before each break: the end of the old piece, then a gap
+        values = np.column_stack((last[broken - 1], np.full(len(broken), np.nan))).ravel()
+        paths.append(np.insert(points, np.repeat(broken, 2), values))
+    return paths[0], paths[1]
+
+
+def _draw_points(axes: Axes, graph: Graph) -> None:
+    x, y, colors = graph.points.so_far()
+    if not len(x):
+        return
+    axes.scatter(
+        x, y, s=(2.0 * _WIDTHS[graph.thickness]) ** 2, c=[_curve_tint(int(c), graph) for c in colors],
+        linewidths=0, zorder=3,
+    )  # fmt: skip
+
+
+def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
+    from matplotlib.lines import Line2D
+
+    tints = [(key.name, _curve_tint(key.color, graph)) for key in graph.keys]
+    handles = [Line2D([], [], color=tint, linewidth=3, label=name) for name, tint in tints]
+    legend = figure.legend(
+        handles=handles, loc="outside lower center", ncols=min(len(handles), 8), frameon=False
+    )
+    for text in legend.get_texts():
+        text.set_color(ink)
+
+
+def _draw_pictures(figure: Figure, graph: Graph, ink: Tint) -> None:
+    shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
+    for number, (array, values) in enumerate(shown, 1):
+        axes = figure.add_subplot(1, len(shown), number)
+        axes.imshow(values, cmap="gray", vmin=-array.scale, vmax=array.scale, interpolation="nearest")
+        axes.set_title(array.name, color=ink, fontsize=_FONT)
+        axes.set_xticks([])
+        axes.set_yticks([])
+
+
+def _tint(color: int, graph: Graph) -> Tint:
+    return _parts(rgb(color, white=graph.white))
+
+
+def _curve_tint(color: int, graph: Graph) -> Tint:
+    return _parts(curve_rgb(color, white=graph.white))
+
+
+def _parts(color: Rgb) -> Tint:
+    red, green, blue = color
+    return red / 255, green / 255, blue / 255

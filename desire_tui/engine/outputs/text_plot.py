@@ -1,0 +1,44 @@
+"""A graph as text, for terminals and files: frame, braille canvas, colour keys."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.graph.colors import curve_rgb
+from desire_tui.engine.outputs.braille_canvas import NO_COLOR, Canvas
+from desire_tui.engine.outputs.incremental_drawing import Painter
+from desire_tui.engine.outputs.text_frame import text_frame
+
+if TYPE_CHECKING:
+    from desire_tui.engine.graph.model import Graph
+
+_RESET = "\x1b[0m"
+
+
+def text_plot(graph: Graph, columns: int, rows: int, *, colored: bool) -> str:
+    """Return a graph as `rows` lines of `columns` cells, the last for keys; ANSI colours if `colored`."""
+    frame = text_frame(graph, columns, rows - 1)
+    canvas = Canvas(frame.columns, frame.rows)
+    painter = Painter(canvas, graph)
+    while painter.update():
+        pass
+    lines = []
+    for number, line in enumerate(frame.lines):
+        row = number - frame.top
+        if 0 <= row < frame.rows:
+            inside = "".join(_paint(text, color, graph, colored=colored) for text, color in canvas.runs(row))
+            lines.append(line[: frame.left] + inside + line[frame.left + frame.columns :])
+        else:
+            lines.append(line.rstrip())
+    keys = "   ".join(
+        _paint("■ " if colored else "", k.color, graph, colored=colored) + k.name for k in graph.keys
+    )
+    return "\n".join([*lines, " " * frame.left + keys]).rstrip() + "\n"
+
+
+def _paint(text: str, color: int, graph: Graph, *, colored: bool) -> str:
+    ground = "\x1b[48;2;255;255;255m" if graph.white else ""
+    if not colored or not (ground or text.strip()):
+        return text
+    red, green, blue = curve_rgb(0 if color == NO_COLOR else color, white=graph.white)
+    return f"{ground}\x1b[38;2;{red};{green};{blue}m{text}{_RESET}"

@@ -1,0 +1,220 @@
+"""Forward differentiation of a segment: statements that compute J·v for a direction v of the states.
+
+Every number that depends on the states gets a tangent beside it, every assignment one more that computes the
+tangent: first the tangent, from the old operands, then the number itself. The derivative statements give
+the tangents of the derivatives, so a back end compiles the result like any derivative pass and calls it
+once for each column (or group of columns, `integration.pattern`) of the Jacobian. Griewank and Walther,
+"Evaluating Derivatives", chapter 3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered import (
+    Const,
+    Deriv,
+    DerivVec,
+    DotTerm,
+    Guard,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    Shifted,
+    Table1,
+    Table2,
+    Vec,
+)  # fmt: skip
+from desire_tui.engine.passes.dead_code import draws, needed
+from desire_tui.engine.passes.derivative_rules import SLOPES, ZERO, op, plus
+from desire_tui.engine.passes.slices import derivative_slice
+from desire_tui.engine.passes.tangents import NotDifferentiable, Tangents
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from desire_tui.engine.lowered import Action, Segment, Value
+
+_NUDGE = Const(1e-6)
+"""Relative distance over which a table's slope is taken: exact inside an interval, where it is linear."""
+
+
+@dataclass(frozen=True)
+class Tangent:
+    """The tangent pass: `body`'s derivatives are J·v, v the `order` numbers from slot `directions` on."""
+
+    body: tuple[Action, ...]
+    directions: int
+
+
+def differentiate(segment: Segment, room: Callable[[int], int]) -> Tangent:
+    """Differentiate a segment's derivative pass; `room(count)` gives the first of `count` slots that are 0.
+
+    NotDifferentiable: the pass draws random numbers, remembers, or uses a statement that has no derivative.
+    """
+    actions = derivative_slice(segment)
+    tangents = Tangents(segment.states, actions, room)
+    body = _Differentiator(tangents).actions(actions)
+    return Tangent(needed(tuple(body)), tangents.directions)
+
+
+class _Differentiator:
+    def __init__(self, tangents: Tangents) -> None:
+        self._tangents = tangents
+        self._known: dict[int, tuple[Value, Value | None]] = {}
+
+    # ------------------------------------------------------------------ statements
+
+    def actions(self, actions: Iterable[Action]) -> list[Action]:
+        made: list[Action] = []
+        for action in actions:
+            self._known.clear()  # an expression means something only within its statement
+            self._action(action, made)
+        return made
+
+    def _action(self, action: Action, made: list[Action]) -> None:
+        if isinstance(action, Deriv):
+            made.append(Deriv(action.state, self.of(action.value) or ZERO, action.where))
+        elif isinstance(action, DerivVec):
+            made.append(DerivVec(action.state, action.count, self.of(action.value) or ZERO, action.where))
+        elif isinstance(action, Guard):
+            if action.kind != "if":
+                raise NotDifferentiable(action)
+            body, orelse = tuple(self.actions(action.body)), tuple(self.actions(action.orelse))
+            made.append(Guard("if", body, action.where, action.condition, orelse, action.every))
+        elif isinstance(action, Set | SetVec | SetMat | SetDot):
+            if action.persistent or draws(action):
+                raise NotDifferentiable(action)
+            made.extend(self._assignment(action))
+            made.append(action)
+        else:
+            raise NotDifferentiable(action)
+
+    def _assignment(self, action: Set | SetVec | SetMat | SetDot) -> Iterable[Action]:
+        """Tangent of an assignment, if its target depends on the states at all."""
+        slot = self._tangents.slot(action.slot)
+        if slot is None:
+            return
+        if isinstance(action, SetDot):
+            terms = tuple(self._dot_terms(action))
+            if terms:
+                yield SetDot(slot, terms, action.average, action.where)
+            else:
+                yield Set(slot, ZERO, action.where)
+            return
+        value = self.of(action.value) or ZERO
+        if isinstance(action, Set):
+            yield Set(slot, value, action.where)
+        elif action.mode != "set":
+            raise NotDifferentiable(action)
+        elif isinstance(action, SetVec):
+            yield SetVec(slot, action.count, value, action.where, mask_slot=action.mask_slot)
+        elif action.lower is not None or action.upper is not None:
+            raise NotDifferentiable(action)
+        else:
+            yield SetMat(slot, action.rows, action.cols, value, action.where, mask_slot=action.mask_slot)
+
+    def _dot_terms(self, action: SetDot) -> Iterable[DotTerm]:
+        vector = self._tangents.vector
+        for term in action.terms:
+            left = vector(term.left)
+            if left is not None:
+                yield DotTerm(term.sign, left, term.right)
+            right = term.right
+            if isinstance(right, Vec):
+                moved = vector(right)
+                if moved is not None:
+                    yield DotTerm(term.sign, term.left, moved)
+            elif isinstance(right, MatVec):
+                for product in self._products(right):
+                    yield DotTerm(term.sign, term.left, product)
+
+    # ------------------------------------------------------------------ expressions
+
+    def of(self, value: Value) -> Value | None:
+        """Return the tangent of an expression, None for 0. One that occurs twice is treated once."""
+        known = self._known.get(id(value))
+        if known is None:
+            known = self._known[id(value)] = (value, self._of(value))
+        return known[1]
+
+    def _of(self, value: Value) -> Value | None:
+        if isinstance(value, Const):
+            return None
+        if isinstance(value, Op):
+            return self._operation(value)
+        if isinstance(value, Load):
+            slot = self._tangents.slot(value.slot)
+            return None if slot is None else Load(slot)
+        if isinstance(value, Vec):
+            return self._tangents.vector(value)
+        if isinstance(value, Shifted):
+            slot = self._tangents.slot(value.slot)
+            return None if slot is None else Shifted(slot, value.count, value.by)
+        if isinstance(value, MatVec):
+            total: Value | None = None
+            for product in self._products(value):
+                total = plus(total, product)
+            return total
+        if isinstance(value, RowOf):
+            slot = self._tangents.slot(value.slot)
+            return None if slot is None else RowOf(slot, value.rows, value.cols)
+        if isinstance(value, Outer):
+            return self._outer(value)
+        return self._table(value)
+
+    def _operation(self, value: Op) -> Value | None:
+        slope = SLOPES.get(value.name)
+        if slope is None:
+            raise NotDifferentiable(value)
+        slopes = [self.of(argument) for argument in value.args]
+        if not any(slopes):
+            return None
+        return slope(value.args, slopes)
+
+    def _products(self, value: MatVec) -> Iterable[MatVec]:
+        matrix, x = self._tangents.slot(value.slot), self._tangents.slot(value.x_slot)
+        if matrix is not None:
+            yield MatVec(matrix, value.rows, value.cols, value.transposed, value.x_slot)
+        if x is not None:
+            yield MatVec(value.slot, value.rows, value.cols, value.transposed, x)
+
+    def _outer(self, value: Outer) -> Value | None:
+        u, v = self._tangents.slot(value.u_slot), self._tangents.slot(value.v_slot)
+        if u is None and v is None:
+            return None
+        if value.op != "mul":
+            raise NotDifferentiable(value)
+        left = None if u is None else Outer("mul", u, value.u_count, value.v_slot, value.v_count)
+        right = None if v is None else Outer("mul", value.u_slot, value.u_count, v, value.v_count)
+        return plus(left, right)
+
+    def _table(self, value: Table1 | Table2) -> Value | None:
+        self._tangents.refuse(value)
+        if isinstance(value, Table1):
+            return _slope(value.x, self.of(value.x), lambda x: Table1(x, value.slot, value.count))
+
+        def f(x: Value, y: Value) -> Value:
+            return Table2(x, y, value.f_slot, value.rows, value.cols, value.x_slot, value.y_slot)
+
+        by_x = _slope(value.x, self.of(value.x), lambda x: f(x, value.y))
+        return plus(by_x, _slope(value.y, self.of(value.y), lambda y: f(value.x, y)))
+
+
+def _slope(x: Value, tangent: Value | None, f: Callable[[Value], Value]) -> Value | None:
+    """Central difference of a table, times the argument's tangent."""
+    if tangent is None:
+        return None
+    h = op("mul", _NUDGE, op("add", op("abs", x), Const(1.0)))
+    up, down = op("add", x, h), op("sub", x, h)
+    return op("mul", op("div", op("sub", f(up), f(down)), op("sub", up, down)), tangent)
+
+
+__all__ = ["NotDifferentiable", "Tangent", "differentiate"]

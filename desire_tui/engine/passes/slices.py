@@ -1,0 +1,114 @@
+"""Which statements a pass with given flags must execute (language.md 8.2).
+
+A pass is described by COMM (at a communication point) and STEP (at a step's start). What nobody can see is
+left out (`dead_code`). `Guard` remains for `if` and `sample` only; `out` and `step` are resolved.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered import (
+    DelayLine,
+    Deriv,
+    DerivVec,
+    Get,
+    Guard,
+    Set,
+    Store,
+    Terminate,
+)
+from desire_tui.engine.passes.dead_code import needed, with_bodies
+from desire_tui.engine.passes.final_sample import computes, early, tail
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from desire_tui.engine.lowered import Action, Segment
+
+Actions = tuple["Action", ...]
+
+
+def full_pass(segment: Segment) -> Actions:
+    """COMM and STEP: everything, in order."""
+    return _resolve(segment.body, comm=True, step=True)
+
+
+def step_slice(segment: Segment) -> Actions:
+    """STEP without COMM: the start of a step inside a communication interval."""
+    actions = _resolve(segment.body, comm=False, step=True)
+    return needed(actions, early(actions))
+
+
+def derivative_slice(segment: Segment) -> Actions:
+    """Neither flag: the later stages of a step."""
+    return needed(_resolve(segment.body, comm=False, step=False))
+
+
+def tail_pass(segment: Segment) -> Actions:
+    """COMM without STEP, after `term` fired between communication points: see `final_sample`."""
+    return tail(segment.body, early(_resolve(segment.body, comm=False, step=True)))
+
+
+def jacobian_pass(segment: Segment, stride: int) -> Actions:
+    """Return the JACOBIAN segment and what it uses; J[i, k] goes to `slot` + i·stride + k."""
+    given = segment.jacobian
+    assert given is not None
+    pure = _pure(_resolve(segment.body, comm=False, step=False))
+    where = segment.states[0].where
+    wanted = tuple(Deriv(number, entry.value, where) for number, entry in enumerate(given.entries))
+    helpers = needed(pure + given.body + wanted)[: -len(wanted) or None]
+    return helpers + tuple(
+        Set(given.slot + entry.row * stride + entry.column, entry.value, where) for entry in given.entries
+    )
+
+
+def acts_at_steps(segment: Segment) -> bool:
+    """Whether a pass at a step's start inside an interval does anything but compute derivatives."""
+    return not is_pure(_resolve(segment.body, comm=False, step=True))
+
+
+def is_pure(actions: Actions) -> bool:
+    """Whether statements only compute: nothing is remembered, drawn or ended."""
+    return all(
+        is_pure(a.body) and is_pure(a.orelse)
+        if isinstance(a, Guard)
+        else isinstance(a, Deriv | DerivVec) or computes(a)
+        for a in actions
+    )
+
+
+def _pure(actions: Actions) -> Actions:
+    kept: list[Action] = []
+    for action in actions:
+        if isinstance(action, Guard):
+            kept.append(with_bodies(action, _pure(action.body), _pure(action.orelse)))
+        elif not isinstance(action, Deriv | DerivVec) and is_pure((action,)):
+            kept.append(action)
+    return tuple(kept)
+
+
+def _resolve(actions: Iterable[Action], *, comm: bool, step: bool) -> Actions:
+    kept: list[Action] = []
+    for action in actions:
+        if isinstance(action, Guard):
+            if action.kind == "out":
+                if comm:
+                    kept.extend(_resolve(action.body, comm=comm, step=step))
+            elif action.kind == "step":
+                if step:
+                    kept.extend(_resolve(action.body, comm=comm, step=step))
+            elif action.kind == "if" or comm:
+                body = _resolve(action.body, comm=comm, step=step)
+                orelse = _resolve(action.orelse, comm=comm, step=step)
+                if body or orelse:
+                    kept.append(with_bodies(action, body, orelse))
+        elif isinstance(action, Terminate):
+            if step:
+                kept.append(action)
+        elif isinstance(action, DelayLine):
+            if step if action.per_step else comm:
+                kept.append(action)
+        elif not isinstance(action, Store | Get) or comm:
+            kept.append(action)
+    return tuple(kept)

@@ -1,0 +1,214 @@
+"""Which derivatives depend on which states: the pattern of the Jacobian, found from the statements.
+
+What a vector depends on is kept as a few *bonds*, not element by element: a `diagonal` bond says that
+element i depends on state `first` + i, a `block` bond that every element depends on the states `first` …
+`last` − 1; both for lo ≤ i < hi. Elementwise operations keep bonds, shifts move them, products with
+matrices make blocks. So a heat equation over a million states has three bonds. The pattern may be larger
+than the truth, never smaller.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from desire_tui.engine.lowered import (
+    Deriv,
+    DerivVec,
+    Guard,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    RowOf,
+    Set,
+    SetVec,
+    Shifted,
+    Table1,
+    Table2,
+    Vec,
+)
+from desire_tui.engine.lowered.effects import memory, reads, writes
+from desire_tui.engine.passes.slices import derivative_slice
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.lowered import Action, Segment, Value
+
+    Entries = tuple[NDArray[np.int32], NDArray[np.int32]]
+
+
+class Bond(NamedTuple):
+    """Elements lo … hi − 1 depend on states: see above."""
+
+    kind: str
+    first: int
+    last: int
+    lo: int
+    hi: int
+
+
+Bonds = frozenset[Bond]
+_NONE: Bonds = frozenset()
+
+
+def dependence(segment: Segment) -> Entries:
+    """Return rows and columns of the entries of ∂(dx/dt)/∂x that may differ from 0, some twice."""
+    finder = _Finder(segment)
+    finder.run(derivative_slice(segment), certain=True)
+    return finder.entries()
+
+
+class _Finder:
+    def __init__(self, segment: Segment) -> None:
+        self._scalars: dict[int, Bonds] = {}
+        self._arrays: dict[tuple[int, int], Bonds] = {}
+        self._found: set[tuple[int, int, Bond]] = set()
+        for s in segment.states:
+            if s.count == 1:
+                self._scalars[s.slot] = frozenset({Bond("block", s.first, s.first + 1, 0, 1)})
+            else:
+                self._arrays[s.slot, s.count] = frozenset({Bond("diagonal", s.first, 0, 0, s.count)})
+
+    def run(self, actions: Iterable[Action], *, certain: bool) -> None:
+        """Follow the statements; under an `if` (not `certain`) an assignment may leave the old value."""
+        for action in actions:
+            if isinstance(action, Guard):
+                self.run(action.body, certain=False)
+                self.run(action.orelse, certain=False)
+            elif isinstance(action, Deriv):
+                self._found |= {(action.state, 1, bond) for bond in self.of(action.value)}
+            elif isinstance(action, DerivVec):
+                bonds = _spread(self.of(action.value), action.count)
+                self._found |= {(action.state, action.count, bond) for bond in bonds}
+            else:
+                self._assign(action, certain=certain)
+
+    def _assign(self, action: Action, *, certain: bool) -> None:
+        if isinstance(action, Set | SetVec):
+            bonds = self.of(action.value)
+            adds = isinstance(action, SetVec) and action.mode == "add"
+            certain = certain and not action.persistent and not adds
+        else:  # sums, matrices and whatever else: everything depends on everything that is read
+            bonds = _block(self._read(slot, count) for slot, count in reads(action))
+        for slot, count in writes(action):
+            bonds = _spread(bonds, count)
+            if count == 1:
+                self._scalars[slot] = bonds if certain else bonds | self._scalars.get(slot, _NONE)
+            elif bonds or (slot, count) in self._arrays:
+                self._arrays[slot, count] = (
+                    bonds if certain else bonds | self._arrays.get((slot, count), _NONE)
+                )
+
+    # ------------------------------------------------------------------ expressions
+
+    def of(self, value: Value) -> Bonds:
+        """Return what an expression depends on."""
+        if isinstance(value, Op):
+            count = extent(value)
+            return frozenset(b for argument in value.args for b in _spread(self.of(argument), count))
+        if isinstance(value, Load):
+            return self._read(value.slot, 1)
+        if isinstance(value, Vec):
+            return self._read(value.slot, value.count)
+        if isinstance(value, Shifted):
+            return _shift(self._read(value.slot, value.count), value.by, value.count)
+        if isinstance(value, Table1):
+            return self.of(value.x)
+        if isinstance(value, Table2):
+            count = extent(value)
+            return _spread(self.of(value.x), count) | _spread(self.of(value.y), count)
+        return _spread(_block(self._read(slot, count) for slot, count in memory(value)), extent(value))
+
+    def _read(self, slot: int, count: int) -> Bonds:
+        """Bonds of the numbers in `slot` …, whatever names they were written under."""
+        found: set[Bond] = set()
+        for (start, size), bonds in self._arrays.items():
+            if start < slot + count and slot < start + size:
+                found.update(_window(bonds, slot - start, count))
+        if count == 1:
+            found |= self._scalars.get(slot, _NONE)
+        else:
+            inside = range(slot, slot + count)
+            few = inside if count < len(self._scalars) else [s for s in self._scalars if s in inside]
+            for s in few:
+                for bond in self._scalars.get(s, _NONE):
+                    found.add(bond._replace(lo=s - slot, hi=s - slot + 1))
+        return frozenset(_as_block(b) for b in found) if count == 1 else frozenset(found)
+
+    # ------------------------------------------------------------------ the result
+
+    def entries(self) -> Entries:
+        """Write the bonds out."""
+        rows: list[NDArray[np.int64]] = [np.zeros(0, np.int64)]
+        columns: list[NDArray[np.int64]] = [np.zeros(0, np.int64)]
+        for state, count, bond in self._found:
+            elements = np.arange(bond.lo, min(bond.hi, count))
+            if bond.kind == "diagonal":
+                rows.append(state + elements)
+                columns.append(bond.first + elements)
+            else:
+                width = bond.last - bond.first
+                rows.append(np.repeat(state + elements, width))
+                columns.append(np.tile(np.arange(bond.first, bond.last), len(elements)))
+        return np.concatenate(rows).astype(np.int32), np.concatenate(columns).astype(np.int32)
+
+
+def extent(value: Value) -> int:
+    """Return the number of elements of an expression."""
+    if isinstance(value, Op):
+        return max((extent(argument) for argument in value.args), default=1)
+    if isinstance(value, Vec | Shifted):
+        return value.count
+    if isinstance(value, Table1):
+        return extent(value.x)
+    if isinstance(value, Table2):
+        return max(extent(value.x), extent(value.y))
+    if isinstance(value, MatVec):
+        return value.cols if value.transposed else value.rows
+    if isinstance(value, RowOf):
+        return value.cols
+    if isinstance(value, Outer):
+        return value.u_count * value.v_count
+    return 1
+
+
+def _spread(bonds: Bonds, count: int) -> Bonds:
+    """Spread a scalar's bonds over the elements of a vector: it goes into each of them."""
+    if count == 1:
+        return bonds
+    return frozenset(
+        b._replace(hi=count) if b.kind == "block" and (b.lo, b.hi) == (0, 1) else b for b in bonds
+    )
+
+
+def _shift(bonds: Bonds, by: int, count: int) -> Bonds:
+    """Element i of the result is element i + by, 0 outside."""
+    moved = set()
+    for b in bonds:
+        first = b.first + by if b.kind == "diagonal" else b.first
+        lo, hi = max(b.lo - by, 0), min(b.hi - by, count)
+        if lo < hi:
+            moved.add(b._replace(first=first, lo=lo, hi=hi))
+    return frozenset(moved)
+
+
+def _window(bonds: Bonds, start: int, count: int) -> Bonds:
+    """Bonds of the elements from `start` on."""
+    return _shift(bonds, start, count)
+
+
+def _as_block(bond: Bond) -> Bond:
+    """One element's bond as a scalar's."""
+    if bond.kind == "block":
+        return bond._replace(lo=0, hi=1)
+    return Bond("block", bond.first + bond.lo, bond.first + bond.hi, 0, 1)
+
+
+def _block(many: Iterable[Bonds]) -> Bonds:
+    """Everything that any element depends on, as a scalar's bonds."""
+    return frozenset(_as_block(bond) for bonds in many for bond in bonds)

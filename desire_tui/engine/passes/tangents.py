@@ -1,0 +1,115 @@
+"""Where the tangents live: for each piece of memory that depends on the states, another of the same size."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered import Guard, Table1, Vec
+from desire_tui.engine.lowered.effects import reads, writes
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from desire_tui.engine.lowered import Action, StateRange, Table2
+
+
+class NotDifferentiable(Exception):  # noqa: N818 - the caller's cue to take differences, no error
+    """The statement or expression that has no derivative."""
+
+
+class Tangents:
+    """Tangent slots.
+
+    Memory is divided into regions: stretches that the segment's arrays and scalars overlap. A region is
+    *active* if it holds a state, or if a statement that reads an active region writes into it. States'
+    tangents are the direction v: `directions` and on, in the order of the states.
+    """
+
+    def __init__(
+        self, states: Sequence[StateRange], actions: Sequence[Action], room: Callable[[int], int]
+    ) -> None:
+        flat = list(_flat(actions))
+        pieces = [(s.slot, s.count) for s in states]
+        for action in flat:
+            pieces += reads(action)
+            pieces += writes(action)
+        self._starts, self._ends = _regions(pieces)
+        self._base: list[int | None] = [None] * len(self._starts)
+        order = sum(s.count for s in states)
+        self.directions = room(max(order, 1))
+        for s in states:
+            region = self._region(s.slot)
+            base = self.directions + s.first - (s.slot - self._starts[region])
+            inside = self.directions <= base and base + self._size(region) <= self.directions + order
+            if self._base[region] not in (None, base) or not inside:
+                raise NotDifferentiable(
+                    s
+                )  # an array that overlaps states in another order, or reaches beyond
+            self._base[region] = base
+        self._spread(flat)
+        for region, place in enumerate(self._base):
+            if place == -1:
+                self._base[region] = room(self._size(region))
+
+    def slot(self, slot: int) -> int | None:
+        """Return the slot of a number's tangent; None if it does not depend on the states."""
+        region = self._region(slot)
+        if region < 0 or slot >= self._ends[region]:
+            return None
+        base = self._base[region]
+        return None if base is None else base + slot - self._starts[region]
+
+    def vector(self, value: Vec) -> Vec | None:
+        """Return the tangent of an array."""
+        slot = self.slot(value.slot)
+        return None if slot is None else Vec(slot, value.count)
+
+    def refuse(self, table: Table1 | Table2) -> None:
+        """NotDifferentiable if a table's own numbers depend on the states."""
+        slots = (table.slot,) if isinstance(table, Table1) else (table.f_slot, table.x_slot, table.y_slot)
+        if any(self.slot(slot) is not None for slot in slots):
+            raise NotDifferentiable(table)
+
+    def _spread(self, actions: Sequence[Action]) -> None:
+        """Mark what depends on the states, until nothing new is found; -1: active, no room yet."""
+        going = True
+        while going:
+            going = False
+            for action in actions:
+                targets = [self._region(slot) for slot, _ in writes(action)]
+                if all(self._base[target] is not None for target in targets):
+                    continue
+                if any(self._base[self._region(slot)] is not None for slot, _ in reads(action)):
+                    for target in targets:
+                        if self._base[target] is None:
+                            self._base[target] = -1
+                            going = True
+
+    def _region(self, slot: int) -> int:
+        return bisect_right(self._starts, slot) - 1
+
+    def _size(self, region: int) -> int:
+        return self._ends[region] - self._starts[region]
+
+
+def _flat(actions: Iterable[Action]) -> Iterable[Action]:
+    for action in actions:
+        if isinstance(action, Guard):
+            yield from _flat(action.body)
+            yield from _flat(action.orelse)
+        else:
+            yield action
+
+
+def _regions(pieces: Iterable[tuple[int, int]]) -> tuple[list[int], list[int]]:
+    """Join overlapping (slot, count) pieces; return where the regions start and end."""
+    starts: list[int] = []
+    ends: list[int] = []
+    for slot, count in sorted(set(pieces)):
+        if ends and slot < ends[-1]:
+            ends[-1] = max(ends[-1], slot + count)
+        else:
+            starts.append(slot)
+            ends.append(slot + count)
+    return starts, ends

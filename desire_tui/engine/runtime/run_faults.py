@@ -1,0 +1,150 @@
+"""What went wrong in a run: which variable, when, and the line that defines it (language.md 9.8)."""
+
+from __future__ import annotations
+
+from math import isnan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.runtime.plan import DUMMY
+from desire_tui.engine.runtime.run_memory import Ended
+from desire_tui.engine.values import DT, ERRMAX, T
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.lowered import Action, Segment, Where
+    from desire_tui.engine.runtime.plan import Plan
+    from desire_tui.engine.runtime.run_memory import RunMemory
+    from desire_tui.engine.values import Values
+
+_SOLVER_KEYS = {
+    -1: "solver-gave-up", -2: "solver-too-accurate", -3: "solver-error-test", -4: "solver-corrector",
+    -5: "solver-linear", -6: "solver-singular", -7: "solver-linear", -8: "solver-derivative",
+    -9: "solver-derivative", -10: "solver-derivative", -15: "solver-corrector", -27: "solver-too-close",
+}  # fmt: skip
+"""CVODE's return flags (SUNDIALS 7, cvode.h)."""
+
+
+def first_not_finite(data: NDArray[np.float64], states: NDArray[np.int64], columns: NDArray[np.int64]) -> int:
+    """Return `RunMemory.which`: the first state that is inf or nan, else -1 - the first such column.
+
+    `data` are all numbers, `states` and `columns` the slots of states and sampled variables.
+    """
+    for number, slots in enumerate((states, columns)):
+        wild = np.flatnonzero(~np.isfinite(data[slots]))
+        if wild.size:
+            return int(wild[0]) if number == 0 else -1 - int(wild[0])
+    return 0
+
+
+def fault(ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values: Values) -> DesireError:
+    """Return the error for a run that ended by a fault."""
+    cells, t = values.cells, values.cells[T]
+    which = int(memory.which)
+    if ended is Ended.DEADLOCK:
+        name, where = state_name(segment, which)
+        facts = {
+            "t": t, "state": name, "difference": cells[ERRMAX], "ermax": plan.error_max, "dt": cells[DT],
+        }  # fmt: skip
+        return _placed("variable-step-deadlock", facts, segment, where)
+    if ended is Ended.STALLED:
+        return _placed("time-stalled", {"t": t, "dt": cells[DT]}, segment, _defining(segment, DT))
+    if ended is Ended.SOLVER:
+        name, where = state_name(segment, int(memory.suspect))
+        facts = {"t": t, "dt": cells[DT], "rule": plan.rule, "state": name, "flag": which}
+        return _placed(_SOLVER_KEYS.get(which, "solver-broken"), facts, segment, where)
+    if which >= 0:
+        name, where = state_name(segment, which)
+        value = cells[_state_slot(segment, which)]
+    else:
+        column = segment.columns[-1 - which]
+        name, value = column.name, cells[column.slot]
+        where = _defining(segment, column.slot) or column.where
+    return _placed("not-finite", {"name": name, "what": _what(value), "t": t}, segment, where)
+
+
+def exhausted(
+    ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values: Values
+) -> DesireError | None:
+    """Return error 232 for a run that ended because a CLEARN had no template left, else None."""
+    if ended is not Ended.TERM:
+        return None
+    for watched in segment.exhausted:
+        if watched.number == memory.which:
+            assert isinstance(watched.value, Load)
+            values.cells[watched.value.slot] = 0.0  # the next run begins without it
+            t = values.cells[T] - (plan.comint if plan.rule == DUMMY else 0.0)  # rule 0 has moved t on
+            return _placed("no-template-left", {"t": t}, segment, watched.where)
+    return None
+
+
+def state_name(segment: Segment, number: int) -> tuple[str, Where | None]:
+    """Return the name of a state (`x`, `V[3]`) and the line that defines its derivative."""
+    for states in segment.states:
+        if states.first <= number < states.first + states.count:
+            index = number - states.first
+            name = f"{states.name}[{index + 1}]" if states.count > 1 else states.name
+            return name, _derivative(segment, number) or states.where
+    return f"number {number + 1}", None
+
+
+def _state_slot(segment: Segment, number: int) -> int:
+    for states in segment.states:
+        if states.first <= number < states.first + states.count:
+            return states.slot + number - states.first
+    return T
+
+
+def _derivative(segment: Segment, number: int) -> Where | None:
+    for action in actions(segment.body):
+        match action:
+            case Deriv(state=state) if state == number:
+                return action.where
+            case DerivVec(state=state, count=count) if state <= number < state + count:
+                return action.where
+    return None
+
+
+def _defining(segment: Segment, slot: int) -> Where | None:
+    """Return the place that gives a slot its value: an assignment, or a state's derivative."""
+    for action in actions(segment.body):
+        match action:
+            case Set(slot=first) | SetDot(slot=first) if first == slot:
+                return action.where
+            case SetVec(slot=first, count=count) if first <= slot < first + count:
+                return action.where
+            case SetMat(slot=first, rows=rows, cols=cols) if first <= slot < first + rows * cols:
+                return action.where
+    for states in segment.states:
+        if states.slot <= slot < states.slot + states.count:
+            return _derivative(segment, states.first + slot - states.slot)
+    return None
+
+
+def actions(body: tuple[Action, ...]) -> Iterator[Action]:
+    """All statements of a body, those inside guards too."""
+    for action in body:
+        yield action
+        if isinstance(action, Guard):
+            yield from actions(action.body)
+            yield from actions(action.orelse)
+
+
+def _placed(key: str, facts: dict[str, object], segment: Segment, where: Where | None) -> DesireError:
+    related: tuple[Diagnostic, ...] = ()
+    if where is not None and where.invoked_at is not None:
+        related = (Diagnostic("expanded-here", where.invoked_at, {}, segment.source),)
+    span = where.span if where is not None else None
+    return DesireError(Diagnostic(key, span, facts, segment.source, related=related))
+
+
+def _what(value: float) -> str:
+    if isnan(value):
+        return "undefined (nan)"
+    return "infinite" if abs(value) == float("inf") else f"{value:g}"

@@ -1,0 +1,219 @@
+"""The run loop: advances a model block by block, keeps the samples, notices wishes, says why it ended."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.runtime.defaults import Defaults
+from desire_tui.engine.runtime.delays import Delays
+from desire_tui.engine.runtime.heartbeat import Ticker
+from desire_tui.engine.runtime.history import History
+from desire_tui.engine.runtime.plan import DUMMY
+from desire_tui.engine.runtime.run_faults import exhausted, fault
+from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
+from desire_tui.engine.values import DT, T
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.runtime.backend import Model
+    from desire_tui.engine.runtime.history import Positions
+    from desire_tui.engine.runtime.pause_and_stop import Control
+    from desire_tui.engine.runtime.plan import Plan
+    from desire_tui.engine.runtime.run_record import EndedWord, RunRecord
+    from desire_tui.engine.values import Values
+
+BLOCK_SECONDS = 0.02
+"""How long a block of samples should take: short enough to look alive, long enough to cost nothing."""
+BLOCK_FIRST = 1
+"""Samples of the first block: a curve is seen at once, however slow."""
+BLOCK_GROWTH = 64
+"""A block may have so many times the samples of the one before it, if that was quick."""
+ROWS_BYTES_MAX = 1 << 30
+"""Samples one run may keep: 10 million of 12 variables."""
+PICTURES_BYTES_MAX = 1 << 28
+"""What SHOW may keep of one run; then every second picture goes."""
+
+_WORDS: dict[Ended, EndedWord] = {Ended.TMAX: "tmax", Ended.TERM: "term", Ended.STOPPED: "stopped"}
+
+
+class Observer(Protocol):
+    """Hears of a run's progress, on the run's thread."""
+
+    def block(self, record: RunRecord, first_row: int) -> None:
+        """Hear that samples `first_row … record.count - 1` have come."""
+
+
+class Simulator:
+    """Makes runs one after the other over the same values; keeps what connects them."""
+
+    def __init__(self, values: Values, control: Control) -> None:
+        self.defaults = Defaults(values)
+        self.history = History(values)
+        self._values = values
+        self._control = control
+        self._ticker = Ticker(control)
+        self._delays = Delays()
+        self.memory: RunMemory | None = None
+        """The run's memory while one goes on."""
+        self._began = 0.0
+        """When the run began that goes on, later by what it was paused; 0: none does."""
+        self._held_at = 0.0
+
+    def reset(self) -> None:
+        """Restore t, DT and the states to the start of the last run; rewind store, get, delay and SAMPLE."""
+        self.history.reset()
+        self.defaults.follow()
+
+    def pace(self, steps: int, record: RunRecord | None) -> float:
+        """Return steps per second, without pauses: of the present run, or of `record`. From any thread."""
+        began = self._began
+        now = self._held_at or perf_counter()
+        seconds = now - began if began > 0.0 else record.seconds if record is not None else 0.0
+        return steps / seconds if seconds > 0.0 else 0.0
+
+    def run(self, model: Model, segment: Segment, plan: Plan, record: RunRecord, observer: Observer) -> bool:
+        """Run to the end; False if the user ended it. DesireError: a fault; the record then says `failed`."""
+        self._began = perf_counter()
+        positions = self.history.begin(segment)
+        lag = np.zeros(max(segment.counters, 1), dtype=np.int64)
+        for counter, records in self._delays.lags(segment, plan, self._values).items():
+            lag[counter] = records
+        memory = self._set_up(segment, plan, positions, lag)
+        record.rows = _rows(plan, record)
+        memory.rows = record.rows.ctypes.data
+        self.memory = memory
+        self._control.attach(memory)
+        self._ticker.begin()
+        ended = Ended.STOPPED
+        try:
+            ended = self._advance(model, segment, memory, record, observer)
+        finally:
+            self._ticker.end()
+            self._control.attach(None)
+            self.memory = None
+            self._settle(plan, memory, positions, record, sampled=ended in {Ended.TMAX, Ended.TERM})
+            record.seconds = perf_counter() - self._began
+            self._began = 0.0
+        full = exhausted(ended, segment, plan, memory, self._values)
+        if ended in _WORDS and full is None:
+            record.ended = _WORDS[ended]
+            return ended is not Ended.STOPPED
+        record.ended = "failed"
+        error = full or fault(ended, segment, plan, memory, self._values)
+        record.message = error.diagnostics[0].message
+        raise error
+
+    def _set_up(
+        self, segment: Segment, plan: Plan, positions: Positions, lag: NDArray[np.int64]
+    ) -> RunMemory:
+        values = self._values
+        joined = positions.end == values.cells[T]
+        if joined:
+            positions.points -= 1  # the joint is the same communication point
+        memory = RunMemory(
+            values=values.address, counters=positions.counters.ctypes.data, lags=lag.ctypes.data,
+            random=values.random.ctypes.data, t_start=plan.t0, t_max=plan.t_max, comint=plan.comint,
+            t_base=plan.t0, dt_base=plan.dt, dt_max=plan.dt_max, dt_min=plan.dt_min, error_max=plan.error_max,
+            error_min=plan.error_min, points_before=positions.points, joined=int(joined), nn=plan.nn,
+            every=plan.every, checked=plan.checked, phase=Phase.AT_POINT,
+        )  # fmt: skip
+        memory.keep = (positions.counters, lag)  # ctypes holds addresses only
+        for states in segment.states:
+            if states.count == 1 and states.slot < len(values.defined):
+                values.defined[states.slot] = 1  # states start at 0 (an array's elements always are defined)
+        for slot in (T, *segment.scalars):
+            values.defined[slot] = 1  # who looks while the run goes on finds them
+        return memory
+
+    def _advance(
+        self, model: Model, segment: Segment, memory: RunMemory, record: RunRecord, observer: Observer
+    ) -> Ended:
+        """Blocks of about BLOCK_SECONDS until the run ends; one sample each where SHOW wants pictures."""
+        block = float(BLOCK_FIRST)
+        while True:
+            first = int(memory.row)
+            if first >= len(record.rows):
+                _grow(record, memory)
+            memory.row_limit = min(first + (1 if segment.pictures else int(block)), len(record.rows))
+            began = perf_counter()
+            self._ticker.block()
+            ended = Ended(model.advance(memory)) if self._control.clear_to_run(memory) else Ended.STOPPED
+            took = perf_counter() - began
+            _note(memory, record)
+            if segment.pictures and record.count > first:
+                self._keep_pictures(segment, record)
+            if record.count > first:
+                observer.block(record, first)
+            if ended is Ended.STOPPED:
+                if not self._held():
+                    return ended
+            elif ended is not Ended.RUNNING:
+                return ended
+            else:
+                block = max(1.0, min(block * BLOCK_GROWTH, block * BLOCK_SECONDS / max(took, 1e-6)))
+
+    def _held(self) -> bool:
+        """Wait while the user pauses the run, whose clock stands still; return whether it may go on."""
+        self._held_at = perf_counter()
+        may_go_on = self._control.wait()
+        self._began += perf_counter() - self._held_at
+        self._held_at = 0.0
+        return may_go_on
+
+    def _settle(
+        self, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord, *, sampled: bool
+    ) -> None:
+        """Make the run's results the script's; `sampled`: it ended with a sample."""
+        values = self._values
+        if plan.rule != DUMMY:
+            values.defined[DT] = 1
+        positions.points = int(memory.points_before + memory.point)
+        _note(memory, record)
+        if memory.steps and not memory.dt_most:  # a constant step need not be measured
+            record.dt_least = record.dt_most = plan.dt
+        # Dummy integration leaves t at the next point: nothing is there twice
+        positions.end = values.cells[T] if sampled and plan.rule != DUMMY else float("nan")
+        self.defaults.follow()
+        record.end_time = values.cells[T]
+        if plan.rule == DUMMY and record.count:
+            record.end_time = float(record.rows[record.count - 1, 0])
+        if record.count < len(record.rows) // 2:
+            record.rows = record.rows[: record.count].copy()
+
+    def _keep_pictures(self, segment: Segment, record: RunRecord) -> None:
+        data = self._values.data
+        record.pictures.append(tuple(data[p.slot : p.slot + p.count].copy() for p in segment.pictures))
+        if len(record.pictures) * sum(p.count for p in segment.pictures) * 8 > PICTURES_BYTES_MAX:
+            record.pictures = record.pictures[::2]
+
+
+def _rows(plan: Plan, record: RunRecord) -> NDArray[np.float64]:
+    """Room for all samples at once: pages cost memory only when they are written. DesireError 470."""
+    columns = 1 + len(record.columns)
+    size = plan.rows_most * columns * 8
+    if size > ROWS_BYTES_MAX:
+        facts = {"nn": plan.nn, "columns": columns, "gigabytes": size / 1e9, "most": ROWS_BYTES_MAX / 1e9}
+        raise DesireError(Diagnostic("too-many-samples", facts=facts))
+    return np.empty((plan.rows_most, columns))
+
+
+def _grow(record: RunRecord, memory: RunMemory) -> None:
+    """Make room where a rule took more samples than planned."""
+    record.rows = np.concatenate([record.rows, np.empty_like(record.rows)])
+    memory.rows = record.rows.ctypes.data
+
+
+def _note(memory: RunMemory, record: RunRecord) -> None:
+    record.steps = int(memory.steps)
+    record.rejected = int(memory.rejected)
+    record.derivative_calls = int(memory.derivative_calls)
+    record.jacobian_calls = int(memory.jacobian_calls)
+    record.dt_least, record.dt_most = memory.dt_least, memory.dt_most
+    record.order = int(memory.order)
+    record.count = int(memory.row)

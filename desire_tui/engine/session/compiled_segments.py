@@ -1,0 +1,89 @@
+"""Compiled segments: made at the first drun that needs them, kept as long as their names mean the same."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.runtime.stash import read_stash, with_recovery
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.nodes import Program
+    from desire_tui.engine.runtime.backend import Backend, Model
+    from desire_tui.engine.structure.structure import Structure
+    from desire_tui.engine.values import Values
+
+
+def make_backend(name: str) -> Backend:
+    """Return the back end; the reference one where there is no LLVM."""
+    if name == "native":
+        try:
+            from desire_tui.engine.codegen import NativeBackend
+
+            return NativeBackend()
+        except ImportError:
+            pass  # no llvmlite on this machine: slower, the same numbers
+    from desire_tui.engine.reference import ReferenceBackend
+
+    return ReferenceBackend()
+
+
+class Segments:
+    """Segments of the active program, by label."""
+
+    def __init__(self, values: Values, backend: str) -> None:
+        self._values = values
+        self._backend_name = backend
+        self._backend: Backend | None = None
+        self._kept: dict[tuple[str | None, int], Segment] = {}
+        self._generation = -1
+        self._program: Program | None = None
+        self._histories: dict[str | None, tuple[Segment, tuple[int, ...], int]] = {}
+
+    @property
+    def backend(self) -> Backend:
+        """The back end, loaded when it is needed first: that takes some 50 ms."""
+        if self._backend is None:
+            self._backend = make_backend(self._backend_name)
+        return self._backend
+
+    def forget(self) -> None:
+        """Compile everything anew at the next drun."""
+        self._kept.clear()
+        self._histories.clear()
+
+    def lowered(self, program: Program, structure: Structure, label: str | None, rule: int) -> Segment:
+        """Return a segment ready for a back end. DesireError: everything that is wrong with it; 215: none."""
+        if self._generation != self._values.generation or program is not self._program:
+            self.forget()
+            self._generation, self._program = self._values.generation, program
+        known = self._kept.get((label, rule))
+        if known is None:
+            if program.segment(label) is None:
+                key = "no-dynamic-segment" if label is None else "no-such-segment"
+                raise DesireError(Diagnostic(key, facts={"label": label}))
+            from desire_tui.engine.lowering.lowering import lower
+
+            known = self._kept[label, rule] = lower(program, label, self._values, structure, rule)
+        return known
+
+    def model(self, segment: Segment, rule: int) -> Model:
+        """Return a segment made ready for a rule; the back end keeps it."""
+        return self.backend.model(segment, rule, self._values)
+
+    def recovering(self, segment: Segment, stash: Path) -> Segment:
+        """Return a segment with a `recover` line as one that reads the stash file as it is now."""
+        histories = read_stash(stash, segment.recover, segment)
+        known = self._histories.get(segment.label)
+        if known is None or known[2] != len(histories):
+            changed, slots = with_recovery(segment, len(histories), self._values)
+            known = self._histories[segment.label] = (changed, slots, len(histories))
+        changed, slots, samples = known
+        for number, slot in enumerate(slots):
+            self._values.data[slot : slot + samples] = np.ascontiguousarray(histories[:, number])
+        return changed

@@ -1,0 +1,92 @@
+"""A quantity on a page of its own: an array over its index, scalars and elements over the last run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.graph.quantity_pages import array_chart, history_chart
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.session.comparison import Change, run_again
+from desire_tui.engine.session.overrides import parts
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.session.script_host import World
+    from desire_tui.engine.session.session import Session
+    from desire_tui.engine.session.workspace import Desk
+    from desire_tui.engine.values import Values
+
+Charted = Literal["shown", "unknown", "no run", "constant", "changed", "failed"]
+"""What became of it: `unknown` has no value; `constant` is not changed by the run; after `changed` programs
+or forgotten names the run cannot be made again; it `failed` when made again."""
+
+
+def chart(session: Session, world: World, desk: Desk, wanted: str) -> Charted:
+    """Plot `x`, `A` or `A[2,3]`. What the last run did not record is recorded by that run made once more.
+
+    Then everything is put back: quantities, random numbers, positions of histories.
+    """
+    values = desk.values
+    try:
+        name, subscripts = parts(wanted)
+    except ValueError:
+        return "unknown"
+    quantity = values.find(name)
+    if quantity is None or not values.is_defined(quantity):
+        return "unknown"
+    if quantity.shape and not subscripts:
+        world.graph_changed(array_chart(session.graphs, name, np.array(values.view(quantity))))
+        return "shown"
+    slot = _slot(values, name, subscripts)
+    if slot is None:
+        return "unknown"
+    return _history(session, world, desk, wanted.replace(" ", ""), slot)
+
+
+def _slot(values: Values, name: str, subscripts: tuple[int, ...]) -> int | None:
+    """Return where a scalar or an element (subscripts from 1) stands; None: there is no such number."""
+    quantity = values.names[name]
+    if len(subscripts) != len(quantity.shape):
+        return None
+    if not all(1 <= k <= n for k, n in zip(subscripts, quantity.shape, strict=True)):
+        return None
+    at = 0
+    for k, n in zip(subscripts, quantity.shape, strict=True):
+        at = at * n + k - 1
+    return quantity.slot + at * (quantity.slots // quantity.size)
+
+
+def _history(session: Session, world: World, desk: Desk, name: str, slot: int) -> Charted:
+    record = session.runs[-1] if session.runs else None
+    if record is None or not record.count:
+        return "no run"
+    if slot in record.slots:
+        world.graph_changed(history_chart(session.graphs, name, record, record.slots.index(slot)))
+        return "shown"
+    program, script = desk.runnable()
+    if world.runs.run_of != (program.source.text, desk.values.generation):
+        return "changed"
+    segment = desk.segments.lowered(program, script, record.segment, record.rule)
+    if not _changes(segment, slot, desk.values):
+        return "constant"
+    try:
+        with world.runs.restored():
+            again = run_again(world, desk, record, Change(), recorded=(name, slot))
+    except Interrupted:
+        raise
+    except DesireError:
+        return "failed"
+    world.graph_changed(history_chart(session.graphs, name, again, again.slots.index(slot)))
+    return "shown"
+
+
+def _changes(segment: Segment, slot: int, values: Values) -> bool:
+    """Whether a run of the segment can change a number; arrays' elements are not looked at closely."""
+    return (
+        slot in segment.scalars
+        or any(states.slot <= slot < states.slot + states.count for states in segment.states)
+        or any(q.shape and q.slot <= slot < q.slot + q.slots for q in values)
+    )

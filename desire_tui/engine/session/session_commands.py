@@ -1,0 +1,156 @@
+"""Commands about the session (language.md 6): erun, run, go, list, snapshot, notebook, compare, help."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.nodes import Dump, FileCommand, Simple
+from desire_tui.engine.session.comparison import Change, compare_runs
+from desire_tui.engine.session.report import run_report
+from desire_tui.engine.session.status import State
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from desire_tui.engine.nodes import Placed, Statement
+    from desire_tui.engine.session.listener import Listener
+    from desire_tui.engine.session.script_host import World
+    from desire_tui.engine.session.session import Session
+    from desire_tui.engine.session.workspace import Desk
+    from desire_tui.engine.source import Source
+
+_OWN_WORDS = frozenset(
+    {"erun", "run", "go", "list", "list+", "bye", "new", "NEW", "ed", "edit", "reload", "keep+"}
+)
+
+
+class Commands:
+    """Carries out what is no statement of a script."""
+
+    def __init__(self, session: Session, desk: Desk, world: World, listener: Listener) -> None:
+        self._session = session
+        self._desk = desk
+        self._world = world
+        self._listener = listener
+
+    def is_own(self, node: Statement) -> bool:
+        """Whether a statement of a command line is carried out here rather than by the interpreter."""
+        match node:
+            case Simple(word=word):
+                return word in _OWN_WORDS
+            case FileCommand(word="sh"):
+                return False
+            case FileCommand():
+                return True
+            case Dump(what="run"):
+                return True
+        return False
+
+    def carry_out_statement(self, placed: Placed, source: Source) -> None:
+        """Carry out a command; its problems get its place."""
+        node = placed.node
+        try:
+            match node:
+                case Simple():
+                    self.carry_out(node.word, None)
+                case FileCommand():
+                    self.carry_out(node.word, node.argument)
+                case _:
+                    self.carry_out("dump", "run")
+        except DesireError as error:
+            raise DesireError(
+                *(
+                    d if d.source or d.span else Diagnostic(d.key, placed.span(), d.facts, source)
+                    for d in error.diagnostics
+                )
+            ) from None
+
+    def carry_out(self, word: str, argument: str | None) -> None:
+        """Carry out a command by its word. DesireError 402: the front end has no such thing."""
+        session, write = self._session, self._listener.console_text
+        match word:
+            case "erun":
+                session.erun()
+            case "run":
+                session.run()
+            case "go":
+                session.go()
+            case "list" | "list+":
+                write(self._listing(numbered=word == "list+"))
+            case "dump":
+                if not session.runs:
+                    raise DesireError(Diagnostic("no-run"))
+                self._world.write(run_report(session.runs[-1]))
+            case "compare":
+                self._compare(argument)
+            case "snapshot":
+                path = session.snapshot(self._file(argument or "graph.png"))
+                write(f"{path}\n")
+            case "notebook":
+                self._notebook(argument)
+            case "help" if not self._listener.command(word, argument):
+                write(self.help_page(argument or "") + "\n")
+            case "new" | "NEW":
+                if not self._listener.command(word, argument):
+                    session.new()
+            case "bye":
+                self._listener.command(word, argument)  # without a desktop there is nothing to leave
+            case "help":
+                pass
+            case _ if not self._listener.command(word, argument):
+                raise DesireError(Diagnostic("command-elsewhere", facts={"word": word}))
+
+    def help_page(self, topic: str) -> str:
+        """Return a help page; DesireError 403 where there is none."""
+        from desire_tui.help import find, topics
+
+        if not topic.strip():
+            return "Help about: " + ", ".join(
+                sorted({t.name for t in topics().values() if t.kind != "error"})
+            )
+        found = find(topic.strip())
+        if found is None:
+            raise DesireError(Diagnostic("no-help", facts={"topic": topic}))
+        return found.markdown
+
+    def _listing(self, *, numbered: bool) -> str:
+        program = self._session.program
+        if program is None:
+            raise DesireError(Diagnostic("no-program"))
+        text = program.source.text.rstrip("\n") + "\n"
+        if not numbered:
+            return text
+        from desire_tui.engine.syntax.line_numbers import with_numbers
+
+        return with_numbers(text)
+
+    def _compare(self, argument: str | None) -> None:
+        change = Change.parse(argument or "")
+        try:
+            with self._world.working():
+                table = compare_runs(self._session, self._world, self._desk, change)
+        except Interrupted:
+            if self._world.state is State.IDLE:
+                raise DesireError(Diagnostic("stopped-by-user")) from None
+            raise  # the script that compares ends too
+        self._world.write(table)
+
+    def _notebook(self, argument: str | None) -> None:
+        journal = self._desk.journal
+        if argument in ("on", "off"):
+            if argument == "on" and journal.path is None:
+                journal.open(self._file("notebook.md"))
+            journal.switch(on=argument == "on")
+        else:
+            journal.open(self._file(argument or "notebook.md"))
+            if self._desk.program is not None:
+                journal.program(self._desk.source)
+        state = f"on: {journal.path}" if journal.is_on else "off"
+        self._listener.console_text(f"notebook {state}\n")
+
+    def _file(self, name: str) -> Path:
+        from pathlib import Path
+
+        return self._world.permit(Path(name), "write")

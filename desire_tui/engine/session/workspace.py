@@ -1,0 +1,79 @@
+"""What lies on the desk: the active program, its folder, its compiled segments, the notebook."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.session.compiled_segments import Segments
+from desire_tui.engine.source import Source
+from desire_tui.engine.values import Values
+
+if TYPE_CHECKING:
+    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.session.notebook import Journal
+    from desire_tui.engine.session.permissions import Permissions
+    from desire_tui.engine.structure.structure import Structure
+
+_NO_SOURCE = Source("", "<none>")
+
+
+class Desk:
+    """State of a session that belongs to the program rather than to a run."""
+
+    def __init__(self, backend: str, folder: Path | None, permissions: Permissions, journal: Journal) -> None:
+        self.values = Values()
+        self.segments = Segments(self.values, backend)
+        self.permissions = permissions
+        self.program: Program | None = None
+        self.structure: Structure | None = None
+        self.command: Source | None = None
+        """The command line being carried out, None while the script runs."""
+        self.overrides: dict[str, float] = {}
+        """See `overrides`: by names such as `a` and `A[1,3]`."""
+        self.breakpoints: frozenset[int] = frozenset()
+        """Lines of the script (from 1) before which it stops as at a STOP."""
+        self.parse_seconds = 0.0
+        self.journal = journal
+        self._folder = folder
+
+    @property
+    def source(self) -> Source:
+        """The active program's text."""
+        return self.program.source if self.program is not None else _NO_SOURCE
+
+    @property
+    def folder(self) -> Path:
+        """Where relative names start: the program's folder, the one given, or the working directory."""
+        path = self.source.path
+        if path is not None:
+            return path.expanduser().resolve().parent
+        return self._folder if self._folder is not None else Path.cwd()
+
+    @property
+    def stash_path(self) -> Path:
+        """Where `stash` writes and `recover` reads: beside the program, `NAME.stash.npy`."""
+        path = self.source.path
+        return self.folder / f"{path.stem if path is not None else 'untitled'}.stash.npy"
+
+    def runnable(self) -> tuple[Program, Structure]:
+        """Return the program and its structure. DesireError 215: there is none; or all its problems."""
+        if self.program is None or self.structure is None:
+            raise DesireError(Diagnostic("no-program"))
+        if any(p.severity == "error" for p in (*self.program.problems, *self.structure.problems)):
+            from desire_tui.engine.check.checker import check
+
+            # the whole text's problems at once, not only those that keep it from starting
+            every = (p.within(self.program.source) for p in check(self.program))
+            raise DesireError(*(p for p in every if p.severity == "error"))
+        return self.program, self.structure
+
+    def source_of(self, placed: Placed) -> Source:
+        """Return the text a statement stands in: the command line's or the program's."""
+        del placed
+        return self.command if self.command is not None else self.source
+
+    def line_of(self, placed: Placed) -> int:
+        """Return a statement's line in the program; 0 for a command."""
+        return 0 if self.command is not None else self.source.position(placed.at).row

@@ -1,0 +1,215 @@
+"""One walk through a flat script: each opener finds its closer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from desire_tui.engine import nodes as n
+from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.structure.outline import ProcedureText, Structure, SubmodelText
+from desire_tui.engine.values import SYSTEM_VARIABLES
+
+if TYPE_CHECKING:
+    from desire_tui.engine.source import Source
+
+CLOSERS: dict[type[n.Node], str] = {
+    n.If: "proceed", n.For: "next", n.While: "end while", n.Procedure: "end", n.Submodel: "end",
+}  # fmt: skip
+"""The word that closes a block, by the class of its opener (`repeat`, a plain word, is closed by `until`)."""
+
+
+@dataclass(slots=True)
+class _Open:
+    """An open block: its opener's place, the word that closes it, where its `else` stands."""
+
+    place: int
+    closer: str
+    middle: int = -1
+
+    @property
+    def innermost(self) -> int:
+        return self.place if self.middle < 0 else self.middle
+
+
+class Survey:
+    """One walk through a script: finds partners, labels, definitions, and what is wrong with them."""
+
+    def __init__(self, script: tuple[n.Placed, ...], source: Source, broken: bool) -> None:
+        self.statements, self.source, self.broken = script, source, broken
+        self.found = Structure()
+        self.problems: list[Diagnostic] = []
+        self.open: list[_Open] = []
+        self.parents: dict[int, int] = {}
+        self.defined: dict[str, int] = {}
+
+    def finished(self) -> Structure:
+        """Return what was found, problems in the order of their places."""
+        self.problems.sort(key=lambda p: p.span or (0, 0))
+        return replace(self.found, problems=tuple(self.problems))
+
+    def report(self, key: str, placed: n.Placed, *related: Diagnostic, **facts: object) -> None:
+        """Note a problem with a statement."""
+        self.problems.append(Diagnostic(key, placed.span(), facts, self.source, related=related))
+
+    def also(self, key: str, place: int) -> Diagnostic:
+        """Point at a second place."""
+        return Diagnostic(key, self.statements[place].span(), {}, self.source)
+
+    # ------------------------------------------------------------------------------------- the script
+
+    def script(self) -> None:
+        """Walk the script once."""
+        found = self.found
+        for place, placed in enumerate(self.statements):
+            found.inside.append(self.open[-1].innermost if self.open else -1)
+            if placed.number is not None:
+                found.numbers.setdefault(placed.number, place)
+            node = placed.node
+            match node:
+                case n.Assign():
+                    pass
+                case n.Bare(n.Call(name)) if not self._in_submodel():
+                    self.report("call-missing", placed, name=name)
+                case n.If():
+                    self._if(place, placed, node)
+                case n.For() | n.While():
+                    self.opens(place, CLOSERS[type(node)])
+                case n.Procedure() | n.Submodel():
+                    self._definition(place, placed, node.name)
+                case n.Function(name):
+                    self._not_in_definition(placed, name)
+                    self._new_name(place, placed, name)
+                    found.functions.setdefault(name, placed)
+                case n.Until():
+                    self.closes(place, placed, "until")
+                case n.Label(name):
+                    self._label(place, placed, name)
+                case n.Data():
+                    found.data.append(place)
+                case n.Simple(word):
+                    self._word(place, placed, word)
+        for block in reversed(self.open):
+            self._unclosed(block)
+
+    def _word(self, place: int, placed: n.Placed, word: str) -> None:
+        if word == "repeat":
+            self.opens(place, "until")
+        elif word == "else":
+            self._else(place, placed)
+        elif word == "exit":
+            self._exit(place, placed)
+        elif word in ("proceed", "next", "end while", "end"):
+            self.closes(place, placed, word)
+        elif word == "end if":
+            if self._in_submodel():
+                self.closes(place, placed, "proceed")
+            else:
+                self.report("end-if-in-script", placed)
+
+    def _in_submodel(self) -> bool:
+        return any(isinstance(self.statements[block.place].node, n.Submodel) for block in self.open)
+
+    def opens(self, place: int, closer: str) -> None:
+        """Begin a block."""
+        self.parents[place] = self.found.inside[place]
+        self.open.append(_Open(place, closer))
+
+    def closes(self, place: int, placed: n.Placed, word: str) -> None:
+        """End the innermost block that `word` can end; blocks left open inside are reported."""
+        at = next((i for i in reversed(range(len(self.open))) if self.open[i].closer == word), None)
+        if at is None:
+            if not self.broken:
+                key = {"end": "stray-end", "proceed": "stray-else"}.get(word, "stray-closer")
+                self.report(key, placed, word=word)
+            return
+        for block in reversed(self.open[at + 1 :]):
+            self._unclosed(block)
+        block = self.open[at]
+        del self.open[at:]
+        partner = self.found.partner
+        partner[block.place] = place
+        if block.middle >= 0:
+            partner[block.place], partner[block.middle] = block.middle, place
+        partner[place] = block.place
+        opener = self.statements[block.place]
+        if isinstance(opener.node, n.Procedure):
+            text = ProcedureText(opener.node, opener, block.place, place)
+            self.found.procedures.setdefault(opener.node.name, text)
+        elif isinstance(opener.node, n.Submodel):
+            self._submodel(opener, opener.node, block.place, place)
+
+    def _unclosed(self, block: _Open) -> None:
+        """Report an open block, unless it is one that may stay open: `if` in a submodel rules its rest."""
+        opener = self.statements[block.place]
+        if self.broken or (isinstance(opener.node, n.If) and opener.node.condition is None):
+            return
+        key = "unclosed-definition" if block.closer == "end" else "unclosed-block"
+        word = self.source.text[opener.at : opener.at + 30].split()[0]
+        self.report(key, opener, word=word, closer=block.closer)
+
+    def _if(self, place: int, placed: n.Placed, node: n.If) -> None:
+        if node.condition is None and not self._in_submodel():
+            self.report("if-without-then", placed)
+        elif node.condition is not None and self._in_submodel():
+            self.report("then-in-segment", placed)
+        self.opens(place, "proceed")
+
+    def _else(self, place: int, placed: n.Placed) -> None:
+        if not self.open or self.open[-1].closer != "proceed":
+            if not self.broken:
+                self.report("stray-else", placed, word="else")
+            return
+        block = self.open[-1]
+        if block.middle >= 0:
+            self.report("second-else", placed, self.also("first-else", block.middle))
+            return
+        block.middle = place
+        self.parents[place] = self.parents[block.place]
+        self.found.partner[block.place] = place
+
+    def _exit(self, place: int, placed: n.Placed) -> None:
+        for block in reversed(self.open):
+            if block.closer != "proceed":
+                self.found.exits[place] = block.place  # its closer, once it is known: see `jumps`
+                return
+        self.report("exit-nowhere", placed)
+
+    def _definition(self, place: int, placed: n.Placed, name: str) -> None:
+        if self.open:
+            self.report(
+                "nested-definition", placed, self.also("block-begins", self.open[-1].place), name=name
+            )
+        self._new_name(place, placed, name)
+        self.opens(place, "end")
+
+    def _not_in_definition(self, placed: n.Placed, name: str) -> None:
+        """Report a FUNCTION in a PROCEDURE or SUBMODEL, whose dummies it could not see."""
+        for block in self.open:
+            if isinstance(self.statements[block.place].node, n.Procedure | n.Submodel):
+                self.report("nested-definition", placed, self.also("block-begins", block.place), name=name)
+
+    def _new_name(self, place: int, placed: n.Placed, name: str) -> None:
+        node = placed.node
+        if isinstance(node, n.Procedure):
+            dummies = [*node.values, *node.references]
+        else:
+            assert isinstance(node, n.Function | n.Submodel)
+            dummies = list(node.dummies)
+        twice = next((d for d in dummies if dummies.count(d) > 1), None)
+        if twice is not None:
+            self.report("dummy-twice", placed, name=twice)
+        if name in SYSTEM_VARIABLES or name == "PI":
+            self.report("system-variable-declared", placed, name=name)
+        first = self.defined.setdefault(name, place)
+        if first != place:
+            self.report("defined-twice", placed, self.also("first-definition", first), name=name)
+
+    def _submodel(self, opener: n.Placed, node: n.Submodel, opens: int, closes: int) -> None:
+        body = self.statements[opens + 1 : closes]
+        self.found.submodels.setdefault(node.name, SubmodelText(node.name, node.dummies, body, opener))
+
+    def _label(self, place: int, placed: n.Placed, name: str) -> None:
+        if name in self.found.labels:
+            self.report("label-twice", placed, self.also("first-label", self.found.labels[name]), name=name)
+        self.found.labels.setdefault(name, place)

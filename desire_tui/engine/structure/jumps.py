@@ -1,0 +1,98 @@
+"""Where `go to`, `exit` and `restore` lead, and the `if`s of DYNAMIC segments."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine import nodes as n
+from desire_tui.engine.diagnostics import closest
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.structure.blocks import Survey
+
+
+def check_jumps(survey: Survey, segments: set[str | None] | None) -> None:
+    """Check where every `go to` and `restore` leads, and give every `exit` its loop's end."""
+    found = survey.found
+    for place, opener in found.exits.items():
+        assert opener is not None
+        is_loop = not isinstance(survey.statements[opener].node, (n.Procedure, n.Submodel))
+        found.exits[place] = found.partner.get(opener) if is_loop else None
+    if segments is None:
+        return  # a command line may name what the program has
+    for place, placed in enumerate(survey.statements):
+        node = placed.node
+        if isinstance(node, n.GoTo):
+            _jump(survey, place, placed, node.target, segments)
+        elif isinstance(node, n.Restore) and node.target and found.place(node.target) is None:
+            _unknown(survey, placed, node.target)
+
+
+def _unknown(survey: Survey, placed: n.Placed, target: str) -> None:
+    known = map(str, survey.found.numbers) if target.isdigit() else survey.found.labels
+    survey.report("no-such-label", placed, name=target, close=closest(target, known))
+
+
+def _jump(survey: Survey, place: int, placed: n.Placed, target: str, segments: set[str | None]) -> None:
+    to = survey.found.place(target)
+    if to is None:
+        if target in segments:
+            survey.report("jump-to-segment", placed, name=target)
+        else:
+            _unknown(survey, placed, target)
+        return
+    block = survey.found.inside[to]
+    if block >= 0 and block not in _around(survey, place):
+        survey.report("jump-inside", placed, survey.also("block-begins", block), name=target)
+        return
+    for definition in _around(survey, place) - _around(survey, to):
+        if isinstance(survey.statements[definition].node, n.Procedure):
+            survey.report("jump-out", placed, survey.also("block-begins", definition), name=target)
+
+
+def _around(survey: Survey, place: int) -> set[int]:
+    """All blocks around a statement."""
+    around = set()
+    block = survey.found.inside[place]
+    while block >= 0:
+        around.add(block)
+        block = survey.parents[block]
+    return around
+
+
+def match_segments(survey: Survey, segments: Sequence[n.SegmentText]) -> None:
+    """Match `if`, `else`, `end if` in the segments; a label may name one segment only."""
+    seen: dict[str | None, n.SegmentText] = {}
+    for segment in segments:
+        if segment.label is not None and (segment.label in seen or segment.label in survey.found.labels):
+            start = n.Placed(n.Label(segment.label, 0, len("label ") + len(segment.label)), segment.at)
+            survey.report("label-twice", start, name=segment.label)
+        seen.setdefault(segment.label, segment)
+        partner = survey.found.segment_partner.setdefault(segment.label, {})
+        if seen[segment.label] is segment:
+            _segment(survey, segment.body, partner)
+
+
+def _segment(survey: Survey, body: Sequence[n.Placed], partner: dict[int, int]) -> None:
+    opened: list[int] = []
+    for place, placed in enumerate(body):
+        node = placed.node
+        if isinstance(node, n.If):
+            if node.condition is not None:
+                survey.report("then-in-segment", placed)
+            opened.append(place)
+        elif isinstance(node, n.Simple) and node.word in ("else", "end if", "proceed"):
+            if not opened:
+                if not survey.broken:
+                    survey.report("stray-else", placed, word=node.word)
+                continue
+            last = opened.pop()
+            if node.word == "else" and isinstance(body[last].node, n.Simple):
+                survey.report("second-else", placed)
+            partner[last] = place
+            if node.word == "else":
+                opened.append(place)
+            else:
+                partner[place] = last

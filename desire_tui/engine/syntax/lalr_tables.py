@@ -1,0 +1,134 @@
+"""LALR tables of `desire.lark`: made by lark once, kept in the user's cache, read back without lark.
+
+lark takes 50 ms to import and 250 ms to build the tables; reading them back takes 2 ms, and then
+`automaton` steps through them. lark stays the only thing that understands the grammar file.
+"""
+
+# ruff: noqa: PTH118, PTH120, PTH123 - pathlib would add 5 ms to every start
+
+from __future__ import annotations
+
+import marshal
+import os
+import sys
+from functools import cache
+from typing import Any, NamedTuple
+from zlib import crc32
+
+from desire_tui.engine import disk_cache
+
+FORMAT = 2
+"""Raised when the stored form below changes."""
+
+
+class Rule(NamedTuple):
+    """A production: its left side, the number of symbols on its right, the `Builder` method for its node.
+
+    Without a method the single child stands for the whole (`?rule`) or, if `splice`, the children join the
+    parent's.
+    """
+
+    origin: str
+    size: int
+    method: str
+    splice: bool
+
+
+class Tables(NamedTuple):
+    """Per state: token kind → next state (≥ 0) or −1 − rule; rule name → next state. `$END` ends."""
+
+    start: int
+    accept: int
+    actions: list[dict[str, int]]
+    gotos: list[dict[str, int]]
+    rules: list[Rule]
+
+
+@cache
+def tables() -> Tables:
+    """Return the tables, from the cache if it has them for exactly this grammar."""
+    here = os.path.dirname(__file__)
+    with open(os.path.join(here, "desire.lark"), encoding="utf-8") as file:
+        grammar = file.read()
+    key = f"{FORMAT}-{sys.hexversion:x}-{crc32(grammar.encode()):08x}"
+    stored = _read(key)
+    if stored is None:
+        stored = _build(grammar)
+        _write(key, stored)
+    return _unpack(stored)
+
+
+def _unpack(stored: dict[str, Any]) -> Tables:
+    return Tables(
+        stored["start"],
+        stored["accept"],
+        stored["actions"],
+        stored["gotos"],
+        [Rule(*rule) for rule in stored["rules"]],
+    )
+
+
+def _read(key: str) -> dict[str, Any] | None:
+    """Return the stored tables; None if there are none of use."""
+    content = disk_cache.read(f"grammar-{key}.tables")
+    if content is None:
+        return None
+    try:
+        stored: dict[str, Any] = marshal.loads(content)  # noqa: S302 - this user's own file, whole by its check sum
+        _unpack(stored)
+    except (ValueError, EOFError, KeyError, TypeError):
+        return None
+    return stored
+
+
+def _write(key: str, stored: dict[str, Any]) -> None:
+    disk_cache.write(f"grammar-{key}.tables", marshal.dumps(stored))
+
+
+def _build(grammar: str) -> dict[str, Any]:
+    """Let lark build the tables; terminals are renamed to the tokenizer's kinds (their own text)."""
+    from lark import Lark
+    from lark.lexer import Lexer
+    from lark.parsers.lalr_analysis import Shift
+
+    class NoLexer(Lexer):
+        """Tokens come from `tokens.scan`: two lexers would be two truths, and lark's cannot see context."""
+
+        def __init__(self, _: object) -> None: ...
+
+        def lex(self, *_: object) -> Any:
+            return iter(())
+
+    parser = Lark(grammar, parser="lalr", lexer=NoLexer, keep_all_tokens=True, maybe_placeholders=False)
+    table = parser.parser.parser._parse_table  # noqa: SLF001 - lark publishes the tables in no other way
+    kinds = {t.name: t.pattern.value.replace("\\", "") for t in parser.terminals if t.pattern.type == "str"}
+    kinds["$END"] = "$END"
+    rules: list[Any] = []
+    numbers: dict[Any, int] = {}
+    number_of_state = {state: i for i, state in enumerate(table.states)}
+    actions: list[dict[str, int]] = []
+    gotos: list[dict[str, int]] = []
+    for moves in table.states.values():
+        action: dict[str, int] = {}
+        goto: dict[str, int] = {}
+        for symbol, (kind, target) in moves.items():
+            if kind is Shift:
+                rule_name = symbol.islower() or (symbol.startswith("__") and symbol not in kinds)
+                (goto if rule_name else action)[kinds.get(symbol, symbol)] = number_of_state[target]
+                continue
+            if target not in numbers:
+                numbers[target] = len(rules)
+                origin = str(target.origin.name)
+                single = target.options.expand1 and len(target.expansion) == 1
+                method = str(target.alias or ("" if single or origin.startswith("_") else origin))
+                rules.append((origin, len(target.expansion), method, origin.startswith("_")))
+            action[kinds.get(symbol, symbol)] = -1 - numbers[target]
+        actions.append(action)
+        gotos.append(goto)
+    return {
+        "start": number_of_state[table.start_states["start"]],
+        "accept": number_of_state[table.end_states["start"]],
+        "actions": actions,
+        "gotos": gotos,
+        "rules": rules,
+    }

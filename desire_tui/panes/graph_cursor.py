@@ -1,0 +1,60 @@
+"""The graph's cursor: a time (dispt) or a sample (dispxy, DISPXY), and the values of all curves there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from desire_tui.engine.graph import Graph
+    from desire_tui.panes.zoom_window import Window
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What the cursor reads.
+
+    Its abscissa in parts of the window, a head such as `t = 0.31`, and name, colour, value.
+    """
+
+    x: float
+    head: str
+    values: tuple[tuple[str, int, str], ...]
+
+
+def read(graph: Graph, window: Window, part: float) -> Reading | None:
+    """Read the curves at `part` (0 … 1) of the window's width.
+
+    For curves over x, at that part of their samples.
+    """
+    import numpy as np
+
+    if not graph.curves:
+        return None
+    frame = graph.frame
+    if frame.kind == "dispt":
+        at = window.left + part * (window.right - window.left)
+        t = frame.left + at * (frame.right - frame.left)
+        values = []
+        for curve in graph.curves:
+            x, y = curve.samples()
+            if len(x):
+                number = min(int(np.searchsorted(x, t)), len(x) - 1)
+                if number and abs(x[number - 1] - t) < abs(x[number] - t):
+                    number -= 1
+                values.append((curve.name, curve.color, f"{y[number]:.6g}"))
+        return Reading(part, f"t = {t:.6g}", tuple(values))
+    curve = graph.curves[-1]
+    x, y = curve.samples()
+    if not len(x):
+        return None
+    number = min(int(part * (len(x) - 1) + 0.5), len(x) - 1)
+    own = curve.frame
+    at = (x[number] - own.left) / ((own.right - own.left) or 1.0)
+    shown = (at - window.left) / (window.right - window.left)
+    run = [c for c in graph.curves if c.record is curve.record]
+    values = [(c.name, c.color, f"{c.samples()[1][number]:.6g}") for c in run if number < c.count]
+    head = f"{curve.x_name} = {x[number]:.6g}"
+    if curve.x_column:
+        head = f"t = {curve.record.rows[number, 0]:.6g}  {head}"
+    return Reading(float(shown), head, tuple(values))

@@ -1,0 +1,103 @@
+"""What the mouse does in a graph: mark a part to zoom into, set the cursor, pause, zoom by the wheel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from textual.containers import Container
+from textual.geometry import Region
+from textual.message import Message
+
+if TYPE_CHECKING:
+    from textual import events
+
+    from desire_tui.engine.outputs.braille_canvas import Canvas
+    from desire_tui.engine.outputs.text_frame import TextFrame
+    from desire_tui.panes.zoom_window import Window
+
+DRAG_CELLS_MIN = 2
+
+
+class Gestures(Container):
+    """The part of a graph pane that hears the mouse; `rubber` is the rectangle being marked."""
+
+    canvas: Canvas | None
+    frame: TextFrame | None
+    window: Window
+
+    class PauseWanted(Message):
+        """The graph was clicked twice."""
+
+    def __init__(self, *, id: str) -> None:  # noqa: A002 - Textual's name
+        super().__init__(id=id)
+        self.rubber: Region | None = None
+        self._drag: tuple[int, int] | None = None
+
+    def look_at(self, window: Window) -> None:
+        """Show another part of the page."""
+        raise NotImplementedError
+
+    def mark_cells(self) -> None:
+        """Have the rectangle and the cursor line drawn."""
+        raise NotImplementedError
+
+    def set_cursor(self, x: float) -> None:
+        """Move the cursor line, if it is shown, to x (part of the window)."""
+        raise NotImplementedError
+
+    def on_mouse_down(self, event: events.MouseDown) -> None:
+        """Begin a rectangle to zoom into."""
+        if event.button == 1 and (cell := self._cell(event)) is not None:
+            self._drag = cell
+            self.capture_mouse()
+
+    def on_mouse_move(self, event: events.MouseMove) -> None:
+        """Show the rectangle."""
+        if self._drag is None or (cell := self._cell(event)) is None:
+            return
+        (x1, x2), (y1, y2) = sorted((self._drag[0], cell[0])), sorted((self._drag[1], cell[1]))
+        self.rubber = Region(x1, y1, x2 - x1 + 1, y2 - y1 + 1)
+        self.mark_cells()
+
+    def on_mouse_up(self, event: events.MouseUp) -> None:
+        """Zoom into the rectangle; a mere click puts the cursor there."""
+        self.release_mouse()
+        box, self.rubber = self.rubber, None
+        drag, self._drag = self._drag, None
+        if self.canvas is None or drag is None:
+            return
+        columns, rows = self.canvas.columns, self.canvas.rows
+        if box is not None and box.width > DRAG_CELLS_MIN and box.height > 1:
+            bottom, top = 1 - box.bottom / rows, 1 - box.y / rows
+            self.look_at(self.window.part(box.x / columns, box.right / columns, bottom, top))
+        elif (cell := self._cell(event)) is not None:
+            self.set_cursor((cell[0] + 0.5) / columns)
+        self.mark_cells()
+
+    def on_click(self, event: events.Click) -> None:
+        """Two clicks pause the run."""
+        if event.chain == 2:
+            self.post_message(self.PauseWanted())
+
+    def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
+        """Zoom in at the mouse."""
+        self._wheel(event, 0.8)
+
+    def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
+        """Zoom out at the mouse."""
+        self._wheel(event, 1.25)
+
+    def _wheel(self, event: events.MouseEvent, factor: float) -> None:
+        event.stop()
+        if (cell := self._cell(event)) is not None and self.canvas is not None:
+            x, y = (cell[0] + 0.5) / self.canvas.columns, 1 - (cell[1] + 0.5) / self.canvas.rows
+            self.look_at(self.window.zoomed(factor, x, y))
+
+    def _cell(self, event: events.MouseEvent) -> tuple[int, int] | None:
+        """Cell of the canvas under the mouse."""
+        if self.frame is None or self.canvas is None:
+            return None
+        origin = self.content_region
+        x = int(event.screen_x) - origin.x - self.frame.left
+        y = int(event.screen_y) - origin.y - self.frame.top
+        return min(max(x, 0), self.canvas.columns - 1), min(max(y, 0), self.canvas.rows - 1)

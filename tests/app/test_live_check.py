@@ -1,0 +1,72 @@
+"""When texts are checked while somebody types: a quick check at once, a closer look when it is quiet."""
+
+from __future__ import annotations
+
+import queue
+
+import pytest
+
+from desire_tui.editor import live_check
+from desire_tui.editor.buffer import Buffer
+from desire_tui.editor.live_check import Checker
+from desire_tui.engine.diagnostics import Diagnostic
+
+PATIENCE = 20.0
+QUICK, CLOSER = (Diagnostic("no-run"),), (Diagnostic("no-run"), Diagnostic("jacobian-wrong"))
+
+
+@pytest.fixture
+def reports(monkeypatch):
+    monkeypatch.setattr(live_check, "QUIET_SECONDS", 0.01)
+    return queue.Queue()
+
+
+def checker(reports, closer):
+    return Checker(lambda _: QUICK, lambda *report: reports.put(report), reports.put, closer)
+
+
+def buffer(number):
+    made = Buffer(label="a.src")
+    made.number = number
+    return made
+
+
+def test_a_closer_look_follows_and_tells_more(reports):
+    checker(reports, lambda _: CLOSER).ask(buffer(7), 3, "x = 1\n")
+    assert reports.get(timeout=PATIENCE) == (7, 3, QUICK)
+    assert reports.get(timeout=PATIENCE) == (7, 3, CLOSER)
+
+
+def test_a_closer_look_that_finds_the_same_is_not_told(reports):
+    texts = iter((QUICK, CLOSER))
+    made = checker(reports, lambda _: next(texts))
+    made.ask(buffer(1), 1, "x = 1\n")
+    assert reports.get(timeout=PATIENCE) == (1, 1, QUICK)
+    made.ask(buffer(2), 1, "x = 2\n")  # whether or not the first was looked at by then
+    seen = [reports.get(timeout=PATIENCE), reports.get(timeout=PATIENCE)]
+    assert [problems for _, _, problems in seen] == [QUICK, CLOSER]
+    assert reports.empty()
+
+
+def test_a_newer_text_takes_the_place_of_one_that_waits(reports, monkeypatch):
+    monkeypatch.setattr(live_check, "QUIET_SECONDS", 1e9)  # it never gets quiet
+    looked = []
+    made = checker(reports, looked.append)
+    for version in (1, 2):
+        made.ask(buffer(5), version, f"x = {version}\n")
+        assert reports.get(timeout=PATIENCE) == (5, version, QUICK)
+    assert looked == []
+    assert len(made._checked) == 1
+    assert made._checked[5][0] == 2
+
+
+def test_a_fault_does_not_end_all_checking(reports):
+    def fails(_):
+        raise ZeroDivisionError
+
+    made = checker(reports, fails)
+    made.ask(buffer(1), 1, "x = 1\n")
+    assert reports.get(timeout=PATIENCE) == (1, 1, QUICK)
+    assert isinstance(reports.get(timeout=PATIENCE), ZeroDivisionError)
+    made.ask(buffer(1), 2, "x = 2\n")
+    assert reports.get(timeout=PATIENCE) == (1, 2, QUICK)

@@ -1,0 +1,108 @@
+"""Which statements a pass executes."""
+
+from __future__ import annotations
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from desire_tui.engine.lowered import Deriv, Guard, Set
+from desire_tui.engine.lowering.persistence import walk
+from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
+from tests.lowering.programs import segment
+
+
+def names(actions, values):
+    """Names assigned (or `d` and the state's number) in order."""
+    by_slot = {q.slot: q.name for q in values if not q.shape}
+    shown = []
+    for action in walk(actions):
+        if isinstance(action, Guard):
+            shown.append(action.kind)
+        elif isinstance(action, Deriv):
+            shown.append(f"d{action.state}")
+        elif isinstance(action, Set):
+            shown.append(by_slot[action.slot])
+        else:
+            shown.append(type(action).__name__)
+    return shown
+
+
+BODY = """
+shown = 2*x
+used = 3*x
+relay = sgn(relay - x)
+noise = ran()
+d/dt x = used
+term x - 1
+OUT
+out = shown
+step
+held = x
+"""
+
+
+def test_each_pass():
+    lowered, values = segment(BODY)
+    assert names(full_pass(lowered), values) == [
+        "shown", "used", "relay", "noise", "d0", "Terminate", "out", "held",
+    ]  # fmt: skip
+    assert names(step_slice(lowered), values) == ["used", "relay", "noise", "d0", "Terminate"]
+    assert names(derivative_slice(lowered), values) == ["used", "relay", "noise", "d0"]
+    assert names(tail_pass(lowered), values) == ["shown", "used", "out"]
+
+
+def test_an_if_stays_where_something_needs_it():
+    lowered, values = segment("if a\ny = 1\nelse\ny = 2\nend if\nif a\nq = 3\nend if\nd/dt x = y", a=1)
+    assert names(derivative_slice(lowered), values) == ["if", "y", "y", "d0"]
+
+
+def test_what_only_the_step_needs():
+    lowered, values = segment("y = 2*x\nd/dt x = h\nstep\nh = y", h=0)
+    assert names(derivative_slice(lowered), values) == ["d0"]
+    assert names(step_slice(lowered), values) == ["y", "d0", "h"]
+
+
+def test_history_statements():
+    body = "get u = U\nd/dt x = u\ntdelay y = D(x, 0.1\ndelay z = E(x, 0.1\nstore X = x"
+    lowered, values = segment(body, U=(5,), X=(5,), D=(5,), E=(5,))
+    assert names(full_pass(lowered), values) == ["Get", "d0", "DelayLine", "DelayLine", "Store"]
+    assert names(step_slice(lowered), values) == ["d0", "DelayLine"]
+    assert names(derivative_slice(lowered), values) == ["d0"]
+    assert names(tail_pass(lowered), values) == ["Get", "DelayLine", "Store"]
+
+
+def test_vectors_are_sliced_too():
+    body = (
+        "Vector u = 2*s\nVector w = 3*s\nDOT m = w*1\nVectr d/dt s = u\ny = s[1]\nd/dt z = q[2]\nVector q = s"
+    )
+    lowered, values = segment(body, u=(3,), w=(3,), s=(3,), q=(3,))
+    assert names(derivative_slice(lowered), values) == ["SetVec", "DerivVec", "d3", "SetVec"]
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.tuples(st.integers(0, 5), st.lists(st.integers(0, 5), max_size=3)), min_size=1, max_size=8)
+)
+def test_leaving_out_changes_no_derivative(lines):
+    """Both-flags-off passes: the slice gives the derivatives and persistent numbers of the whole segment."""
+    import numpy as np
+
+    from desire_tui.engine.reference.statements import Statements
+
+    body = "\n".join(
+        f"v{target} = 0.5 + " + " + ".join([f"0.25*v{s}" for s in sources] or ["x"])
+        for target, sources in lines
+    )
+    body += "\nd/dt x = v0 - v3 + x"
+    initial = {f"v{i}": 0.1 * i for i in range(6)}
+    whole, values = segment(body, x=1.5, **initial)
+    kept, other = segment(body, x=1.5, **initial)
+    results = []
+    for actions, quantities in ((whole.body, values), (derivative_slice(kept), other)):
+        statements = Statements(quantities, 1)
+        passes = statements.compile(actions)
+        for _ in range(3):
+            passes()
+        persistent = [quantities.cells[a.slot] for a in whole.body if isinstance(a, Set) and a.persistent]
+        results.append([*statements.derivatives, *persistent])
+    assert np.array_equal(*results)
