@@ -1,4 +1,4 @@
-"""The IDE: wiring between the panes, the actions and the engine's thread. What is shown is in `desktop.main_screen`."""
+"""The IDE: wiring of panes, actions and the engine's thread; `desktop.main_screen` is what is shown."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ from desire_tui.actions.run import RunActions
 from desire_tui.actions.view import ViewActions
 from desire_tui.common import alt_keys, config, paths, themes
 from desire_tui.common.messages import Checked, EngineFault, EngineMessage
-from desire_tui.desktop.app_base import Shell
+from desire_tui.desktop.app_base import AppBase
 from desire_tui.desktop.command_line import CommandLine
 from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
-from desire_tui.desktop.frame_pacing import Drawing
+from desire_tui.desktop.frame_pacing import FramePacing
 from desire_tui.desktop.live import Live
-from desire_tui.desktop.main_screen import Desk
-from desire_tui.desktop.message_handlers import EngineNews
+from desire_tui.desktop.main_screen import MainScreen
+from desire_tui.desktop.message_handlers import MessageHandlers
 from desire_tui.desktop.startup import open_first
 from desire_tui.desktop.tour import Tour
 from desire_tui.editor.checkpoints import Keeper
 from desire_tui.editor.completion_control import Completer
 from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.editor.editor_pane import EditorPane
-from desire_tui.editor.live_check import Checker
-from desire_tui.panes.command_history import History
+from desire_tui.editor.live_check import LiveChecker
+from desire_tui.panes.command_history import CommandHistory
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.console_view import Console
 from desire_tui.panes.graph_pane import GraphPane
@@ -67,7 +67,7 @@ EDITOR_ONLY = {"edit.undo", "edit.redo", "edit.select_all", "edit.comment", "fil
 """Their keys mean something else inside a one-line field."""
 
 
-class DesireApp(Shell):
+class DesireApp(AppBase):
     """`DesireApp(files).run()` opens the IDE with these files in tabs."""
 
     TITLE = "Desire"
@@ -86,8 +86,8 @@ class DesireApp(Shell):
         self.theme = self.settings.theme if self.settings.theme in self.available_themes else "dark"
         self.listener = ScreenListener(self.post_message)
         self.engine = EngineThread(self.listener, self.post_message, permissions)
-        self.news = EngineNews(self)
-        self.drawing = Drawing(self)
+        self.news = MessageHandlers(self)
+        self.drawing = FramePacing(self)
         self.line = CommandLine(self)
         self.live = Live(self)
         self.tour = Tour(self)
@@ -99,11 +99,11 @@ class DesireApp(Shell):
             "graph": GraphActions(self),
             "view": self.actions_view, "help": HelpActions(self),
         }  # fmt: skip
-        self.checker: Checker | None = None
+        self.checker: LiveChecker | None = None
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.stylesheet.set_variables(self.get_css_variables())
-        self.desk = Desk(History(paths.state_folder() / "history.json"), self.settings.keys)
+        self.desk = MainScreen(CommandHistory(paths.state_folder() / "history.json"), self.settings.keys)
 
     # ------------------------------------------------------------------------------------- start and end
 
@@ -116,7 +116,7 @@ class DesireApp(Shell):
         if self.desk.is_running:
             super().refresh_css(animate)
 
-    @on(Desk.Ready)
+    @on(MainScreen.Ready)
     async def _begin(self) -> None:
         """Open what is to be opened; the engine is imported meanwhile."""
         self.set_keymap(config.keymap(self.settings))
@@ -141,7 +141,7 @@ class DesireApp(Shell):
     def engine_ready(self) -> None:
         """Begin to colour, check and show what only the engine knows."""
         check = self.session.check
-        self.checker = Checker(partial(check, quick=True), self._checked, self._check_fault, check)
+        self.checker = LiveChecker(partial(check, quick=True), self._checked, self._check_fault, check)
         for area in self.editor.areas:
             area.marks_changed()
             self._check_wanted(EditorPane.CheckWanted(area))

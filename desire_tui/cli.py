@@ -94,17 +94,17 @@ def run(file: str, **options: Any) -> None:
 
 def _run(file: str, **options: Any) -> int:
     from desire_tui.batch.cli_commands import run_file
-    from desire_tui.batch.output_files import Wanted
-    from desire_tui.batch.runner import Orders
+    from desire_tui.batch.output_files import OutputFiles
+    from desire_tui.batch.runner import RunOptions
 
     kinds = ("png", "svg", "pdf", "csv", "json", "npz")
     if sum(options[kind] == "-" for kind in kinds) > 1:
         raise click.UsageError("only one file can go to standard output")
-    orders = Orders(
+    orders = RunOptions(
         settings=options["settings"], answer_stops=options["go"], timeout=options["timeout"],
         backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
     )  # fmt: skip
-    wanted = Wanted(**{kind: options[kind] for kind in kinds}, plot=options["plot"])
+    wanted = OutputFiles(**{kind: options[kind] for kind in kinds}, plot=options["plot"])
     return run_file(file, orders, wanted, options["answers"], quiet=options["quiet"])
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from desire_tui.actions import Controller
-from desire_tui.common.dialogs import Line
+from desire_tui.common.dialogs import LineDialog
 from desire_tui.editor.find_bar import FindBar
 
 
@@ -86,7 +86,7 @@ class EditActions(Controller):
         area = self.app.editor.front
         count = area.document.line_count
         text = argument or await self.app.push_screen_wait(
-            Line("Go to line", hint=f"1 … {count}, or line:column")
+            LineDialog("Go to line", hint=f"1 … {count}, or line:column")
         )
         if not text:
             return

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.actions.save_and_reload import Disk
-from desire_tui.common.dialogs import Choice, Line
+from desire_tui.common.dialogs import Choice, LineDialog
 from desire_tui.common.paths import exists, full
 from desire_tui.editor.buffer import Buffer, NotText
 
@@ -285,5 +285,5 @@ class FileActions(Controller):
     async def ask_name(self, title: str, value: str) -> str | None:
         """Ask for a file name."""
         return await self.app.push_screen_wait(
-            Line(title, value, "relative names start at the program's folder")
+            LineDialog(title, value, "relative names start at the program's folder")
         )

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
-from desire_tui.common.dialogs import Line
+from desire_tui.common.dialogs import LineDialog
 from desire_tui.common.paths import full, write_safely
 from desire_tui.engine.diagnostics import DesireError
 
@@ -101,7 +101,9 @@ class GraphActions(Controller):
         if not name:
             stem = Path((app.editor.active or app.editor.front).buffer.name).stem
             typed = await app.push_screen_wait(
-                Line("Save the graph as", f"{stem}.png", "the ending .png, .svg or .pdf chooses the kind")
+                LineDialog(
+                    "Save the graph as", f"{stem}.png", "the ending .png, .svg or .pdf chooses the kind"
+                )
             )
             if not typed:
                 return
@@ -137,7 +139,7 @@ class GraphActions(Controller):
         if not app.session.runs:
             app.notify("No run yet: press F5.", timeout=2)
             return
-        name = argument or await app.push_screen_wait(Line("Save the samples as", "samples.csv"))
+        name = argument or await app.push_screen_wait(LineDialog("Save the samples as", "samples.csv"))
         if not name:
             return
         path = full(Path(name) if Path(name).suffix else Path(f"{name}.csv"), app.session.folder)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.batch.headless_listener import BatchListener
-from desire_tui.batch.runner import Orders, Work
+from desire_tui.batch.runner import RunOptions, Work
 from desire_tui.batch.set_option import from_mapping
 from desire_tui.engine.files import read_source
 from desire_tui.engine.source import Source
@@ -41,7 +41,7 @@ def run_program(
     source = Source(str(program), "<text>") if is_text else read_source(Path(program))
     show: Callable[[str], object] = _ignore if quiet else sys.stdout.write
     listener = BatchListener(show, iter(input), _ignore)
-    orders = Orders(
+    orders = RunOptions(
         settings=from_mapping(set or {}), answer_stops=go, timeout=timeout, backend=backend,
         allow_shell=allow_shell, allow_write=allow_write,
     )  # fmt: skip

@@ -8,7 +8,7 @@ from typing import IO, TYPE_CHECKING
 
 from desire_tui.batch.headless_listener import BatchListener
 from desire_tui.batch.progress import Progress
-from desire_tui.batch.runner import Orders, Work
+from desire_tui.batch.runner import RunOptions, Work
 from desire_tui.engine.diagnostics import DesireError, render_all
 from desire_tui.engine.files import decoded, read_source
 from desire_tui.engine.interpreter import interruptible
@@ -17,7 +17,7 @@ from desire_tui.engine.source import Source
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from desire_tui.batch.output_files import Wanted
+    from desire_tui.batch.output_files import OutputFiles
     from desire_tui.engine.diagnostics import Diagnostic
 
 DONE, FAILED, LIMIT = 0, 1, 3  # 2 is wrong usage, which click tells
@@ -50,7 +50,7 @@ def check_files(names: Sequence[str]) -> int:
     return status
 
 
-def run_file(name: str, orders: Orders, wanted: Wanted, answers: str | None, *, quiet: bool) -> int:
+def run_file(name: str, orders: RunOptions, wanted: OutputFiles, answers: str | None, *, quiet: bool) -> int:
     """Run a program and write what was asked for; returns the exit status."""
     try:
         source = source_named(name)

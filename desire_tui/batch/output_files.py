@@ -23,7 +23,7 @@ _COPY, _TEXT = 1, 16
 
 
 @dataclass(frozen=True)
-class Wanted:
+class OutputFiles:
     """Files asked for on the command line; `-` is standard output."""
 
     png: str | None = None

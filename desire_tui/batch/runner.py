@@ -30,7 +30,7 @@ _USER_ENDED = 301
 
 
 @dataclass(frozen=True)
-class Orders:
+class RunOptions:
     """How to run a program."""
 
     settings: Mapping[str, float] = field(default_factory=dict)
@@ -45,7 +45,7 @@ class Orders:
 class Work:
     """Runs one program. `status`, `problems` and `result()` say what came of it, whatever happened."""
 
-    def __init__(self, source: Source, orders: Orders, listener: BatchListener) -> None:
+    def __init__(self, source: Source, orders: RunOptions, listener: BatchListener) -> None:
         self._source, self._orders, self._listener = source, orders, listener
         permissions = Permissions(shell=orders.allow_shell, files=orders.allow_write)
         self.session = Session(

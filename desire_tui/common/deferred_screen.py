@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from textual.widget import Widget
 
 
-class HeldScreen(Screen[None]):
+class DeferredScreen(Screen[None]):
     """Held from its beginning until `release`.
 
     Textual is pinned; it has no public way. `App.batch_update` drops what is due when it ends late.

@@ -103,15 +103,15 @@ class Choice(Question["str | None"]):
                 return
 
 
-class Line(Question[str]):
+class LineDialog(Question[str]):
     """Asks for a line of text; Esc gives an empty one."""
 
     DEFAULT_CSS = f"""
-    Line {{ {_CSS} }}
-    Line > Vertical {{ {_BOX} }}
-    Line Input {{ border: none; height: 1; padding: 0 1; background: $surface; }}
-    Line Input:focus {{ border: none; }}
-    Line Label {{ width: 1fr; color: $text-muted; margin-top: 1; }}
+    LineDialog {{ {_CSS} }}
+    LineDialog > Vertical {{ {_BOX} }}
+    LineDialog Input {{ border: none; height: 1; padding: 0 1; background: $surface; }}
+    LineDialog Input:focus {{ border: none; }}
+    LineDialog Label {{ width: 1fr; color: $text-muted; margin-top: 1; }}
     """
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "dismiss('')", "Cancel")]
 

@@ -30,15 +30,15 @@ if TYPE_CHECKING:
 
     from desire_tui.common.layout_rules import Pane
     from desire_tui.desktop.engine_thread import EngineThread
-    from desire_tui.desktop.main_screen import Desk
+    from desire_tui.desktop.main_screen import MainScreen
     from desire_tui.engine.session import Session
     from desire_tui.panes.side_pane import Side
 
 
-class Shell(App[None]):
+class AppBase(App[None]):
     """What actions and messages use of the app."""
 
-    desk: Desk
+    desk: MainScreen
     engine: EngineThread
     begun: Worker[None] | None = None
     """The action begun last that takes its time."""

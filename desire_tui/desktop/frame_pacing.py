@@ -11,7 +11,7 @@ APART_S = 0.03
 HOLD_S = 0.05
 
 
-class Drawing(Controller):
+class FramePacing(Controller):
     """Decides when; the panes know what."""
 
     _drawn_at = 0.0

@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from textual import events
     from textual.screen import Screen
 
-    from desire_tui.desktop.app_base import Shell
+    from desire_tui.desktop.app_base import AppBase
 
 PATIENCE_S = 2.0
 """A widget that is busy for longer does not hold up the keys of the others."""
 
 
 async def carry_out(
-    app: Shell, event: events.Key, hand_over: Callable[[events.Key], Awaitable[None]]
+    app: AppBase, event: events.Key, hand_over: Callable[[events.Key], Awaitable[None]]
 ) -> None:
     """Carry out a key that may be bound: after what was typed before it, before what comes next.
 
@@ -48,7 +48,7 @@ async def carry_out(
 
 
 async def _deal_with(
-    app: Shell,
+    app: AppBase,
     event: events.Key,
     field: Widget | None,
     hand_over: Callable[[events.Key], Awaitable[None]],
@@ -66,7 +66,7 @@ async def _deal_with(
         event._bubble_to(field.parent)  # noqa: SLF001 - what Textual itself would have done
 
 
-async def _at_rest(app: Shell, screen: Screen[object]) -> None:
+async def _at_rest(app: AppBase, screen: Screen[object]) -> None:
     """Wait until an action just begun is done, or has opened a dialog that takes the keys."""
     end = asyncio.get_running_loop().time() + PATIENCE_S
     worker = app.begun

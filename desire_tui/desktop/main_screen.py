@@ -15,7 +15,7 @@ from textual.message import Message
 from textual.widgets import Label
 
 from desire_tui.commands import BY_ID
-from desire_tui.common.deferred_screen import HeldScreen
+from desire_tui.common.deferred_screen import DeferredScreen
 from desire_tui.common.layout_rules import SMALLEST, Arrangement, Pane, arrange
 from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.editor.editor_pane import EditorPane
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from textual.app import ComposeResult
     from textual.widget import Widget
 
-    from desire_tui.panes.command_history import History
+    from desire_tui.panes.command_history import CommandHistory
 
 PANES: tuple[Pane, ...] = ("editor", "command", "graph", "side")
 SHOWN_KEYS = {
@@ -50,7 +50,7 @@ SHOWN_KEYS = {
 """Keys of the status row, the most wanted first, with a word for each."""
 
 
-class Desk(HeldScreen):
+class MainScreen(DeferredScreen):
     """All panes."""
 
     AUTO_FOCUS = "#prompt"
@@ -60,34 +60,35 @@ class Desk(HeldScreen):
         """All panes are there."""
 
     DEFAULT_CSS = """
-    Desk { layers: base popup cover; }
-    Desk #desk { height: 1fr; }
-    Desk #left { width: 1fr; }
-    Desk #right { width: 1fr; }
-    Desk #editor { height: 2fr; }
-    Desk #command { height: 1fr; min-height: 4; border-top: solid $secondary;
+    MainScreen { layers: base popup cover; }
+    MainScreen #desk { height: 1fr; }
+    MainScreen #left { width: 1fr; }
+    MainScreen #right { width: 1fr; }
+    MainScreen #editor { height: 2fr; }
+    MainScreen #command { height: 1fr; min-height: 4; border-top: solid $secondary;
             border-title-color: $foreground; }
-    Desk #command:focus-within { border-top: solid $primary; border-title-color: $accent; }
-    Desk #graph { height: 2fr; border-left: solid $secondary; }
-    Desk #side { height: 1fr; min-height: 6; border-left: solid $secondary; }
-    Desk.-low #side { height: 2fr; }
+    MainScreen #command:focus-within { border-top: solid $primary; border-title-color: $accent; }
+    MainScreen #graph { height: 2fr; border-left: solid $secondary; }
+    MainScreen #side { height: 1fr; min-height: 6; border-left: solid $secondary; }
+    MainScreen.-low #side { height: 2fr; }
 
-    Desk.-rows #desk { layout: vertical; }
-    Desk.-rows #left, Desk.-rows #right { width: 100%; height: 1fr; }
-    Desk.-rows #graph { border-left: none; border-top: solid $secondary; }
-    Desk.-rows #graph:focus { border-top: solid $primary; }
-    Desk.-rows #side { border-left: none; }
-    Desk.-few #left { dock: bottom; height: 34%; min-height: 4; }
-    Desk.-few #graph, Desk.-few #graph:focus { border-top: none; }
-    Desk.-one #graph, Desk.-one #side { border-left: none; min-height: 1; }
-    Desk.-one #command, Desk.-one #command:focus-within { border-top: none; min-height: 1; }
+    MainScreen.-rows #desk { layout: vertical; }
+    MainScreen.-rows #left, MainScreen.-rows #right { width: 100%; height: 1fr; }
+    MainScreen.-rows #graph { border-left: none; border-top: solid $secondary; }
+    MainScreen.-rows #graph:focus { border-top: solid $primary; }
+    MainScreen.-rows #side { border-left: none; }
+    MainScreen.-few #left { dock: bottom; height: 34%; min-height: 4; }
+    MainScreen.-few #graph, MainScreen.-few #graph:focus { border-top: none; }
+    MainScreen.-one #graph, MainScreen.-one #side { border-left: none; min-height: 1; }
+    MainScreen.-one #command, MainScreen.-one #command:focus-within { border-top: none; min-height: 1; }
 
-    Desk #too-small { layer: cover; width: 100%; height: 100%; display: none; content-align: center middle;
+    MainScreen #too-small { layer: cover; width: 100%; height: 100%; display: none;
+                      content-align: center middle;
                       background: $background; overflow: hidden; }
-    Desk.-small #too-small { display: block; }
+    MainScreen.-small #too-small { display: block; }
     """
 
-    def __init__(self, history: History, keys: dict[str, str]) -> None:
+    def __init__(self, history: CommandHistory, keys: dict[str, str]) -> None:
         super().__init__()
         self._history = history
         self._keys = keys

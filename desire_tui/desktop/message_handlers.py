@@ -23,7 +23,7 @@ FIRST_SAMPLE_S = 0.003
 """A run's first sample mostly comes sooner: it is drawn together with the graph's frame."""
 
 
-class EngineNews(Controller):
+class MessageHandlers(Controller):
     """`handle(message)`; all of it happens on the screen's thread."""
 
     @singledispatchmethod

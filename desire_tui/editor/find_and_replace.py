@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.editor.document import follow
-from desire_tui.editor.text_search import Unsearchable, Wanted, span
+from desire_tui.editor.text_search import SearchRequest, Unsearchable, span
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,7 +23,7 @@ class Finder:
 
     def __init__(self) -> None:
         self.area: CodeArea | None = None
-        self.wanted = Wanted("")
+        self.wanted = SearchRequest("")
         self._within: Range | None = None
         self._document: Lines | None = None
         """The lines whose changes `_within` follows."""

@@ -79,7 +79,7 @@ class Move:
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class BreakpointChange:
     """The breakpoints of the rows that a replacement concerned, before and after it."""
 
     inverse: Move
@@ -100,7 +100,7 @@ class Marks:
     _moves: list[Move] = field(default_factory=list)
     takes_back: bool = False
     """Whether changes are being undone, or done again."""
-    _changes: deque[Change] = field(default_factory=lambda: deque(maxlen=CHANGES_KEPT))
+    _changes: deque[BreakpointChange] = field(default_factory=lambda: deque(maxlen=CHANGES_KEPT))
 
     def set_problems(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Replace the problems."""
@@ -143,7 +143,7 @@ class Marks:
         self.breakpoints = moved
         after = self._breakpoints_in(move.top[0], move.end[0])
         if before or after:
-            self._changes.append(Change(Move(move.top, move.end, move.bottom), before, after))
+            self._changes.append(BreakpointChange(Move(move.top, move.end, move.bottom), before, after))
 
     def _breakpoints_in(self, first: int, last: int) -> frozenset[int]:
         return frozenset(row for row in self.breakpoints if first <= row <= last)

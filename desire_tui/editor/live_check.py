@@ -26,7 +26,7 @@ QUIET_SECONDS = 0.5
 """Nobody has typed for so long: time for a closer look."""
 
 
-class Checker:
+class LiveChecker:
     """Checks texts one after the other.
 
     `report(tab number, version, problems)` is called in the checking thread; once more if `look_closer`

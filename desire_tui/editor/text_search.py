@@ -72,7 +72,7 @@ def span(hit: Hit) -> Range:
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class SearchRequest:
     """What is searched for."""
 
     text: str

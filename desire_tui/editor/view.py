@@ -1,7 +1,7 @@
 """A view of a program: drawn text over lines that other views may show and change.
 
-TextArea's internals are overridden in few places, named here and in `text_rendering`: `_set_document` (shared lines,
-no wrapping tables), `edit` / `_undo_batch` / `_redo_batch` (other views follow), `move_cursor` /
+TextArea's internals are overridden in few places, named here and in `text_rendering`: `_set_document` (shared
+lines, no wrapping tables), `edit` / `_undo_batch` / `_redo_batch` (other views follow), `move_cursor` /
 `scroll_cursor_visible` (no more movement than it takes), `_refresh_size` (no measuring, no layout at each
 key).
 """

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 KEPT_MAX = 2_000
 
 
-class History:
+class CommandHistory:
     """Lines, oldest first. `previous` and `next` walk through those that begin with what was typed."""
 
     def __init__(self, path: Path | None = None) -> None:

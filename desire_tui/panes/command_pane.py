@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from textual.app import ComposeResult
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.panes.command_history import History
+    from desire_tui.panes.command_history import CommandHistory
 
 PROMPT = "> "
 HELD = "Stopped at this line; those after it wait. ↑↓ edit them, Enter goes on, Esc gives them up."
@@ -45,7 +45,7 @@ class CommandPane(Vertical):
             self.lines = lines
             self.answer = answer
 
-    def __init__(self, history: History) -> None:
+    def __init__(self, history: CommandHistory) -> None:
         super().__init__(id="command")
         self.border_title = "Command"
         self._history = history

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from textual import events
     from textual.selection import Selection
 
-    from desire_tui.panes.scrollback import Kind, Line, Place
+    from desire_tui.panes.scrollback import Kind, OutputLine, Place
 
 
 class Console(ScrollView):
@@ -112,7 +112,7 @@ class Console(ScrollView):
                 )
         return strip
 
-    def _style(self, line: Line) -> Style:
+    def _style(self, line: OutputLine) -> Style:
         theme = self.app.current_theme
         match line.kind:
             case "error":

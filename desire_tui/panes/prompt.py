@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from textual import events
 
-    from desire_tui.panes.command_history import History
+    from desire_tui.panes.command_history import CommandHistory
     from desire_tui.panes.pending_lines import HeldLines
 
 
@@ -39,7 +39,9 @@ class Prompt(Input):
             super().__init__()
             self.pattern = pattern
 
-    def __init__(self, history: History, held: HeldLines, entered: Callable[[list[str]], object]) -> None:
+    def __init__(
+        self, history: CommandHistory, held: HeldLines, entered: Callable[[list[str]], object]
+    ) -> None:
         """`entered` is called with a line, or with several pasted ones."""
         super().__init__(id="prompt", select_on_focus=False)
         self.history = history

@@ -23,7 +23,7 @@ class Place:
 
 
 @dataclass(slots=True)
-class Line:
+class OutputLine:
     """A line of output."""
 
     text: str
@@ -31,7 +31,7 @@ class Line:
     place: Place | None = None
 
 
-class Row(NamedTuple):
+class OutputRow(NamedTuple):
     """A row of the pane: the line it is a part of, its first character, and the one behind its last."""
 
     line: int
@@ -43,8 +43,8 @@ class Scrollback:
     """The last `LINES_MAX` lines, broken into rows."""
 
     def __init__(self) -> None:
-        self.lines: list[Line] = []
-        self.rows: list[Row] = []
+        self.lines: list[OutputLine] = []
+        self.rows: list[OutputRow] = []
         self.width = 0
         self._open = False
 
@@ -58,14 +58,14 @@ class Scrollback:
         if pieces and pieces[-1] == "":
             pieces.pop()
         first = len(self.lines)
-        self.lines += [Line(_shown(piece)[:LINE_CHARS_MAX], kind) for piece in pieces]
+        self.lines += [OutputLine(_shown(piece)[:LINE_CHARS_MAX], kind) for piece in pieces]
         self._open = not text.endswith("\n")
         self._lay_out(first)
 
     def add(self, text: str, kind: Kind, place: Place | None) -> None:
         """Append whole lines; an unfinished one before is finished."""
         first = len(self.lines)
-        self.lines += [Line(_shown(line)[:LINE_CHARS_MAX], kind, place) for line in text.split("\n")]
+        self.lines += [OutputLine(_shown(line)[:LINE_CHARS_MAX], kind, place) for line in text.split("\n")]
         self._open = False
         self._lay_out(first)
 
@@ -110,9 +110,9 @@ class Scrollback:
             start, end = 0, len(line.text)
             while end - start > width:
                 cut = line.text.rfind(" ", start + width // 2, start + width + 1) + 1 or start + width
-                self.rows.append(Row(number, start, cut))
+                self.rows.append(OutputRow(number, start, cut))
                 start = cut
-            self.rows.append(Row(number, start, end))
+            self.rows.append(OutputRow(number, start, end))
 
 
 def _shown(text: str) -> str:

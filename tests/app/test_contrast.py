@@ -9,7 +9,7 @@ from textual.color import Color
 from textual.widgets import Input
 
 from desire_tui.common import themes
-from desire_tui.common.dialogs import Choice, Line
+from desire_tui.common.dialogs import Choice, LineDialog
 
 from .conftest import OSCILLATOR, Desktop, desktop
 
@@ -146,7 +146,7 @@ async def test_every_text_on_the_screen_can_be_read(program, theme: str):
         desk.app.notify("a warning", severity="warning")
         desk.app.notify("an error", severity="error")
         await look("notices")
-        for dialog in (Choice("Title", "A question", ("Yes", "No")), Line("Title", "value", "a hint")):
+        for dialog in (Choice("Title", "A question", ("Yes", "No")), LineDialog("Title", "value", "a hint")):
             desk.app.push_screen(dialog)  # type: ignore[arg-type]
             await look(type(dialog).__name__)
             await desk.press("escape")

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from desire_tui.common.dialogs import Choice, Line
+from desire_tui.common.dialogs import Choice, LineDialog
 
 from .conftest import Desktop, desktop
 
 
-async def ask(desk: Desktop, dialog: Choice | Line) -> list[str | None]:
+async def ask(desk: Desktop, dialog: Choice | LineDialog) -> list[str | None]:
     answers: list[str | None] = []
     desk.app.push_screen(dialog, answers.append)  # type: ignore[arg-type]
     await desk.until(lambda: desk.app.screen is dialog)
@@ -23,9 +23,9 @@ async def test_two_keys_at_once_are_one_answer(program):
         choice.dismiss("Discard")
         await desk.pilot.pause()
         assert answers == ["Restore"]
-        answers = await ask(desk, Line("Name", "a"))
+        answers = await ask(desk, LineDialog("Name", "a"))
         line = desk.app.screen
-        assert isinstance(line, Line)
+        assert isinstance(line, LineDialog)
         line.dismiss("a")
         line.dismiss("")
         await desk.pilot.pause()

@@ -7,7 +7,7 @@ from time import monotonic
 import pytest
 
 from desire_tui.editor.find_bar import FindBar
-from desire_tui.editor.text_search import HITS_MAX, Unsearchable, Wanted
+from desire_tui.editor.text_search import HITS_MAX, SearchRequest, Unsearchable
 
 from .conftest import desktop
 
@@ -17,37 +17,46 @@ from .conftest import desktop
 @pytest.mark.parametrize(
     ("wanted", "line", "columns"),
     [
-        (Wanted("x"), "x X xx", [0, 2, 4, 5]),
-        (Wanted("X"), "x X xx", [2]),  # a capital typed: capitals count
-        (Wanted("x", case=True), "x X", [0]),
-        (Wanted("X", case=False), "x X", [0, 2]),
-        (Wanted("x", word=True), "x xx x$ x_1 $x (x) x", [0, 16, 19]),
-        (Wanted("a.b"), "a.b aXb", [0]),
-        (Wanted("a.b", regex=True), "a.b aXb", [0, 4]),
-        (Wanted(r"\S+", regex=True), "ab AB", [0, 3]),  # the capital of \S is none
-        (Wanted("^", regex=True), "ab", [0]),
-        (Wanted("a|b", word=True, regex=True), "a b ab", [0, 2]),
+        (SearchRequest("x"), "x X xx", [0, 2, 4, 5]),
+        (SearchRequest("X"), "x X xx", [2]),  # a capital typed: capitals count
+        (SearchRequest("x", case=True), "x X", [0]),
+        (SearchRequest("X", case=False), "x X", [0, 2]),
+        (SearchRequest("x", word=True), "x xx x$ x_1 $x (x) x", [0, 16, 19]),
+        (SearchRequest("a.b"), "a.b aXb", [0]),
+        (SearchRequest("a.b", regex=True), "a.b aXb", [0, 4]),
+        (SearchRequest(r"\S+", regex=True), "ab AB", [0, 3]),  # the capital of \S is none
+        (SearchRequest("^", regex=True), "ab", [0]),
+        (SearchRequest("a|b", word=True, regex=True), "a b ab", [0, 2]),
     ],
 )
-def test_what_is_found(wanted: Wanted, line: str, columns: list[int]):
+def test_what_is_found(wanted: SearchRequest, line: str, columns: list[int]):
     assert [start for _, start, _ in wanted.hits([line])] == columns
 
 
 def test_inside_a_part_of_the_text_only():
     lines = ["x x", "x", "x x"]
     within = ((0, 2), (2, 1))
-    assert Wanted("x").hits(lines, within) == [(0, 2, 3), (1, 0, 1), (2, 0, 1)]
-    assert Wanted("x").all_replaced(lines, "yy", within) == (0, 2, ["x yy", "yy", "yy x"], 3)
-    assert Wanted("(x)", regex=True).all_replaced(lines, r"\1\1", within).lines == ["x xx", "xx", "xx x"]
+    assert SearchRequest("x").hits(lines, within) == [(0, 2, 3), (1, 0, 1), (2, 0, 1)]
+    assert SearchRequest("x").all_replaced(lines, "yy", within) == (0, 2, ["x yy", "yy", "yy x"], 3)
+    assert SearchRequest("(x)", regex=True).all_replaced(lines, r"\1\1", within).lines == [
+        "x xx",
+        "xx",
+        "xx x",
+    ]
 
 
 def test_replacements():
-    assert Wanted("a").all_replaced(["a", "b", "a"], r"\1") == (0, 2, [r"\1", "b", r"\1"], 2)  # as it stands
-    rate = Wanted(r"d/dt (\w+)", regex=True)
+    assert SearchRequest("a").all_replaced(["a", "b", "a"], r"\1") == (
+        0,
+        2,
+        [r"\1", "b", r"\1"],
+        2,
+    )  # as it stands
+    rate = SearchRequest(r"d/dt (\w+)", regex=True)
     assert rate.all_replaced(["", "d/dt x = v"], r"\1dot") == (1, 1, ["xdot = v"], 1)
     assert rate.replaced(["d/dt x = v"], (0, 0, 6), r"\g<0>\n\1") == "d/dt x\nx"
-    assert Wanted(r"\|", regex=True).all_replaced(["a|b"], r"\n").lines == ["a", "b"]
-    assert Wanted("q").all_replaced(["a"], "b").places == 0
+    assert SearchRequest(r"\|", regex=True).all_replaced(["a|b"], r"\n").lines == ["a", "b"]
+    assert SearchRequest("q").all_replaced(["a"], "b").places == 0
 
 
 @pytest.mark.parametrize(
@@ -65,22 +74,22 @@ def test_replacements():
 )
 def test_a_wrong_expression_is_told_in_plain_words(text: str, sentence: str):
     with pytest.raises(Unsearchable, match=r".*") as told:
-        Wanted(text, regex=True).hits(["a"])
+        SearchRequest(text, regex=True).hits(["a"])
     assert sentence in str(told.value)
     with pytest.raises(Unsearchable, match="there is no group of that number"):
-        Wanted("a", regex=True).all_replaced(["a"], r"\2")
+        SearchRequest("a", regex=True).all_replaced(["a"], r"\2")
 
 
 def test_an_expression_that_would_match_for_years_is_broken_off():
     began = monotonic()
     with pytest.raises(Unsearchable, match="takes too long"):
-        Wanted("(a+)+$", regex=True).hits(["a" * 60 + "b"])
+        SearchRequest("(a+)+$", regex=True).hits(["a" * 60 + "b"])
     assert monotonic() - began < 30
 
 
 def test_so_many_that_nobody_reads_them():
-    assert len(Wanted("a").hits(["a" * 1000] * 30)) == HITS_MAX
-    assert Wanted("a").all_replaced(["a" * 1000] * 30, "b").places == 30_000
+    assert len(SearchRequest("a").hits(["a" * 1000] * 30)) == HITS_MAX
+    assert SearchRequest("a").all_replaced(["a" * 1000] * 30, "b").places == 30_000
 
 
 # ------------------------------------------------------------------------------------------------ on screen

@@ -8,7 +8,7 @@ import pytest
 
 from desire_tui.editor import live_check
 from desire_tui.editor.buffer import Buffer
-from desire_tui.editor.live_check import Checker
+from desire_tui.editor.live_check import LiveChecker
 from desire_tui.engine.diagnostics import Diagnostic
 
 PATIENCE = 20.0
@@ -22,7 +22,7 @@ def reports(monkeypatch):
 
 
 def checker(reports, closer):
-    return Checker(lambda _: QUICK, lambda *report: reports.put(report), reports.put, closer)
+    return LiveChecker(lambda _: QUICK, lambda *report: reports.put(report), reports.put, closer)
 
 
 def buffer(number):

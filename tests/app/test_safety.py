@@ -12,7 +12,7 @@ import pytest
 from desire_tui.common import config, paths, themes
 from desire_tui.editor import recovery
 from desire_tui.editor.recovery import SavedTab
-from desire_tui.panes.command_history import History
+from desire_tui.panes.command_history import CommandHistory
 from desire_tui.panes.key_names import key_names
 from desire_tui.panes.run_summary import speed
 
@@ -124,11 +124,11 @@ async def test_the_first_start_shows_an_example_and_a_tour():
 
 
 def test_history_is_kept_and_searched(tmp_path):
-    history = History(tmp_path / "h.json")
+    history = CommandHistory(tmp_path / "h.json")
     for line in ("write x", "zz", "write y", "zz", "  "):
         history.add(line)
     assert history.lines == ["write x", "write y", "zz"]
-    again = History(tmp_path / "h.json")
+    again = CommandHistory(tmp_path / "h.json")
     assert again.lines == history.lines
     assert again.previous("wr") == "write y"
     assert again.previous("wr") == "write x"
@@ -137,7 +137,7 @@ def test_history_is_kept_and_searched(tmp_path):
     assert again.next() == "wr"
     assert again.search("X") == (0, "write x")
     (tmp_path / "bad.json").write_text("{")
-    assert History(tmp_path / "bad.json").lines == []
+    assert CommandHistory(tmp_path / "bad.json").lines == []
 
 
 async def test_history_keys(program):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from desire_tui.engine.graph import GraphBook
-from desire_tui.engine.lowered import Column, Request, Where
+from desire_tui.engine.lowered import SampleColumn, SampleRequest, Where
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.source import Span
 
@@ -14,8 +14,8 @@ PLACE = Where(Span(0, 0))
 
 def record_of(kind, t, data, *, scale=1.0, rule=1, more=()):
     """Return the record of a run whose request `kind` shows `data` (name -> samples)."""
-    columns = tuple(Column(name, 20 + i, PLACE) for i, name in enumerate(data))
-    requests = (*more, Request(kind, columns))
+    columns = tuple(SampleColumn(name, 20 + i, PLACE) for i, name in enumerate(data))
+    requests = (*more, SampleRequest(kind, columns))
     record = RunRecord(
         1, None, 1, requests, tuple(c for r in requests for c in r.columns), False, rule, scale,
         float(t[0]), float(t[-1] - t[0]), len(t), 0.1,

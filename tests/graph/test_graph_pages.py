@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from desire_tui.engine.graph import BLACK, WHITE, DisplaySettings, GraphBook, rgb
-from desire_tui.engine.lowered import Column, Request
+from desire_tui.engine.lowered import SampleColumn, SampleRequest
 from tests.graph.graphing import PLACE, displayed, page_of, record_of
 
 T = np.linspace(2.0, 5.0, 4)
@@ -101,7 +101,7 @@ def test_capital_dispxy_shows_pairs():
 
 
 def test_a_listing_beside_the_graph_does_not_shift_its_columns():
-    listing = Request("type", (Column("q", 3, PLACE),))
+    listing = SampleRequest("type", (SampleColumn("q", 3, PLACE),))
     book = GraphBook()
     page = book.begin_run(record_of("dispt", T, {"x": 5 * T}, more=(listing,)))
     assert page.curves[0].samples()[1].tolist() == (5 * T).tolist()

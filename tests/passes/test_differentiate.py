@@ -9,7 +9,7 @@ from desire_tui.engine.passes.differentiate import NotDifferentiable, differenti
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.passes.sparsity import dependence
 from desire_tui.engine.reference.backend import ReferenceBackend
-from desire_tui.engine.reference.statements import Statements
+from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.values import T
 from tests.integration.stiff_programs import run
 
@@ -35,7 +35,7 @@ class Model:
     def __init__(self, text):
         self.segment, self.values, self.slots = lowered(text)
         self.n = len(self.slots)
-        self._plain = Statements(self.values, self.n)
+        self._plain = StatementClosures(self.values, self.n)
         self._pass = self._plain.compile(derivative_slice(self.segment))
 
     def f(self, x):
@@ -45,7 +45,7 @@ class Model:
 
     def exact(self, x):
         tangent = differentiate(self.segment, self.values.room)
-        statements = Statements(self.values, self.n)
+        statements = StatementClosures(self.values, self.n)
         body = statements.compile(tangent.body)
         columns = []
         for state in range(self.n):

@@ -87,7 +87,7 @@ def test_leaving_out_changes_no_derivative(lines):
     """Both-flags-off passes: the slice gives the derivatives and persistent numbers of the whole segment."""
     import numpy as np
 
-    from desire_tui.engine.reference.statements import Statements
+    from desire_tui.engine.reference.statements import StatementClosures
 
     body = "\n".join(
         f"v{target} = 0.5 + " + " + ".join([f"0.25*v{s}" for s in sources] or ["x"])
@@ -99,7 +99,7 @@ def test_leaving_out_changes_no_derivative(lines):
     kept, other = segment(body, x=1.5, **initial)
     results = []
     for actions, quantities in ((whole.body, values), (derivative_slice(kept), other)):
-        statements = Statements(quantities, 1)
+        statements = StatementClosures(quantities, 1)
         passes = statements.compile(actions)
         for _ in range(3):
             passes()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.check.declared import Survey
+from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.check.unknown import misplaced, unknown_names
 from desire_tui.engine.check.uses import unfit_uses
 from desire_tui.engine.gc_pause import undisturbed_allocation
@@ -29,7 +29,7 @@ def check(program: Program) -> tuple[Diagnostic, ...]:
     """
     found = find_structure(program)
     problems = [*program.problems, *found.problems, *misplaced(program, found)]
-    survey = Survey(program, found)
+    survey = DeclaredNames(program, found)
     functions = functions_of(found)
     for text in program.segments:
         scope = survey.scope_for(text)

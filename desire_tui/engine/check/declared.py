@@ -35,7 +35,7 @@ class _Seen:
     quantities: dict[str, Quantity] = field(default_factory=dict)
 
 
-class Survey:
+class DeclaredNames:
     """One walk over the script, kept at each segment's first `drun`."""
 
     def __init__(self, program: Program, structure: Structure) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.check.declared import Survey
+from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.nodes import Bare, Call, Derivative, Invoke, Name
 from desire_tui.engine.structure.structure import structure as find_structure
@@ -48,5 +48,5 @@ def state_order(program: Program) -> tuple[str, ...]:
 
     for segment in program.segments:
         collect(segment.body, {}, 0)
-    arrays = Survey(program, found).array_names
+    arrays = DeclaredNames(program, found).array_names
     return tuple(name for name in names if name not in arrays)

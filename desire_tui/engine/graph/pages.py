@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Picture, Request
+    from desire_tui.engine.lowered import Picture, SampleRequest
     from desire_tui.engine.runtime.run_record import RunRecord
 
 PAGES_MAX = 32
@@ -113,7 +113,7 @@ class GraphBook:
         return page
 
     def _curves(
-        self, record: RunRecord, request: Request, frame: Frame, first_color: int = 0
+        self, record: RunRecord, request: SampleRequest, frame: Frame, first_color: int = 0
     ) -> Iterator[Curve]:
         first = 1 + record.first_column(request)
         names = [column.name for column in request.columns]
@@ -159,7 +159,7 @@ class GraphBook:
         page.thickness, page.has_keys = self.settings.thickness, not self.settings.one_color
 
 
-def run_frame(record: RunRecord, request: Request) -> Frame:
+def run_frame(record: RunRecord, request: SampleRequest) -> Frame:
     """Return the frame of a run's graph: t0 … t0 + TMAX or -scale … scale, by -scale … scale."""
     scale = abs(record.scale) or 1.0
     if request.kind == "dispt":
@@ -168,7 +168,7 @@ def run_frame(record: RunRecord, request: Request) -> Frame:
     return Frame(request.kind, -scale, scale, -scale, scale, scale)
 
 
-def caption(request: Request) -> str:
+def caption(request: SampleRequest) -> str:
     """Return the caption: `x, y vs. t`."""
     names = [column.name for column in request.columns]
     if request.kind == "dispt":

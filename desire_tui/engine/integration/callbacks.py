@@ -1,6 +1,6 @@
 """CVODE's callbacks in Python, for the reference back end and for tests.
 
-They do what `codegen.stiff.callbacks` does natively, to the same `problem.Problem`, with the same formulas.
+They do what `codegen.stiff.callbacks` does natively, to the same `SolverProblem`, with the same formulas.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from desire_tui.engine.integration.sundials.linear import Linear, positions
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.pattern import Numbers, Pattern
-    from desire_tui.engine.integration.problem import Problem
+    from desire_tui.engine.integration.problem import SolverProblem
 
 RULES = range(9, 17)
 """The rules that are CVODE's."""
@@ -23,8 +23,8 @@ DENSE_MOST = 30
 
 
 @dataclass(frozen=True)
-class Tables:
-    """The tables of `problem.Problem`, kept alive here."""
+class JacobianTables:
+    """The tables of `problem.SolverProblem`, kept alive here."""
 
     seed_starts: Numbers
     seeds: Numbers
@@ -36,7 +36,7 @@ class Tables:
     row_indices: Numbers
     column_starts: Numbers
 
-    def give(self, problem: Problem) -> None:
+    def give(self, problem: SolverProblem) -> None:
         """Write the tables' addresses into the structure."""
         for name in self.__dataclass_fields__:
             setattr(problem, name, getattr(self, name).ctypes.data)
@@ -44,15 +44,15 @@ class Tables:
 
 
 @dataclass(frozen=True)
-class Plan:
+class SolverPlan:
     """How a model's corrector equations are solved: `linear` is without the Jacobian's address."""
 
     linear: Linear
     method: Matrix
-    tables: Tables | None
+    tables: JacobianTables | None
 
 
-def is_own(rule: int, n: int, plan: Plan) -> bool:
+def is_own(rule: int, n: int, plan: SolverPlan) -> bool:
     """Whether `bdf` can do it in CVODE's place: Newton's iteration for BDF with a dense matrix."""
     return rule in {14, 15} and n <= DENSE_MOST and plan.tables is not None
 
@@ -62,7 +62,7 @@ def kind_of(rule: int) -> str:
     return ("fixed-point", "jacobian", "differences", "diagonal")[(rule - 9) % 4]
 
 
-def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = True) -> Plan:
+def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = True) -> SolverPlan:
     """Decide for a rule 9 … 16.
 
     `pattern` is where the Jacobian is not zero. `program`: a JACOBIAN segment fills it. `tangent`: else exact
@@ -70,14 +70,14 @@ def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = 
     """
     kind = kind_of(rule)
     if kind == "fixed-point":
-        return Plan(Linear("fixed-point"), Matrix.NONE, None)
+        return SolverPlan(Linear("fixed-point"), Matrix.NONE, None)
     if kind == "diagonal":
-        return Plan(Linear("diagonal"), Matrix.NONE, None)
+        return SolverPlan(Linear("diagonal"), Matrix.NONE, None)
     linear = _linear(pattern)
     method = Matrix.DIFFERENCES
     if kind == "jacobian":
         method = Matrix.PROGRAM if program else Matrix.TANGENT if tangent else Matrix.DIFFERENCES
-    return Plan(linear, method, _tables(linear, pattern, method))
+    return SolverPlan(linear, method, _tables(linear, pattern, method))
 
 
 def _linear(pattern: Pattern) -> Linear:
@@ -102,7 +102,7 @@ def superlu_pays(pattern: Pattern) -> bool:
     return pattern.n > 200 and pattern.count < 0.1 * pattern.n**2 and superlu() is not None
 
 
-def _tables(linear: Linear, pattern: Pattern, method: Matrix) -> Tables:
+def _tables(linear: Linear, pattern: Pattern, method: Matrix) -> JacobianTables:
     n = pattern.n
     colours = np.zeros(n, dtype=np.int32) if method is Matrix.PROGRAM else pattern.colours
     number = int(colours.max(initial=-1)) + 1
@@ -111,7 +111,7 @@ def _tables(linear: Linear, pattern: Pattern, method: Matrix) -> Tables:
     order = np.argsort(entry_colours, kind="stable")
     places = positions(linear, n, pattern.rows, pattern.columns)
     edges = np.arange(number + 1)
-    return Tables(
+    return JacobianTables(
         seed_starts=np.searchsorted(colours[seeds], edges).astype(np.int32),
         seeds=seeds,
         entry_starts=np.searchsorted(entry_colours[order], edges).astype(np.int32),

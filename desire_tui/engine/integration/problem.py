@@ -45,7 +45,7 @@ class Matrix(IntEnum):
     """The program's JACOBIAN segment."""
 
 
-class Problem(ctypes.Structure):
+class SolverProblem(ctypes.Structure):
     """One model under one of the rules 9 … 16.
 
     Functions of the model, C calling convention: `derivatives(memory, k)` and `tangent(memory, k)` write n

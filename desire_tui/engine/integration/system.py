@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.integration.bdf.solver import OwnSolver
-from desire_tui.engine.integration.problem import ERROR_SHARE, Matrix, Problem
+from desire_tui.engine.integration.problem import ERROR_SHARE, Matrix, SolverProblem
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Solver
@@ -17,12 +17,12 @@ from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Sol
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.integration.plan import Plan
+    from desire_tui.engine.integration.plan import SolverPlan
 
 _DATA_OF = {"dense": "SUNDenseMatrix_Data", "band": "SUNBandMatrix_Data", "sparse": "SUNSparseMatrix_Data"}
 
 
-class Memory(Protocol):
+class SolverCounters(Protocol):
     """What is wanted of `runtime.run_memory.RunMemory`."""
 
     error_max: float
@@ -34,8 +34,8 @@ class Memory(Protocol):
 
 
 @dataclass(frozen=True)
-class Functions:
-    """Addresses of the model's C functions (see `problem.Problem`); 0 for none."""
+class ModelFunctions:
+    """Addresses of the model's C functions (see `problem.SolverProblem`); 0 for none."""
 
     derivatives: int = 0
     tangent: int = 0
@@ -64,10 +64,10 @@ class StiffSystem:
     def __init__(
         self,
         rule: int,
-        plan: Plan,
+        plan: SolverPlan,
         values: int,
         ranges: Sequence[tuple[int, int, int]],
-        functions: Functions,
+        functions: ModelFunctions,
         natives: Natives,
         *,
         directions: int = 0,
@@ -75,7 +75,7 @@ class StiffSystem:
     ) -> None:
         self.rule, self.plan = rule, plan
         self.n = n = sum(count for _, _, count in ranges)
-        self.problem = problem = Problem()
+        self.problem = problem = SolverProblem()
         self._ranges = np.array(ranges, dtype=np.int64).reshape(-1, 3)
         self._buffers = np.zeros((4, n))
         self.largest, self.last, own, spare = self._buffers
@@ -113,7 +113,7 @@ class StiffSystem:
             problem.indices_of = address(library, "SUNSparseMatrix_IndexValues")
             problem.starts_of = address(library, "SUNSparseMatrix_IndexPointers")
 
-    def begin(self, memory: Memory, first_step: float) -> None:
+    def begin(self, memory: SolverCounters, first_step: float) -> None:
         """Prepare a run: forget history, counts and largest values; take ERMAX, DTMAX and the first DT."""
         problem = self.problem
         problem.memory = ctypes.addressof(memory)  # type: ignore[arg-type]
@@ -127,7 +127,7 @@ class StiffSystem:
         self.largest[:] = problem.floor = 0.0
         self.solver.limit(memory.dt_max)
 
-    def report(self, memory: Memory) -> None:
+    def report(self, memory: SolverCounters) -> None:
         """Write what CVODE did so far into the run's memory."""
         counts = self.solver.counts() if self.problem.started else Counts(0, 0, 0)
         memory.rejected = self.problem.failed + counts.failed

@@ -13,11 +13,11 @@ import numpy as np
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.elementwise import (
     ELEMENTS_AT_ONCE,
-    ElementExpressions,
+    ElementwiseExpressions,
     Shapes,
     by_elements,
 )
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.interruptible import patiently
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.library import LIBRARY, integer_power, power
@@ -45,7 +45,7 @@ class ArrayExpressions:
         self._site = site
         self._true_products = true_products
         self._shapes = Shapes(site, true_products=true_products)
-        self._elements = ElementExpressions(site, self._shapes, self)
+        self._elements = ElementwiseExpressions(site, self._shapes, self)
 
     def assigned(self, node: Expr, shape: tuple[int, ...]) -> Evaluator:
         """Return a function that evaluates what is assigned to an array of this shape.
@@ -82,18 +82,18 @@ class ArrayExpressions:
                 return self._chain(node) if node.op in OPERATORS else self._power(node)
             case Call():
                 return self._call(node)
-        raise Fault("not-in-array-expression", node)
+        raise ScriptFault("not-in-array-expression", node)
 
     def _matrix(self, node: Expr) -> Quantity:
         quantity = self._site.array(node)
         if len(quantity.shape) != 2:
-            raise Fault("not-a-matrix", node, name=quantity.name)
+            raise ScriptFault("not-a-matrix", node, name=quantity.name)
         return quantity
 
     def _shifted(self, node: Shifted) -> Evaluator:
         quantity = self._site.array(Name(node.name, node.start, node.end))
         if len(quantity.shape) != 1:
-            raise Fault("not-a-vector", node, name=node.name)
+            raise ScriptFault("not-a-vector", node, name=node.name)
         view, by, size = self._site.numbers(quantity), self._site.real(node.by), quantity.size
 
         def evaluate() -> NDArray[np.float64]:
@@ -149,7 +149,7 @@ class ArrayExpressions:
 
     def _same(self, a: Any, b: Any, node: Node) -> tuple[Any, Any]:
         if np.ndim(a) and np.ndim(b) and np.shape(a) != np.shape(b):
-            raise Fault("nonconformable", node, have=_size(a), want=_size(b))
+            raise ScriptFault("nonconformable", node, have=_size(a), want=_size(b))
         return a, b
 
     def _product(self, a: Any, b: Any, node: Node) -> Any:
@@ -159,7 +159,7 @@ class ArrayExpressions:
         if dimensions == (1, 1):
             return np.multiply.outer(a, b) if self._true_products else np.multiply(*self._same(a, b, node))
         if np.shape(a)[-1] != np.shape(b)[0]:
-            raise Fault("nonconformable", node, have=_size(a), want=_size(b))
+            raise ScriptFault("nonconformable", node, have=_size(a), want=_size(b))
         if dimensions != (2, 2):
             return a @ b
         own = a.copy(), b.copy()  # the product may outlive the statement (`patiently`)
@@ -176,11 +176,13 @@ class ArrayExpressions:
         entry, own = LIBRARY.get(node.name), self._site.scope.functions
         if entry is None and node.name not in own:
             close = closest(node.name, [*LIBRARY, *own])
-            raise Fault("undefined-function", node, name=node.name, close=close)
+            raise ScriptFault("undefined-function", node, name=node.name, close=close)
         if entry is None or entry.value is None or entry.gives_complex:
-            raise Fault("takes-no-array", node, name=node.name)
+            raise ScriptFault("takes-no-array", node, name=node.name)
         if not entry.fewest <= len(args) <= entry.most:
-            raise Fault("argument-count", node, name=node.name, given=len(args), needed=entry.parameters)
+            raise ScriptFault(
+                "argument-count", node, name=node.name, given=len(args), needed=entry.parameters
+            )
         function, check = entry.value, self._site.machine.check
 
         domain = entry.domain_error
@@ -219,11 +221,11 @@ def _elementwise(
             result[piece] = each(*(column[piece] for column in flat))
             check()
     except ZeroDivisionError:
-        raise Fault("division-by-zero", node) from None
+        raise ScriptFault("division-by-zero", node) from None
     except OverflowError:
-        raise Fault("overflow", node) from None
+        raise ScriptFault("overflow", node) from None
     except ValueError:
-        raise Fault(domain, node, function=getattr(node, "name", "")) from None
+        raise ScriptFault(domain, node, function=getattr(node, "name", "")) from None
     return result.reshape(np.broadcast_shapes(*map(np.shape, args)))[()]
 
 
@@ -234,22 +236,22 @@ def _whole_or_real_power(x: float, y: float) -> complex:
 
 def _quotient(a: Any, b: Any, divisor: Node) -> Any:
     if np.any(np.equal(b, 0.0)):
-        raise Fault("division-by-zero", divisor)
+        raise ScriptFault("division-by-zero", divisor)
     return np.divide(a, b)
 
 
 def _inverse(matrix: Any, node: Node, check: Callable[[], None]) -> Any:
     """Invert by LAPACK's LU decomposition; error 123 for a matrix that is singular to working precision."""
     if np.ndim(matrix) != 2 or matrix.shape[0] != matrix.shape[1]:
-        raise Fault("not-square", node, have=_size(matrix))
+        raise ScriptFault("not-square", node, have=_size(matrix))
     own = matrix.copy()
     try:
         inverse = patiently(2 * len(own) ** 3, lambda: np.linalg.inv(own), check)
     except np.linalg.LinAlgError:
-        raise Fault("singular-matrix", node) from None
+        raise ScriptFault("singular-matrix", node) from None
     condition = np.linalg.norm(own, 1) * np.linalg.norm(inverse, 1)
     if not condition * _SINGULAR < 1.0:
-        raise Fault("singular-matrix", node)
+        raise ScriptFault("singular-matrix", node)
     return inverse
 
 
@@ -257,14 +259,14 @@ def conform(value: Any, shape: tuple[int, ...], node: Node, name: str) -> NDArra
     """Return a value spread over a target's shape; errors 3 and 74."""
     if np.ndim(value) and np.shape(value) != shape:
         have = _size(value)
-        raise Fault("nonconformable", node, have=have, want=f"{name}[{','.join(map(str, shape))}]")
+        raise ScriptFault("nonconformable", node, have=have, want=f"{name}[{','.join(map(str, shape))}]")
     return np.array(np.broadcast_to(_finite(value, node), shape), dtype=np.float64)
 
 
 def _finite(value: Any, node: Node) -> Any:
     """Return the value; error 3 for an infinite one."""
     if not np.all(np.isfinite(value)):
-        raise Fault("overflow", node)
+        raise ScriptFault("overflow", node)
     return value
 
 

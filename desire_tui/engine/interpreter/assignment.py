@@ -6,7 +6,7 @@ import ast
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter import python_ast as py
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.expression_translation import literal
 from desire_tui.engine.interpreter.name_resolution import Reference
 from desire_tui.engine.interpreter.python_ast import at
@@ -76,7 +76,7 @@ def store_code(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Ex
     """Return code that evaluates an expression and stores it as the target's kind asks for."""
     code, given = site.translator.expression(value)
     if given is Kind.COMPLEX and kind is not Kind.COMPLEX:
-        raise Fault("complex-to-real", value, name=target.name)
+        raise ScriptFault("complex-to-real", value, name=target.name)
     if kind is Kind.COMPLEX:
         body: list[ast.stmt] = [py.carry_out(at(py.call("set_complex", slot, code), value))]
     elif kind is Kind.INTEGER:
@@ -121,10 +121,10 @@ def storer(site: Site, target: Target) -> Callable[[complex], None]:
             helpers["set_complex"](slot_of(), complex(value))
             return
         if value.imag != 0.0:
-            raise Fault("complex-to-real", target, name=target.name)
+            raise ScriptFault("complex-to-real", target, name=target.name)
         number = value.real
         if number - number != 0.0:
-            raise Fault("overflow", target)
+            raise ScriptFault("overflow", target)
         cells[slot_of()] = helpers["to_integer"](number) if kind is Kind.INTEGER else number
 
     return store

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter import python_ast as py
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.python_ast import Typed, at
 from desire_tui.engine.library import LIBRARY, LibraryFunction
 from desire_tui.engine.nodes import Name
@@ -17,9 +17,9 @@ from desire_tui.engine.values import Kind
 if TYPE_CHECKING:
     import ast
 
-    from desire_tui.engine.interpreter.compile_python import Builder
+    from desire_tui.engine.interpreter.compile_python import PythonCompiler
     from desire_tui.engine.interpreter.expression_translation import Translator
-    from desire_tui.engine.interpreter.user_functions import Functions
+    from desire_tui.engine.interpreter.user_functions import UserFunctions
     from desire_tui.engine.nodes import Call, Expr
     from desire_tui.engine.values import Quantity
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 class CallTranslator:
     """Translates calls for a `Translator`."""
 
-    def __init__(self, translator: Translator, build: Builder, functions: Functions) -> None:
+    def __init__(self, translator: Translator, build: PythonCompiler, functions: UserFunctions) -> None:
         self.translator = translator
         self.build = build
         self.functions = functions
@@ -39,10 +39,10 @@ class CallTranslator:
         entry = LIBRARY.get(node.name)
         if entry is None:
             known = [*LIBRARY, *self.functions.definitions]
-            raise Fault("undefined-function", node, name=node.name, close=closest(node.name, known))
+            raise ScriptFault("undefined-function", node, name=node.name, close=closest(node.name, known))
         if not entry.fewest <= len(node.args) <= entry.most:
             facts = {"given": len(node.args), "needed": entry.parameters}
-            raise Fault("argument-count", node, name=node.name, **facts)
+            raise ScriptFault("argument-count", node, name=node.name, **facts)
         match entry.kind:
             case "random":
                 return Typed(at(py.call(node.name), node), Kind.REAL)
@@ -78,19 +78,19 @@ class CallTranslator:
         if node.name == "func1":
             table = arrays[0]
             if len(table.shape) != 1 or table.size % 2:
-                raise Fault("table-shape", node.args[-1], name=table.name)
+                raise ScriptFault("table-shape", node.args[-1], name=table.name)
         else:
             f, x, y = arrays
             if f.shape != (x.size, y.size):
-                raise Fault("table2-shape", node, name=f.name, rows=x.size, columns=y.size)
+                raise ScriptFault("table2-shape", node, name=f.name, rows=x.size, columns=y.size)
         cells = self.build.values.cells
         views = [py.load(self.build.share("a", cells[q.slot : q.slot + q.slots])) for q in arrays]
         return at(py.call(self._shared(entry), *args, *views), node)
 
     def _array(self, node: Expr) -> Quantity:
         if not isinstance(node, Name):
-            raise Fault("array-name-expected", node)
+            raise ScriptFault("array-name-expected", node)
         quantity = self.translator.scope.array(node)
         if quantity.kind is Kind.COMPLEX:
-            raise Fault("complex-not-possible", node)
+            raise ScriptFault("complex-not-possible", node)
         return quantity

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from desire_tui.engine.interpreter.expression_translation import Translator
-    from desire_tui.engine.interpreter.name_resolution import Scope
+    from desire_tui.engine.interpreter.name_resolution import NameScope
     from desire_tui.engine.nodes import Placed
     from desire_tui.engine.source import Source
     from desire_tui.engine.structure.structure import Structure
@@ -27,7 +27,7 @@ class Finished(Exception):  # noqa: N818 - control flow
     """The script (or command line) ended, or came to a STOP."""
 
 
-class Statements(NamedTuple):
+class StatementList(NamedTuple):
     """Statements, their blocks and labels, and the source they stand in."""
 
     placed: Sequence[Placed]
@@ -36,14 +36,14 @@ class Statements(NamedTuple):
 
 
 @dataclass(eq=False)
-class Code:
+class ScriptCode:
     """Statements from place `first` to before `last`, whose operations stand at address `base` + place.
 
     `loops` holds the state of each `for` by its place: k, count, first value, step, slot.
     """
 
-    text: Statements
-    scope: Scope
+    text: StatementList
+    scope: NameScope
     translator: Translator
     first: int
     last: int
@@ -58,37 +58,37 @@ class Codes:
     `halt` is called with the address of a statement at which the script is to halt, before it is carried out.
     """
 
-    def __init__(self, make: Callable[[Code, int], Operation], halt: Callable[[int], None]) -> None:
+    def __init__(self, make: Callable[[ScriptCode, int], Operation], halt: Callable[[int], None]) -> None:
         self.operations: list[Operation] = []
         self._make = make
         self._halt = halt
-        self._codes: list[Code] = []
+        self._codes: list[ScriptCode] = []
         self._halts: frozenset[int] = frozenset()
 
     def link(
         self,
-        text: Statements,
-        scope: Scope,
+        text: StatementList,
+        scope: NameScope,
         translator: Translator,
         first: int,
         last: int,
         *,
         is_command: bool,
-    ) -> Code:
+    ) -> ScriptCode:
         """Add the statements `first` … `last - 1` of a text; the end follows the last one."""
-        code = Code(text, scope, translator, first, last, len(self.operations) - first, is_command)
+        code = ScriptCode(text, scope, translator, first, last, len(self.operations) - first, is_command)
         self.operations += [self._fresh(code, place) for place in range(first, last)]
         self.operations.append(_finish)
         self._codes.append(code)
         return code
 
-    def unlink(self, code: Code) -> None:
+    def unlink(self, code: ScriptCode) -> None:
         """Take a command line's operations away again, unless something was added behind them."""
         if self._codes[-1] is code:
             self._codes.pop()
             del self.operations[code.base + code.first :]
 
-    def locate(self, address: int) -> tuple[Code, int]:
+    def locate(self, address: int) -> tuple[ScriptCode, int]:
         """Return the code and the place in it that an address belongs to."""
         for code in self._codes:
             if code.first <= address - code.base <= code.last:
@@ -113,13 +113,13 @@ class Codes:
         """Whether the script halts before the statement at an address."""
         return self._halts_at(*self.locate(address))
 
-    def _halts_at(self, code: Code, place: int) -> bool:
+    def _halts_at(self, code: ScriptCode, place: int) -> bool:
         return place in self._halts and not code.is_command
 
-    def _fresh(self, code: Code, place: int) -> Operation:
+    def _fresh(self, code: ScriptCode, place: int) -> Operation:
         return partial(self._halted if self._halts_at(code, place) else self._first, code, place)
 
-    def _first(self, code: Code, place: int) -> int:
+    def _first(self, code: ScriptCode, place: int) -> int:
         """Make the operation of a statement that is reached for the first time, and carry it out."""
         operation = self._make(code, place)
         self._put(code, place, operation)
@@ -129,12 +129,12 @@ class Codes:
         """Take a quicker operation for the statement at an address from now on."""
         self._put(*self.locate(address), operation)
 
-    def _put(self, code: Code, place: int, operation: Operation) -> None:
+    def _put(self, code: ScriptCode, place: int, operation: Operation) -> None:
         self.operations[code.base + place] = operation
         if self._halts_at(code, place):  # asked after the change: another thread may want it just now
             self.operations[code.base + place] = partial(self._halted, code, place)
 
-    def _halted(self, code: Code, place: int) -> int:
+    def _halted(self, code: ScriptCode, place: int) -> int:
         """Halt before a statement; carry it out if the script is to pass this time."""
         self._halt(code.base + place)
         return self._make(code, place)()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.interpreter import python_ast as py
-from desire_tui.engine.interpreter.exception_mapping import Fault, Origins
+from desire_tui.engine.interpreter.exception_mapping import Origins, ScriptFault
 from desire_tui.engine.interpreter.random import Noise
 from desire_tui.engine.library import integer_power, power, rounded
 from desire_tui.engine.values import SCALAR_SLOTS
@@ -22,7 +22,7 @@ WHOLE_LIMIT = 9007199254740992.0
 """INTEGER values stay within ±2^53, where doubles hold every whole number."""
 
 
-class Builder:
+class PythonCompiler:
     """Turns trees into functions over one set of values.
 
     `names` is what generated code sees: `c` the numbers, the library's functions under `f_NAME`, helpers.
@@ -65,17 +65,17 @@ def helpers(values: Values) -> dict[str, Any]:
     cells, defined = values.cells, values.defined
 
     def bad_subscript(value: float, size: int, place: int) -> int:
-        raise Fault("script-subscript-out-of-range", value=f"{value:g}", size=size, place=place)
+        raise ScriptFault("script-subscript-out-of-range", value=f"{value:g}", size=size, place=place)
 
     def overflow() -> None:
-        raise Fault("overflow")
+        raise ScriptFault("overflow")
 
     def undefined(name: str) -> float:
-        raise Fault("undefined-variable", name=name)
+        raise ScriptFault("undefined-variable", name=name)
 
     def to_integer(value: float) -> float:
         if not -WHOLE_LIMIT <= value <= WHOLE_LIMIT:
-            raise Fault("integer-overflow", value=f"{value:g}")
+            raise ScriptFault("integer-overflow", value=f"{value:g}")
         return rounded(value)
 
     def complex_at(slot: int) -> complex:
@@ -83,7 +83,7 @@ def helpers(values: Values) -> dict[str, Any]:
 
     def set_complex(slot: int, value: complex) -> None:
         if not (value.real - value.real == 0.0 and value.imag - value.imag == 0.0):
-            raise Fault("overflow")
+            raise ScriptFault("overflow")
         cells[slot], cells[slot + 1] = value.real, value.imag
 
     def mark(box: list[int]) -> None:

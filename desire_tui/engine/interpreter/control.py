@@ -6,7 +6,7 @@ from math import floor
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter import python_ast as py
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.interpreter.run_count import ROUNDING
 from desire_tui.engine.library import rounded
@@ -25,7 +25,7 @@ def if_then(site: Site) -> Operation:
     node = site.node
     assert isinstance(node, If)
     if node.condition is None:
-        raise Fault("if-without-then", node)
+        raise ScriptFault("if-without-then", node)
     condition = site.translator.condition(node.condition)
     return _choose(site, condition, site.next, _behind(site))
 
@@ -78,7 +78,7 @@ def go_to(site: Site) -> Operation:
     assert isinstance(node, GoTo)
     place = site.code.text.structure.place(node.target)
     if place is None:
-        raise Fault("no-such-label", node, name=node.target)
+        raise ScriptFault("no-such-label", node, name=node.target)
     address = site.code.base + place
     return _jump_back(site, address) if place <= site.place else site.jump(address)
 
@@ -91,7 +91,7 @@ def for_loop(site: Site) -> Operation:
     by = site.real(node.by) if node.by is not None else None
     slot_of, kind = site.slot(node.variable)
     if kind is Kind.COMPLEX:
-        raise Fault("loop-variable", node.variable, name=node.variable.name)
+        raise ScriptFault("loop-variable", node.variable, name=node.variable.name)
     # k, count, first value, step, slot; shared with `next`
     loop = site.code.loops.setdefault(site.place, [0, 0, 0.0, 1.0, 0])
     after, body, cells = _behind(site), site.next, site.values.cells
@@ -100,7 +100,7 @@ def for_loop(site: Site) -> Operation:
         a, b = first(), last()
         s = by() if by is not None else 1.0
         if s == 0.0:
-            raise Fault("step-is-zero", node.by)
+            raise ScriptFault("step-is-zero", node.by)
         count = floor((b - a) / s + ROUNDING) + 1
         if count < 1:
             return after

@@ -10,7 +10,7 @@ from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
 from desire_tui.engine.interpreter.entries import Entries
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.expression_translation import literal
 from desire_tui.engine.nodes import Data, Input, Name, Read, Restore
 from desire_tui.engine.values import Kind, Quantity
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.interpreter.code_table import Operation
-    from desire_tui.engine.interpreter.machine import Machine
+    from desire_tui.engine.interpreter.machine import ScriptMachine
     from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes import Target
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 class DataList:
     """All `data` items of a script, and the next one to be read."""
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: ScriptMachine) -> None:
         self._machine = machine
         self._code = machine.script
         self._places = machine.structure.data
@@ -56,7 +56,7 @@ class DataList:
                 value = literal(node.items[self._item - 1])
                 return value if value is not None else self._evaluate(place, self._item - 1)
             self._list, self._item = self._list + 1, 0
-        raise Fault("out-of-data")
+        raise ScriptFault("out-of-data")
 
     def _evaluate(self, place: int, item: int) -> complex:
         from desire_tui.engine.interpreter.statement_context import Site
@@ -67,7 +67,7 @@ class DataList:
             assert isinstance(site.node, Data)
             try:
                 known = site.value(site.node.items[item])[0]
-            except Fault as fault:
+            except ScriptFault as fault:
                 if fault.placed is None:
                     fault.placed, fault.source = site.placed, self._code.text.source
                 raise
@@ -97,7 +97,7 @@ def restore(site: Site) -> Operation:
     if node.target is not None:
         found = site.machine.structure.place(node.target)
         if found is None:
-            raise Fault("no-such-label", node, name=node.target)
+            raise ScriptFault("no-such-label", node, name=node.target)
         place = found
     return site.then(lambda: data.rewind(place))
 
@@ -122,7 +122,7 @@ def _array_filler(site: Site, target: Name, quantity: Quantity) -> Callable[[Cal
             if kind is Kind.COMPLEX:
                 helpers["set_complex"](slot + 2 * index, complex(value))
             elif value.imag != 0.0:
-                raise Fault("complex-to-real", target, name=target.name)
+                raise ScriptFault("complex-to-real", target, name=target.name)
             else:
                 number = value.real
                 cells[slot + index] = helpers["to_integer"](number) if kind is Kind.INTEGER else number
@@ -137,7 +137,7 @@ def get_input(site: Site) -> Operation:
     node = site.node
     assert isinstance(node, Input)
     if site.code.is_command and node.channel is None:
-        raise Fault("not-a-command", node, word="input")
+        raise ScriptFault("not-a-command", node, word="input")
     fillers = [filler(site, target) for target in node.targets]
     if node.channel is not None:
         number, channels = site.whole(node.channel), site.machine.channels

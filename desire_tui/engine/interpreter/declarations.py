@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.nodes import Declare, Declared
 from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity
 
@@ -40,7 +40,7 @@ def _shape(part: Declared, dimensions: list[Callable[[], float]]) -> tuple[int, 
     for node, evaluate in zip(part.dimensions, dimensions, strict=True):
         size = evaluate()
         if not 1 <= size < 1e18:
-            raise Fault("bad-dimension", node, name=part.name, value=f"{size:g}")
+            raise ScriptFault("bad-dimension", node, name=part.name, value=f"{size:g}")
         shape.append(int(size))
     return tuple(shape)
 
@@ -54,7 +54,7 @@ def _declare_group(site: Site, node: Declare, group: DeclaredGroup, shapes: list
             _declare_one(site, part, part.name, shape, kind, is_state=is_state)
         return
     if kind is Kind.INTEGER or kind is Kind.COMPLEX:
-        raise Fault("overlay-not-real", group, kind=node.kind)
+        raise ScriptFault("overlay-not-real", group, kind=node.kind)
     total = sum(prod(shape) for shape in shapes)
     whole = _declare_one(site, group, group.whole, (total,), kind, is_state=is_state)
     slot = whole.slot
@@ -80,7 +80,7 @@ def _declare_one(
     if not shape:
         return _declare_scalar(site, node, name, kind, is_state=is_state)
     if prod(shape) >= values.capacity:
-        raise Fault("array-too-large", node, name=name, elements=prod(shape), room=values.capacity)
+        raise ScriptFault("array-too-large", node, name=name, elements=prod(shape), room=values.capacity)
     values.names.pop(name, None)
     return values.array(name, shape, kind, is_state=is_state)
 
@@ -90,7 +90,7 @@ def _declare_scalar(site: Site, node: Node, name: str, kind: Kind, *, is_state: 
     known = values.find(name)
     if known is not None and known.kind is not kind:
         if values.is_defined(known):
-            raise Fault("declared-twice", node, name=name, before="a number")
+            raise ScriptFault("declared-twice", node, name=name, before="a number")
         values.names.pop(name)
         known = None
     made = known or values.scalar(name, kind, is_state=is_state)
@@ -104,18 +104,18 @@ def _check_free(site: Site, node: Node, name: str, *, scalar: bool) -> None:
     """Errors 28, 55, 73 for a name that is in use already."""
     scope, values = site.scope, site.values
     if name in SYSTEM_VARIABLES:
-        raise Fault("system-variable-declared", node, name=name)
+        raise ScriptFault("system-variable-declared", node, name=name)
     if name in scope.functions or name in scope.procedures:
         what = "FUNCTION" if name in scope.functions else "PROCEDURE"
-        raise Fault("name-of-something-else", node, name=name, what=f"a {what}")
+        raise ScriptFault("name-of-something-else", node, name=name, what=f"a {what}")
     known = values.find(name)
     if known is None:
         return
     if known.shape:
         size = ",".join(map(str, known.shape))
-        raise Fault("declared-twice", node, name=name, before=f"{name}[{size}]")
+        raise ScriptFault("declared-twice", node, name=name, before=f"{name}[{size}]")
     if not scalar and values.is_defined(known):
-        raise Fault("name-of-something-else", node, name=name, what="a number")
+        raise ScriptFault("name-of-something-else", node, name=name, what="a number")
 
 
 def _define_j(site: Site) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from desire_tui.engine.interpreter import python_ast as py
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.expression_translation import Translator, literal
 from desire_tui.engine.interpreter.name_resolution import Local, Meaning
 from desire_tui.engine.interpreter.user_functions import is_used_as_array
@@ -79,7 +79,7 @@ class Shapes:
         return op == "&" or (op == "*" and (self._true_products or len(left) != 1 or len(right) != 1))
 
 
-class ElementExpressions:
+class ElementwiseExpressions:
     """Makes evaluators of expressions whose elements are worked out one by one."""
 
     def __init__(self, site: Site, shapes: Shapes, arrays: ArrayExpressions) -> None:
@@ -124,7 +124,7 @@ class ElementExpressions:
         translator = Translator(site.scope.inner(dummies), site.machine.build, site.machine.functions)
         code, kind = translator.expression(of_elements)
         if kind is Kind.COMPLEX:
-            raise Fault("complex-not-possible", node)
+            raise ScriptFault("complex-not-possible", node)
         parameters = tuple(f"p{number}" for number in range(len(wholes)))
         body = [py.give(code)]
         function = site.machine.build.function(body, site.placed, site.code.text.source, parameters)
@@ -135,7 +135,7 @@ class ElementExpressions:
             for value in values:
                 if np.ndim(value) and np.shape(value) != shape:
                     sizes = ["×".join(map(str, s)) for s in (np.shape(value), shape)]
-                    raise Fault("nonconformable", node, have=sizes[0], want=sizes[1])
+                    raise ScriptFault("nonconformable", node, have=sizes[0], want=sizes[1])
             return by_elements(function, values, shape, check)
 
         return evaluate

@@ -8,7 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.interpreter.exception_mapping import Fault, explain
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault, explain
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes import Bare, Placed
 from desire_tui.engine.source import Source, Span
@@ -95,7 +95,7 @@ class Entries:
             value: complex = machine.build.evaluate(code, placed, source)
         except Interrupted:
             raise
-        except (Fault, ArithmeticError, ValueError) as error:
+        except (ScriptFault, ArithmeticError, ValueError) as error:
             raise explain(error, placed, source, machine.origins) from error
         finally:
             machine.origins.forget_from(known)

@@ -1,7 +1,7 @@
 """From a Python exception inside generated code to the user's message and the exact place in the source.
 
-Generated code carries the offsets of the nodes it was made from as its column numbers (see `expression_translation`), so
-the traceback itself says which part of a statement failed: that costs nothing while nothing fails.
+Generated code carries the offsets of the nodes it was made from as its column numbers (see
+`expression_translation`), so the traceback itself says which part of a statement failed: that costs nothing while nothing fails.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MARK = "<desire "
 """How the file names of generated code begin; the number behind is an index into `Origins`."""
 
 
-class Fault(Exception):  # noqa: N818 - becomes a DesireError once its place is known
+class ScriptFault(Exception):  # noqa: N818 - becomes a DesireError once its place is known
     """A user's mistake noticed where the place is not known, or known only as a node of some statement."""
 
     def __init__(self, key: str, node: Node | None = None, **facts: object) -> None:
@@ -82,7 +82,7 @@ def explain(
         code, start, end = found
         placed, source = origins.statement(code)
         node = _node_at(placed.node, start, end)
-    if isinstance(error, Fault):
+    if isinstance(error, ScriptFault):
         if error.placed is not None:
             placed, source = error.placed, error.source
         key, facts, node = error.key, error.facts, error.node or node

@@ -1,7 +1,8 @@
 """Expressions and conditions become Python syntax trees that read the values directly.
 
 Names are looked up once, when a statement runs for the first time: a name that has a value keeps it until all
-names are cleared, so generated code need not ask again. The place of each node goes along (see `exception_mapping`).
+names are cleared, so generated code need not ask again. The place of each node goes along
+(see `exception_mapping`).
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.calls import CallTranslator
-from desire_tui.engine.interpreter.exception_mapping import Fault
-from desire_tui.engine.interpreter.name_resolution import Local, Reference, Scope
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
+from desire_tui.engine.interpreter.name_resolution import Local, NameScope, Reference
 from desire_tui.engine.interpreter.python_ast import Typed, at
 from desire_tui.engine.interpreter.subscripts import element_slot
 from desire_tui.engine.left_chains import LONG, PIECE, chain, is_long
@@ -31,8 +32,8 @@ from desire_tui.engine.nodes import (
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
-    from desire_tui.engine.interpreter.compile_python import Builder
-    from desire_tui.engine.interpreter.user_functions import Functions
+    from desire_tui.engine.interpreter.compile_python import PythonCompiler
+    from desire_tui.engine.interpreter.user_functions import UserFunctions
     from desire_tui.engine.nodes import Condition, Expr, Node
 
 _ARITHMETIC: dict[str, ast.operator] = {"+": py.ADD, "-": py.SUBTRACT, "*": py.MULTIPLY, "/": py.DIVIDE}
@@ -45,7 +46,7 @@ _WHOLE_POWER_LIMIT = 1 << 31
 class Translator:
     """Translates within one scope."""
 
-    def __init__(self, scope: Scope, build: Builder, functions: Functions) -> None:
+    def __init__(self, scope: NameScope, build: PythonCompiler, functions: UserFunctions) -> None:
         self.scope = scope
         self.build = build
         self.calls = CallTranslator(self, build, functions)
@@ -54,7 +55,7 @@ class Translator:
         """Translate an expression that must be real; error 84 for a COMPLEX one."""
         code, kind = self.finite(node)
         if kind is Kind.COMPLEX:
-            raise Fault("complex-not-possible", node)
+            raise ScriptFault("complex-not-possible", node)
         return code
 
     def finite(self, node: Expr) -> Typed:
@@ -98,7 +99,7 @@ class Translator:
                 return Typed(at(py.call("complex", self.real(re), self.real(im)), node), Kind.COMPLEX)
             case Call():
                 return self.calls.call(node)
-        raise Fault("not-in-scalar-expression", node)
+        raise ScriptFault("not-in-scalar-expression", node)
 
     def condition(self, node: Condition) -> ast.expr:
         """Translate a condition; `and` and `or` stop as soon as the answer is known."""
@@ -106,7 +107,7 @@ class Translator:
             case Relation(op, left, right):
                 (a, kind_a), (b, kind_b) = self.finite(left), self.finite(right)
                 if Kind.COMPLEX in {kind_a, kind_b} and op not in {"=", "<>"}:
-                    raise Fault("complex-not-ordered", node, operator=op)
+                    raise ScriptFault("complex-not-ordered", node, operator=op)
                 return at(py.compare(a, [_RELATIONS[op]], [b]), node)
             case Logical(op, first, second):
                 joint: ast.boolop = ast.And() if op == "and" else ast.Or()
@@ -153,7 +154,7 @@ class Translator:
         for step in steps:
             deep = is_long(step.right)
             if step.op == "&":
-                raise Fault("matrix-operator", step, operator="&")
+                raise ScriptFault("matrix-operator", step, operator="&")
             if levels >= PIECE or (deep and levels):
                 name = self.build.fresh("v")
                 pieces.append(py.named(name, result.code))
@@ -185,7 +186,7 @@ class Translator:
             result = kind if exponent > 0 else Kind.COMPLEX if kind is Kind.COMPLEX else Kind.REAL
             return Typed(at(py.call("integer_power", base, py.number(exponent)), node), result)
         if kind is Kind.COMPLEX:
-            raise Fault("complex-power", node)
+            raise ScriptFault("complex-power", node)
         return Typed(at(py.call("power", base, self.real(node.right)), node), Kind.REAL)
 
 
@@ -207,7 +208,7 @@ def literal(node: Expr) -> float | None:
     return None
 
 
-def scalar_quantity(scope: Scope, node: Expr) -> Quantity | None:
+def scalar_quantity(scope: NameScope, node: Expr) -> Quantity | None:
     """Return the real scalar that an expression consists of, None for anything else."""
     if not isinstance(node, Name):
         return None

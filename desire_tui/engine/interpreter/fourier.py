@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.interruptible import patiently
 from desire_tui.engine.nodes import Fft
 
@@ -33,24 +33,24 @@ def fft(site: Site) -> Operation:
     quantities = [site.array(arg) for arg in node.args[1:]]
     for argument, quantity in zip(node.args[1:], quantities, strict=True):
         if len(quantity.shape) != 1:
-            raise Fault("fft-array", argument, name=quantity.name)
+            raise ScriptFault("fft-array", argument, name=quantity.name)
     views = [site.numbers(q) for q in quantities]
 
     def action() -> None:
         n = count()
         if n < 2:
-            raise Fault("fft-length", node.args[0], n=n)
+            raise ScriptFault("fft-length", node.args[0], n=n)
         for argument, quantity in zip(node.args[1:], quantities, strict=True):
             if quantity.size < n:
-                raise Fault("fft-array-short", argument, name=quantity.name, size=quantity.size, n=n)
+                raise ScriptFault("fft-array-short", argument, name=quantity.name, size=quantity.size, n=n)
         for first, second in combinations(quantities, 2):
             if abs(first.slot - second.slot) < n:
-                raise Fault("fft-arrays-overlap", node, name=first.name, other=second.name)
+                raise ScriptFault("fft-arrays-overlap", node, name=first.name, other=second.name)
         site.needs_room(_ROOM_PER_ELEMENT * n, node.args[0])
         parts = [view[:n].copy() for view in views]
         patiently(WORK_PER_ELEMENT * n, lambda: _transform(node.kind, parts), site.machine.check)
         if not all(np.isfinite(part).all() for part in parts):
-            raise Fault("overflow", node)
+            raise ScriptFault("overflow", node)
         for view, part in zip(views, parts, strict=True):
             view[:n] = part
 

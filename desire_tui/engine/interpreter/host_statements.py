@@ -6,7 +6,7 @@ import time as clock
 from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.interpreter.code_table import Finished
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.library import seeded
 from desire_tui.engine.nodes import (
     Connect,
@@ -58,7 +58,7 @@ def clear(site: Site) -> Operation:
     def action() -> None:
         machine = site.machine
         if machine.returns:
-            raise Fault("clear-in-procedure", site.node)
+            raise ScriptFault("clear-in-procedure", site.node)
         site.values.clear()
         machine.refresh()
 
@@ -76,7 +76,7 @@ def irule(site: Site) -> Operation:
     def action() -> None:
         number = rule()
         if number not in RULES:
-            raise Fault("no-such-rule", argument, rule=number)
+            raise ScriptFault("no-such-rule", argument, rule=number)
         host.rule = number
 
     return site.then(action)
@@ -99,7 +99,7 @@ def display(site: Site) -> Operation:
     node, host = site.node, site.host
     assert isinstance(node, Display)
     if site.code.is_command and node.mode == "2":
-        raise Fault("not-a-command", node, word="display 2")
+        raise ScriptFault("not-a-command", node, word="display 2")
     args = [site.real(arg) for arg in node.args]
     return site.then(lambda: host.display(node.mode, [arg() for arg in args]))
 
@@ -113,7 +113,7 @@ def plot(site: Site) -> Operation:
     rest = [site.real(arg) for arg in node.args[1:]]
     colors = rest if is_complex else rest[1:]
     if len(colors) > 1 or not (rest or is_complex):
-        raise Fault("plot-arguments", node)
+        raise ScriptFault("plot-arguments", node)
 
     def action() -> None:
         z = first()
@@ -135,7 +135,7 @@ def show(site: Site) -> Operation:
     def action() -> None:
         count = given() if given is not None else usual
         if not 1 <= count <= quantity.size:
-            raise Fault("script-show-columns", node, columns=count, size=quantity.size)
+            raise ScriptFault("script-show-columns", node, columns=count, size=quantity.size)
         site.host.show(quantity, count)
 
     return site.then(action)
@@ -146,7 +146,7 @@ def connect(site: Site) -> Operation:
     node = site.node
     assert isinstance(node, Connect)
     if not isinstance(node.file, Text):
-        raise Fault("file-name-missing", node.file)
+        raise ScriptFault("file-name-missing", node.file)
     name, number, channels = node.file.value, site.whole(node.channel), site.machine.channels
     return site.then(lambda: channels.connect(name, node.mode, number()))
 
@@ -189,7 +189,7 @@ def host_command(site: Site) -> Operation:
     assert isinstance(node, FileCommand | Simple)
     argument = node.argument if isinstance(node, FileCommand) else None
     if not site.code.is_command and node.word not in _IN_SCRIPTS:
-        raise Fault("command-only", node, word=node.word)
+        raise ScriptFault("command-only", node, word=node.word)
     if node.word == "sh":
         return site.then(lambda: host.shell(argument or ""))
     if node.word == "bye" and not site.code.is_command:
@@ -206,5 +206,5 @@ def _leave(host: Host) -> NoReturn:
 def go(site: Site) -> Operation:
     """`go` as a command."""
     if not site.code.is_command:
-        raise Fault("command-only", site.node, word="go")
+        raise ScriptFault("command-only", site.node, word="go")
     return site.then(site.machine.resume)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.channels import Channels
-from desire_tui.engine.interpreter.code_table import Statements
+from desire_tui.engine.interpreter.code_table import StatementList
 from desire_tui.engine.interpreter.data_and_input import DataList
-from desire_tui.engine.interpreter.machine import Machine
+from desire_tui.engine.interpreter.machine import ScriptMachine
 from desire_tui.engine.interpreter.statements import make
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import Structure, script_structure
@@ -33,7 +33,7 @@ class Interpreter:
     def __init__(self, program: Program, structure: Structure, values: Values, host: Host) -> None:
         self.program = program
         self.structure = structure
-        self._machine = Machine(values, host, program, structure, make)
+        self._machine = ScriptMachine(values, host, program, structure, make)
         self.channels = self._machine.channels = Channels(host)
         self._machine.data = DataList(self._machine)
 
@@ -99,7 +99,7 @@ class Interpreter:
             raise DesireError(*problems)
         self._machine.define(structure.functions, source)
         machine = self._machine
-        text = Statements(statements, structure, source)
+        text = StatementList(statements, structure, source)
         code = machine.link(text, machine.scope, 0, len(statements), is_command=True)
         stopped = machine.stopped
         try:

@@ -12,14 +12,14 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.interpreter.code_table import Code, Codes, Finished, Operation, Statements
-from desire_tui.engine.interpreter.compile_python import Builder
-from desire_tui.engine.interpreter.exception_mapping import Fault, Origins, explain
+from desire_tui.engine.interpreter.code_table import Codes, Finished, Operation, ScriptCode, StatementList
+from desire_tui.engine.interpreter.compile_python import PythonCompiler
+from desire_tui.engine.interpreter.exception_mapping import Origins, ScriptFault, explain
 from desire_tui.engine.interpreter.expression_translation import Translator
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.interpreter.name_resolution import Scope
+from desire_tui.engine.interpreter.name_resolution import NameScope
 from desire_tui.engine.interpreter.run_count import runs_ahead
-from desire_tui.engine.interpreter.user_functions import Functions
+from desire_tui.engine.interpreter.user_functions import UserFunctions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -52,7 +52,7 @@ class Stop:
     returns: list[tuple[int, str]]
 
 
-class Machine:
+class ScriptMachine:
     """Runs code over values; `make` turns the statement at a place into an operation."""
 
     channels: Channels
@@ -64,20 +64,20 @@ class Machine:
         host: Host,
         program: Program,
         structure: Structure,
-        make: Callable[[Machine, Code, int], Operation],
+        make: Callable[[ScriptMachine, ScriptCode, int], Operation],
     ) -> None:
         self.values = values
         self.host = host
         self.structure = structure
         self.origins = Origins()
-        self.build = Builder(values, self.origins)
+        self.build = PythonCompiler(values, self.origins)
         self.build.names["check"] = self.check
         functions = dict(structure.functions)  # commands may add to it
-        self.scope = Scope(values, functions, structure.procedures)
-        self.functions = Functions(functions, self.scope, self.build, program.source)
+        self.scope = NameScope(values, functions, structure.procedures)
+        self.functions = UserFunctions(functions, self.scope, self.build, program.source)
         self.codes = Codes(partial(make, self), self._halt)
-        self.procedures: dict[tuple[object, ...], Code] = {}
-        text = Statements(program.script, structure, program.source)
+        self.procedures: dict[tuple[object, ...], ScriptCode] = {}
+        text = StatementList(program.script, structure, program.source)
         self.script = self.link(text, self.scope, 0, len(program.script))
         self.returns: list[tuple[int, str]] = []
         self.stopped: Stop | None = None
@@ -85,7 +85,7 @@ class Machine:
         self._passing: int | None = None
         """The halt from which the script goes on: it does not halt there a second time."""
         self.stepping = False
-        self.run_at: tuple[Code, int] | None = None
+        self.run_at: tuple[ScriptCode, int] | None = None
         """Where the `drun` stands that is carried out, or was the last."""
         self._generation = values.generation
 
@@ -93,13 +93,13 @@ class Machine:
 
     def link(
         self,
-        text: Statements,
-        scope: Scope,
+        text: StatementList,
+        scope: NameScope,
         first: int,
         last: int,
         *,
         is_command: bool = False,
-    ) -> Code:
+    ) -> ScriptCode:
         """Add statements `first` … `last - 1` of a text to the operations."""
         translator = Translator(scope, self.build, self.functions)
         return self.codes.link(text, scope, translator, first, last, is_command=is_command)
@@ -186,7 +186,7 @@ class Machine:
         """Note a PROCEDURE that is entered; error 52 if it is being executed already."""
         for _, active in self.returns:
             if active == name:
-                raise Fault("procedure-recursion", None, name=name)
+                raise ScriptFault("procedure-recursion", None, name=name)
         self.returns.append((back, name))
 
     def leave(self) -> int:

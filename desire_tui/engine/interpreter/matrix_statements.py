@@ -8,7 +8,7 @@ import numpy as np
 
 from desire_tui.engine.interpreter.array_expressions import ArrayExpressions, conform
 from desire_tui.engine.interpreter.assignment import storer
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.left_chains import chain
 from desire_tui.engine.nodes import (
     Dot,
@@ -40,7 +40,7 @@ def matrix(site: Site) -> Operation:
     assert isinstance(node, MatrixAssign)
     target = site.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 2:
-        raise Fault("not-a-matrix", Name(node.name, node.start, node.end), name=node.name)
+        raise ScriptFault("not-a-matrix", Name(node.name, node.start, node.end), name=node.name)
     rows, columns = target.shape
     expressions = ArrayExpressions(site, true_products=True)
     value = expressions.assigned(node.value, target.shape)
@@ -56,7 +56,7 @@ def matrix(site: Site) -> Operation:
         if identity:
             result = np.eye(rows, columns)
         if np.ndim(result) == 0 and not identity and not node.delta and result != 0.0:
-            raise Fault("matrix-from-number", node.value, name=node.name)
+            raise ScriptFault("matrix-from-number", node.value, name=node.name)
         result = conform(result, target.shape, node, node.name)
         result = view + result if node.delta else result
         if bounds != [None, None]:
@@ -76,7 +76,7 @@ def vector(site: Site) -> Operation:
     assert isinstance(node, VectorAssign)
     target = site.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 1:
-        raise Fault("not-a-vector", Name(node.name, node.start, node.end), name=node.name)
+        raise ScriptFault("not-a-vector", Name(node.name, node.start, node.end), name=node.name)
     value = ArrayExpressions(site, true_products=False).assigned(node.value, target.shape)
     mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
     view = site.numbers(target)
@@ -149,7 +149,7 @@ class _DotTerm:
     def __init__(self, site: Site, sign: float, node: Expr) -> None:
         factors = _factors(node)
         if not 2 <= len(factors) <= 3:
-            raise Fault("script-dot-term", node)
+            raise ScriptFault("script-dot-term", node)
         while isinstance(first := factors[0], Unary):  # `-u*v`
             sign, factors[0] = sign if first.op == "+" else -sign, first.operand
         self._sign = sign
@@ -164,19 +164,19 @@ class _DotTerm:
         right = self.length if self._right is None else len(self._right)
         if shape != (self.length, right):
             have = str(self.length) if self._matrix is None else f"{self.length}, {shape[0]}×{shape[1]}"
-            raise Fault("nonconformable", node, have=have, want=right)
+            raise ScriptFault("nonconformable", node, have=have, want=right)
 
     def _vector(self, site: Site, node: Expr) -> Quantity:
         quantity = site.array(node)
         if len(quantity.shape) != 1:
-            raise Fault("not-a-vector", node, name=quantity.name)
+            raise ScriptFault("not-a-vector", node, name=quantity.name)
         return quantity
 
     def _find_matrix(self, site: Site, node: Expr) -> Array:
         name = Name(node.name, node.start, node.end) if isinstance(node, Transposed) else node
         quantity = site.array(name)
         if len(quantity.shape) != 2:
-            raise Fault("not-a-matrix", node, name=quantity.name)
+            raise ScriptFault("not-a-matrix", node, name=quantity.name)
         view = site.numbers(quantity)
         return view.T if isinstance(node, Transposed) else view
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.values import PI, Kind, Quantity
 
@@ -41,7 +41,7 @@ Meaning = Quantity | Reference | Local
 
 
 @dataclass(slots=True, eq=False)
-class Scope:
+class NameScope:
     """Names in force: dummies first, then the program's quantities.
 
     `functions` and `procedures` are the program's; a quantity may not have such a name (error 73).
@@ -52,9 +52,9 @@ class Scope:
     procedures: Mapping[str, object]
     dummies: dict[str, Meaning] = field(default_factory=dict)
 
-    def inner(self, dummies: dict[str, Meaning]) -> Scope:
+    def inner(self, dummies: dict[str, Meaning]) -> NameScope:
         """Return the scope of a body with these dummies."""
-        return Scope(self.values, self.functions, self.procedures, dummies)
+        return NameScope(self.values, self.functions, self.procedures, dummies)
 
     def find(self, name: str) -> Meaning | None:
         """Return what `name` stands for, None if nothing with a value."""
@@ -78,10 +78,10 @@ class Scope:
             return meaning
         if node.name in self.functions or node.name in self.procedures:
             what = "FUNCTION" if node.name in self.functions else "PROCEDURE"
-            raise Fault("name-of-something-else", node, name=node.name, what=f"a {what}")
+            raise ScriptFault("name-of-something-else", node, name=node.name, what=f"a {what}")
         quantity = self.values.scalar(node.name)
         if quantity.slot == PI:
-            raise Fault("constant-assigned", node, name=node.name)
+            raise ScriptFault("constant-assigned", node, name=node.name)
         return quantity
 
     def array(self, node: Name | Element) -> Quantity:
@@ -90,17 +90,17 @@ class Scope:
         if isinstance(meaning, Quantity) and meaning.shape:
             return meaning
         arrays = [q.name for q in self.values if q.shape]
-        raise Fault("not-an-array", node, name=node.name, close=closest(node.name, arrays))
+        raise ScriptFault("not-an-array", node, name=node.name, close=closest(node.name, arrays))
 
-    def whole_array(self, node: Name, quantity: Quantity) -> Fault:
+    def whole_array(self, node: Name, quantity: Quantity) -> ScriptFault:
         """Return error 53: an array's name stands where one number is needed."""
         example = f"{node.name}[{','.join('1' * len(quantity.shape))}]"
-        return Fault("array-without-subscripts", node, name=node.name, example=example)
+        return ScriptFault("array-without-subscripts", node, name=node.name, example=example)
 
-    def undefined(self, node: Name | Element) -> Fault:
+    def undefined(self, node: Name | Element) -> ScriptFault:
         """Return error 200 with the nearest name that has a value."""
         known = [q.name for q in self.values if self.values.is_defined(q)]
         known += [*self.dummies, *self.functions]
         if node.name in LIBRARY or node.name in self.functions:
-            return Fault("function-without-arguments", node, name=node.name)
-        return Fault("undefined-variable", node, name=node.name, close=closest(node.name, known))
+            return ScriptFault("function-without-arguments", node, name=node.name)
+        return ScriptFault("undefined-variable", node, name=node.name, close=closest(node.name, known))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.name_resolution import Meaning, Reference
 from desire_tui.engine.nodes import CallProcedure, Element, Name
 from desire_tui.engine.values import SCALAR_SLOTS, Kind, Quantity
@@ -17,7 +17,7 @@ from desire_tui.engine.values import SCALAR_SLOTS, Kind, Quantity
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.code_table import Code, Operation
+    from desire_tui.engine.interpreter.code_table import Operation, ScriptCode
     from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes import Expr
     from desire_tui.engine.structure.structure import ProcedureText
@@ -32,7 +32,7 @@ def call(site: Site) -> Operation:
     procedures = site.machine.structure.procedures
     found = procedures.get(node.name)
     if found is None:
-        raise Fault("undefined-procedure", node, name=node.name, close=closest(node.name, procedures))
+        raise ScriptFault("undefined-procedure", node, name=node.name, close=closest(node.name, procedures))
     wanted = found.node
     for given, needed, where in (
         (node.values, wanted.values, " before the ;"),
@@ -40,7 +40,7 @@ def call(site: Site) -> Operation:
     ):
         if len(given) != len(needed):
             facts = {"given": len(given), "needed": len(needed), "where": where}
-            raise Fault("arguments-do-not-match", node, name=node.name, **facts)
+            raise ScriptFault("arguments-do-not-match", node, name=node.name, **facts)
     values = [site.value(value) for value in node.values]
     references = [_Bound(site, reference) for reference in node.references]
     code = _body(site, found, [kind for _, kind in values], references)
@@ -86,7 +86,7 @@ class _Bound:
         elif isinstance(node, Name):
             self._name(site, node)
         else:
-            raise Fault("reference-expected", node)
+            raise ScriptFault("reference-expected", node)
 
     def _name(self, site: Site, node: Name) -> None:
         meaning = site.scope.assigned(node)
@@ -120,7 +120,7 @@ def _fill_scalar(slot: int, defined: bytearray) -> Callable[[Box], None]:
     return fill
 
 
-def _body(site: Site, found: ProcedureText, kinds: list[Kind], references: list[_Bound]) -> Code:
+def _body(site: Site, found: ProcedureText, kinds: list[Kind], references: list[_Bound]) -> ScriptCode:
     """Return the body's code for these kinds of arguments."""
     machine = site.machine
     wanted = found.node

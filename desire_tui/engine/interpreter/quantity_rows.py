@@ -15,7 +15,7 @@ _SHOWN_ELEMENTS = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class QuantityRow:
     """One quantity: its name, with dimensions, its kind in words, its value (an array's first elements)."""
 
     name: str
@@ -25,10 +25,12 @@ class Row:
     quantity: Quantity
 
 
-def names(values: Values) -> list[Row]:
+def names(values: Values) -> list[QuantityRow]:
     """Return all quantities with a value in the order they were made; large arrays cost no more."""
     return [
-        Row(q.name, title(q), kind_word(q), value_text(values, q), q) for q in values if values.is_defined(q)
+        QuantityRow(q.name, title(q), kind_word(q), value_text(values, q), q)
+        for q in values
+        if values.is_defined(q)
     ]
 
 

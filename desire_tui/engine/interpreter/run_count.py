@@ -26,7 +26,7 @@ from desire_tui.engine.nodes import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.interpreter.code_table import Code, Statements
+    from desire_tui.engine.interpreter.code_table import ScriptCode, StatementList
     from desire_tui.engine.nodes import Expr
 
 ROUNDING = 1e-9
@@ -41,7 +41,7 @@ class _Unknown(Exception):  # noqa: N818 - control flow
     """The number of runs is known to nobody."""
 
 
-def runs_ahead(frames: Sequence[tuple[Code, int]]) -> int | None:
+def runs_ahead(frames: Sequence[tuple[ScriptCode, int]]) -> int | None:
     """Return how many runs come after the one being made; None: that cannot be told.
 
     `frames` names the place of the `drun`, then those of the `call`s that led to it, the innermost first.
@@ -66,7 +66,7 @@ class _Count(NamedTuple):
 class _Survey:
     """Counts the runs in parts of one text."""
 
-    def __init__(self, text: Statements) -> None:
+    def __init__(self, text: StatementList) -> None:
         self.placed, self.structure = text.placed, text.structure
         self._called: set[str] = set()
 
@@ -75,7 +75,7 @@ class _Survey:
         """Whether a `go to` may lead anywhere."""
         return any(isinstance(placed.node, GoTo) for placed in self.placed)
 
-    def around(self, code: Code, place: int, count: _Count) -> _Count:
+    def around(self, code: ScriptCode, place: int, count: _Count) -> _Count:
         """Return the count of the whole text, whose statement at `place`, just carried out, has `count`."""
         if self.jumps:
             raise _Unknown

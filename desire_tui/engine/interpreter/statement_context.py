@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.expression_translation import literal, scalar_quantity
 from desire_tui.engine.interpreter.name_resolution import Reference
 from desire_tui.engine.interpreter.python_ast import at
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from desire_tui.engine.interpreter.code_table import Code, Operation
-    from desire_tui.engine.interpreter.machine import Machine
+    from desire_tui.engine.interpreter.code_table import Operation, ScriptCode
+    from desire_tui.engine.interpreter.machine import ScriptMachine
     from desire_tui.engine.nodes import Expr, Node, Placed, Statement, Target
     from desire_tui.engine.values import Quantity
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 class Site:
     """One statement of some code."""
 
-    def __init__(self, machine: Machine, code: Code, place: int) -> None:
+    def __init__(self, machine: ScriptMachine, code: ScriptCode, place: int) -> None:
         self.machine = machine
         self.code = code
         self.place = place
@@ -91,7 +91,7 @@ class Site:
         def evaluate() -> int:
             number = value()
             if not abs(number) < WHOLE_LIMIT:
-                raise Fault("integer-overflow", node, value=f"{number:g}")
+                raise ScriptFault("integer-overflow", node, value=f"{number:g}")
             return int(number)
 
         return evaluate
@@ -131,7 +131,7 @@ class Site:
     def needs_room(self, numbers: int, part: Node) -> None:
         """Refuse a statement that would fill the machine's memory for a moment (error 40)."""
         if numbers > self.values.spare:
-            raise Fault("out-of-memory", part, elements=numbers)
+            raise ScriptFault("out-of-memory", part, elements=numbers)
 
     def numbers(self, quantity: Quantity) -> NDArray[np.float64]:
         """Return a real array's numbers in its shape, sharing memory."""
@@ -141,8 +141,8 @@ class Site:
     def array(self, node: Expr, *, real: bool = True) -> Quantity:
         """Return the array that an argument names; errors 19 and 84."""
         if not isinstance(node, Name):
-            raise Fault("array-name-expected", node)
+            raise ScriptFault("array-name-expected", node)
         quantity = self.scope.array(node)
         if real and quantity.kind is Kind.COMPLEX:
-            raise Fault("complex-not-possible", node)
+            raise ScriptFault("complex-not-possible", node)
         return quantity

@@ -16,15 +16,15 @@ from desire_tui.engine.interpreter import (
 )
 from desire_tui.engine.interpreter.assignment import assign
 from desire_tui.engine.interpreter.declarations import declare
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.fourier import fft
 from desire_tui.engine.interpreter.statement_context import Site
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.code_table import Code, Operation
-    from desire_tui.engine.interpreter.machine import Machine
+    from desire_tui.engine.interpreter.code_table import Operation, ScriptCode
+    from desire_tui.engine.interpreter.machine import ScriptMachine
 
     Maker = Callable[[Site], Operation]
 
@@ -96,27 +96,27 @@ _SCRIPT_ONLY = (n.Label, n.GoTo, n.Procedure, n.Submodel, n.Data)
 _SCRIPT_ONLY_WORDS = {"STOP", "end"}
 
 
-def make(machine: Machine, code: Code, place: int) -> Operation:
+def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
     """Make the operation of a statement."""
     site = Site(machine, code, place)
     node = site.node
     if isinstance(node, n.Simple):
         return _make_word(site, node)
     if code.is_command and isinstance(node, _SCRIPT_ONLY):
-        raise Fault("not-a-command", node, word=_first_word(node))
+        raise ScriptFault("not-a-command", node, word=_first_word(node))
     if isinstance(node, n.Bare):
         return _bare(site, node)
     maker = _MAKERS.get(type(node))
     if maker is None:
-        raise Fault("not-in-script", node)
+        raise ScriptFault("not-in-script", node)
     return maker(site)
 
 
 def _make_word(site: Site, node: n.Simple) -> Operation:
     if node.word in _SEGMENT_WORDS:
-        raise Fault("not-in-script", node)
+        raise ScriptFault("not-in-script", node)
     if site.code.is_command and node.word in _SCRIPT_ONLY_WORDS:
-        raise Fault("not-a-command", node, word=node.word)
+        raise ScriptFault("not-a-command", node, word=node.word)
     return _WORDS.get(node.word, host_statements.host_command)(site)
 
 
@@ -131,7 +131,7 @@ def _bare(site: Site, node: n.Bare) -> Operation:
     """Print an expression that stands alone as a command."""
     try:
         line = writing.line_of(site, (n.WriteItem(node.value, "", "", node.start, node.end),))
-    except Fault as fault:
+    except ScriptFault as fault:
         if fault.key == "undefined-variable" and isinstance(node.value, n.Name):
             fault.facts["close"] = fault.facts["close"] or closest(node.value.name, _COMMANDS)
         raise

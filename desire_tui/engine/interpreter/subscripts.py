@@ -6,7 +6,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter import python_ast as py
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.python_ast import at
 from desire_tui.engine.nodes import Number
 from desire_tui.engine.values import Kind
@@ -23,7 +23,7 @@ def element_slot(translator: Translator, node: Element, quantity: Quantity) -> a
     """Return code for an element's slot: a constant where all subscripts are number literals."""
     if len(node.subscripts) != len(quantity.shape):
         facts = {"name": node.name, "given": len(node.subscripts), "needed": len(quantity.shape)}
-        raise Fault("script-subscript-count", node, **facts)
+        raise ScriptFault("script-subscript-count", node, **facts)
     width = 2 if quantity.kind is Kind.COMPLEX else 1
     constant = quantity.slot
     moving: ast.expr | None = None
@@ -44,7 +44,9 @@ def element_slot(translator: Translator, node: Element, quantity: Quantity) -> a
 
 def _checked(node: Number, size: int, place: int) -> int:
     if not 1 <= node.value <= size:
-        raise Fault("script-subscript-out-of-range", node, value=f"{node.value:g}", size=size, place=place)
+        raise ScriptFault(
+            "script-subscript-out-of-range", node, value=f"{node.value:g}", size=size, place=place
+        )
     return int(node.value)
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter import python_ast as py
-from desire_tui.engine.interpreter.exception_mapping import Fault
-from desire_tui.engine.interpreter.name_resolution import Local, Meaning, Scope
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
+from desire_tui.engine.interpreter.name_resolution import Local, Meaning, NameScope
 from desire_tui.engine.interpreter.python_ast import Typed, at
 from desire_tui.engine.left_chains import chain
 from desire_tui.engine.nodes import Binary, Call, Element, Function, Name, Pair, Unary
@@ -20,17 +20,17 @@ if TYPE_CHECKING:
     import ast
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.compile_python import Builder
+    from desire_tui.engine.interpreter.compile_python import PythonCompiler
     from desire_tui.engine.interpreter.expression_translation import Translator
     from desire_tui.engine.nodes import Expr, Placed
     from desire_tui.engine.source import Source
 
 
-class Functions:
+class UserFunctions:
     """The program's FUNCTIONs."""
 
     def __init__(
-        self, definitions: dict[str, Placed], scope: Scope, build: Builder, source: Source | None
+        self, definitions: dict[str, Placed], scope: NameScope, build: PythonCompiler, source: Source | None
     ) -> None:
         self.definitions = definitions
         self._sources: dict[str, Source | None] = dict.fromkeys(definitions, source)
@@ -65,7 +65,7 @@ class Functions:
         name, kind = self._function(definition, placed, meanings)
         return Typed(at(py.call(name, *args), node), kind)
 
-    def of_elements(self, node: Call, scope: Scope) -> tuple[Callable[..., float], list[bool]]:
+    def of_elements(self, node: Call, scope: NameScope) -> tuple[Callable[..., float], list[bool]]:
         """Return a FUNCTION of real numbers, for calls element by element, and which arguments it wants.
 
         Where its body uses a dummy as an array, that array belongs to the function and is no argument.
@@ -78,7 +78,7 @@ class Functions:
             meanings.append(whole if whole is not None else Local(f"p{number}", Kind.REAL))
         name, kind = self._function(definition, placed, meanings)
         if kind is Kind.COMPLEX:
-            raise Fault("complex-not-possible", node)
+            raise ScriptFault("complex-not-possible", node)
         made: Callable[..., float] = self._build.names[name]
         return made, [isinstance(meaning, Local) for meaning in meanings]
 
@@ -88,9 +88,9 @@ class Functions:
         assert isinstance(definition, Function)
         if len(node.args) != len(definition.dummies):
             facts = {"given": len(node.args), "needed": len(definition.dummies), "where": ""}
-            raise Fault("arguments-do-not-match", node, name=node.name, **facts)
+            raise ScriptFault("arguments-do-not-match", node, name=node.name, **facts)
         if node.name in self._open:
-            raise Fault("script-function-recursion", node, name=node.name)
+            raise ScriptFault("script-function-recursion", node, name=node.name)
         return definition, placed
 
     def _function(self, definition: Function, placed: Placed, meanings: list[Meaning]) -> tuple[str, Kind]:
@@ -105,7 +105,7 @@ class Functions:
         self._open.append(definition.name)
         try:
             code, kind = Translator(scope, self._build, self).expression(definition.body)
-        except Fault as fault:
+        except ScriptFault as fault:
             if fault.placed is None:
                 fault.placed, fault.source = placed, source
             raise
@@ -156,7 +156,7 @@ def is_used_as_array(dummy: str, body: Expr) -> bool:
     return False
 
 
-def _whole_array(node: Expr, scope: Scope) -> Quantity | None:
+def _whole_array(node: Expr, scope: NameScope) -> Quantity | None:
     if not isinstance(node, Name):
         return None
     meaning = scope.find(node.name)

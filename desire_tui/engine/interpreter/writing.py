@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter.exception_mapping import Fault
+from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.number_text import (
     array_text,
     hexadecimal,
@@ -114,7 +114,7 @@ def _coded(site: Site, item: WriteItem) -> Piece:
         def character() -> Iterator[str]:
             code = number()
             if not 0 <= code < 0x110000 or 0xD800 <= code < 0xE000:
-                raise Fault("character-code", node, value=code)
+                raise ScriptFault("character-code", node, value=code)
             yield chr(code)
 
         return character

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered.expressions import Load, MatVec, Op, Outer, RowOf, Shifted, Table1, Table2, Vec
+from desire_tui.engine.lowered.expressions import (
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    PatternRow,
+    ShiftedVec,
+    Table1,
+    Table2,
+    Vec,
+)
 from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
     DerivVec,
-    Get,
+    GetHistory,
     Guard,
-    Learn,
+    LearningStep,
     Set,
     SetDot,
     SetMat,
     SetVec,
-    Store,
+    StoreHistory,
     Terminate,
-    TrackHold,
+    UpdateTrackHold,
 )
 from desire_tui.engine.values import IROW
 
@@ -31,7 +41,7 @@ if TYPE_CHECKING:
 Piece = tuple[int, int]
 """A stretch of memory: its first slot, its length."""
 
-OVER_ELEMENTS = (Vec, Shifted, MatVec, RowOf, Outer)
+OVER_ELEMENTS = (Vec, ShiftedVec, MatVec, PatternRow, Outer)
 """Operands that have one number for each element."""
 
 DRAWS = {"ran": 1, "gauss": 2}
@@ -76,12 +86,12 @@ def memory(node: Value) -> tuple[Piece, ...]:
     match node:
         case Load():
             return ((node.slot, 1),)
-        case Vec() | Shifted():
+        case Vec() | ShiftedVec():
             return ((node.slot, node.count),)
         case MatVec():
             inner = node.rows if node.transposed else node.cols
             return ((node.slot, node.rows * node.cols), (node.x_slot, inner))
-        case RowOf():
+        case PatternRow():
             return ((node.slot, node.rows * node.cols), (IROW, 1))
         case Outer():
             return ((node.u_slot, node.u_count), (node.v_slot, node.v_count))
@@ -107,9 +117,9 @@ def expressions(action: Action) -> tuple[Value, ...]:
             every = tuple(side for term in action.terms for side in (term.left, term.right))
         case DelayLine():
             every = (action.source,)
-        case TrackHold():
+        case UpdateTrackHold():
             every = (action.control, action.value)
-        case Learn():
+        case LearningStep():
             every = (action.rate, action.criterion)
         case Guard():
             every = (action.condition,)
@@ -126,16 +136,16 @@ def reads(action: Action) -> Iterator[Piece]:
                 yield action.mask_slot, _size(action)
             if action.mode == "add" or (action.mask_slot is not None and isinstance(action, SetMat)):
                 yield action.slot, _size(action)
-        case Store():
+        case StoreHistory():
             yield action.slot, 1
-        case Get():
+        case GetHistory():
             yield action.array_slot, action.count
         case DelayLine():
             yield action.buffer_slot, action.count
-        case TrackHold():
+        case UpdateTrackHold():
             yield action.held_slot, 1
             yield action.tracked_slot, 1
-        case Learn():
+        case LearningStep():
             yield action.weights_slot, action.out_count * action.in_count
             yield action.in_slot, action.in_count
             yield action.out_slot, action.out_count
@@ -146,17 +156,17 @@ def reads(action: Action) -> Iterator[Piece]:
 def writes(action: Action) -> tuple[Piece, ...]:
     """Return the memory that a statement assigns; derivatives and what a guard holds left out."""
     match action:
-        case Set() | SetDot() | Get():
+        case Set() | SetDot() | GetHistory():
             return ((action.slot, 1),)
         case SetVec() | SetMat():
             return ((action.slot, _size(action)),)
-        case Store():
+        case StoreHistory():
             return ((action.array_slot, action.count),)
         case DelayLine():
             return ((action.slot, 1), (action.buffer_slot, action.count))
-        case TrackHold():
+        case UpdateTrackHold():
             return ((action.held_slot, 1), (action.tracked_slot, 1))
-        case Learn():
+        case LearningStep():
             own = (
                 (action.weights_slot, action.out_count * action.in_count),
                 (action.out_slot, action.out_count),

@@ -67,7 +67,7 @@ class Vec:
 
 
 @node
-class Shifted:
+class ShiftedVec:
     """Element i is element i + `by` of the vector, 0 outside."""
 
     slot: int
@@ -87,7 +87,7 @@ class MatVec:
 
 
 @node
-class RowOf:
+class PatternRow:
     """Row ((trnc(iRow) - 1) mod rows) + 1 of a matrix; error 124 is the runtime's business."""
 
     slot: int
@@ -106,4 +106,4 @@ class Outer:
     v_count: int
 
 
-Value = Const | Load | Op | Table1 | Table2 | Vec | Shifted | MatVec | RowOf | Outer
+Value = Const | Load | Op | Table1 | Table2 | Vec | ShiftedVec | MatVec | PatternRow | Outer

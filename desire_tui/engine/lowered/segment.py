@@ -25,7 +25,7 @@ class StateRange:
 
 
 @node
-class Column:
+class SampleColumn:
     """A requested variable: its name as written (`x`, `A[2]`) and its slot."""
 
     name: str
@@ -34,11 +34,11 @@ class Column:
 
 
 @node
-class Request:
+class SampleRequest:
     """dispt, dispxy, DISPXY or type, with the variables they sample."""
 
     kind: Literal["dispt", "dispxy", "DISPXY", "type"]
-    columns: tuple[Column, ...]
+    columns: tuple[SampleColumn, ...]
     channel: int | None = None
     where: Where | None = None
 
@@ -54,7 +54,7 @@ class Picture:
 
 
 @node
-class Entry:
+class JacobianEntry:
     """J[row, column] = value, states from 0."""
 
     row: int
@@ -69,7 +69,7 @@ class Jacobian:
 
     slot: int
     body: tuple[Action, ...]
-    entries: tuple[Entry, ...]
+    entries: tuple[JacobianEntry, ...]
 
 
 @dataclass(frozen=True)
@@ -85,10 +85,10 @@ class Segment:
     source: Source
     body: tuple[Action, ...]
     states: tuple[StateRange, ...]
-    requests: tuple[Request, ...] = ()
+    requests: tuple[SampleRequest, ...] = ()
     pictures: tuple[Picture, ...] = ()
-    stash: tuple[Column, ...] = ()
-    recover: tuple[Column, ...] = ()
+    stash: tuple[SampleColumn, ...] = ()
+    recover: tuple[SampleColumn, ...] = ()
     jacobian: Jacobian | None = None
     counters: int = 0
     scalars: tuple[int, ...] = ()
@@ -97,7 +97,7 @@ class Segment:
     names: dict[int, str] = field(default_factory=dict)
 
     @property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> tuple[SampleColumn, ...]:
         """What a row of samples holds behind t: the requests' variables in turn, then the stashed ones."""
         return tuple(column for request in self.requests for column in request.columns) + self.stash
 

@@ -104,7 +104,7 @@ class DerivVec:
 
 
 @node
-class Store:
+class StoreHistory:
     """`store X = x`: at communication points only; `counter` numbers its position in `RunMemory.counters`."""
 
     array_slot: int
@@ -115,7 +115,7 @@ class Store:
 
 
 @node
-class Get:
+class GetHistory:
     """`get x = X`: at communication points, constant between."""
 
     slot: int
@@ -146,7 +146,7 @@ class DelayLine:
 
 
 @node
-class TrackHold:
+class UpdateTrackHold:
     """`trkhld y, y0 = p, x`: if p > 0 then y ← y0, y0 ← x."""
 
     held_slot: int
@@ -166,7 +166,7 @@ class Terminate:
 
 
 @node
-class Learn:
+class LearningStep:
     """CLEARN, PLEARN, INTP (docs/neural.md): vectors and matrices by slot.
 
     `full_slot` ← 1 where CLEARN finds no template for its input (error 232), else 0.
@@ -208,11 +208,11 @@ Action = (
     | SetDot
     | Deriv
     | DerivVec
-    | Store
-    | Get
+    | StoreHistory
+    | GetHistory
     | DelayLine
-    | TrackHold
+    | UpdateTrackHold
     | Terminate
-    | Learn
+    | LearningStep
     | Guard
 )

@@ -14,13 +14,13 @@ from desire_tui.engine.nodes import Binary, Name, Number, Unary
 
 if TYPE_CHECKING:
     from desire_tui.engine import nodes
-    from desire_tui.engine.lowering.builder import Builder
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.builder import SegmentBuilder
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Expr
     from desire_tui.engine.values import Quantity
 
 
-def vector_assign(builder: Builder, node: nodes.VectorAssign) -> None:
+def vector_assign(builder: SegmentBuilder, node: nodes.VectorAssign) -> None:
     """`Vector y = v`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
     context = builder.context
     quantity = _target(context, node)
@@ -40,7 +40,7 @@ def vector_assign(builder: Builder, node: nodes.VectorAssign) -> None:
     mark_array(context, quantity.slot, count)
 
 
-def vector_derivative(builder: Builder, node: nodes.VectorDerivative) -> None:
+def vector_derivative(builder: SegmentBuilder, node: nodes.VectorDerivative) -> None:
     """`Vectr d/dt x = v`. Error 101 for a second one."""
     context = builder.context
     quantity = _target(context, node)
@@ -56,7 +56,7 @@ def vector_derivative(builder: Builder, node: nodes.VectorDerivative) -> None:
     builder.derivative(quantity.slot, count, value, context.where(node), array=True)
 
 
-def _target(context: Context, node: nodes.VectorAssign | nodes.VectorDerivative) -> Quantity | None:
+def _target(context: LoweringContext, node: nodes.VectorAssign | nodes.VectorDerivative) -> Quantity | None:
     """Return the vector that a statement assigns; None: there is none, its right side has been checked."""
     quantity = vector(context, node, node.name)
     if quantity is None:
@@ -64,7 +64,7 @@ def _target(context: Context, node: nodes.VectorAssign | nodes.VectorDerivative)
     return quantity
 
 
-def matrix_assign(builder: Builder, node: nodes.MatrixAssign) -> None:
+def matrix_assign(builder: SegmentBuilder, node: nodes.MatrixAssign) -> None:
     """`MATRIX W = [M] sum; min, max` and `DELTA W = …`."""
     context = builder.context
     quantity = matrix(context, node, node.name)
@@ -89,7 +89,7 @@ def matrix_assign(builder: Builder, node: nodes.MatrixAssign) -> None:
     mark_array(context, quantity.slot, size)
 
 
-def dot(builder: Builder, node: nodes.Dot) -> None:
+def dot(builder: SegmentBuilder, node: nodes.Dot) -> None:
     """`DOT s = u*v + u*1 + u*A*v`, `AVG s = …`: operands are names."""
     context = builder.context
     slot = scalar_slot(context, node.target)
@@ -124,7 +124,7 @@ def _terms(node: Expr, sign: float) -> list[tuple[float, Expr]]:
     return [*_terms(steps[-1] if steps else first, sign), *following[::-1]]
 
 
-def _dot_term(builder: Builder, sign: float, node: Expr) -> DotTerm | None:
+def _dot_term(builder: SegmentBuilder, sign: float, node: Expr) -> DotTerm | None:
     context = builder.context
     factors: list[Expr] = []
     rest = node
@@ -169,7 +169,7 @@ def _dot_term(builder: Builder, sign: float, node: Expr) -> DotTerm | None:
     return DotTerm(sign, left, Vec(v.slot, count))
 
 
-def _mask(builder: Builder, node: nodes.Node, name: str | None, extent: tuple[int, ...]) -> int | None:
+def _mask(builder: SegmentBuilder, node: nodes.Node, name: str | None, extent: tuple[int, ...]) -> int | None:
     """Return the slot of a mask array of the right shape. Error 74."""
     if name is None:
         return None

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Literal
 from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetVec, Terminate, Vec
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Action, Column, Picture, Request, Value, Where
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowered import Action, Picture, SampleColumn, SampleRequest, Value, Where
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.lowering.persistence import Snapshot
     from desire_tui.engine.lowering.states import StateTable
     from desire_tui.engine.source import Span
@@ -41,7 +41,7 @@ class OpenGuard:
 
 
 @dataclass
-class Builder:
+class SegmentBuilder:
     """What one segment becomes, piece by piece.
 
     `body` takes the next statement: the segment's, or that of the innermost of the open `guards`. `counters`,
@@ -52,7 +52,7 @@ class Builder:
     `exhausted`: tests whether a CLEARN has run out of templates. `names`: scalars by slot, for messages.
     """
 
-    context: Context
+    context: LoweringContext
     states: StateTable
     rule: int | None
     body: list[Action] = field(default_factory=list)
@@ -60,10 +60,10 @@ class Builder:
     counters: int = 0
     terms: int = 0
     serials: int = 0
-    requests: list[Request] = field(default_factory=list)
+    requests: list[SampleRequest] = field(default_factory=list)
     pictures: list[Picture] = field(default_factory=list)
-    stash: list[Column] = field(default_factory=list)
-    recover: list[Column] = field(default_factory=list)
+    stash: list[SampleColumn] = field(default_factory=list)
+    recover: list[SampleColumn] = field(default_factory=list)
     once_only: dict[str, Span] = field(default_factory=dict)
     derivative_paths: dict[tuple[int, int], list[Path]] = field(default_factory=dict)
     names: dict[int, str] = field(default_factory=dict)

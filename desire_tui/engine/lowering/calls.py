@@ -9,7 +9,13 @@ from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowered import Op, Table1, Table2
 from desire_tui.engine.lowered.effects import DRAWS, operands
 from desire_tui.engine.lowering import expressions
-from desire_tui.engine.lowering.lowering_context import BAD, DEPTH_MAX, EXPANSIONS_MOST, Argument, Frame
+from desire_tui.engine.lowering.lowering_context import (
+    BAD,
+    DEPTH_MAX,
+    EXPANSIONS_MOST,
+    Argument,
+    ExpansionFrame,
+)
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.nodes import Call, Name
 from desire_tui.engine.values import Kind, Quantity
@@ -17,14 +23,14 @@ from desire_tui.engine.values import Kind, Quantity
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Value
     from desire_tui.engine.lowering.expressions import Extent
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Expr
 
 LEVELS_MOST = 200
 """Levels of an expression with its FUNCTIONs expanded; later stages follow them recursively."""
 
 
-def call(context: Context, node: Call, extent: Extent) -> Value:
+def call(context: LoweringContext, node: Call, extent: Extent) -> Value:
     """Lower a call. Errors 59 (unknown), 56 (arguments), 52 (recursion), and those of the arguments."""
     if node.name in context.functions:
         return _expanded(context, node, extent)
@@ -48,7 +54,7 @@ def call(context: Context, node: Call, extent: Extent) -> Value:
     return Op(node.name, tuple([expressions.lower(context, argument, extent) for argument in node.args]))
 
 
-def _expanded(context: Context, node: Call, extent: Extent) -> Value:
+def _expanded(context: LoweringContext, node: Call, extent: Extent) -> Value:
     context.reads.append("")
     function = context.functions[node.name]
     dummies = function.node.dummies
@@ -66,7 +72,7 @@ def _expanded(context: Context, node: Call, extent: Extent) -> Value:
         return BAD
     arguments = {d: Argument(a, frame) for d, a in zip(dummies, node.args, strict=True)}
     invoked, called = (*frame.invoked, context.span(node)), (*frame.calls, node.name)
-    context.enter(Frame(function.at, {}, arguments, invoked, called))
+    context.enter(ExpansionFrame(function.at, {}, arguments, invoked, called))
     value = expressions.lower(context, function.node.body, extent)
     context.enter(frame)
     if not frame.calls and levels_of(value) > LEVELS_MOST:
@@ -90,7 +96,7 @@ def levels_of(value: Value) -> int:
     return depth[id(value)]
 
 
-def _array(context: Context, node: Expr) -> Quantity | None:
+def _array(context: LoweringContext, node: Expr) -> Quantity | None:
     """Return the array a table function's argument names. Errors 36, 19."""
     context.reads.append("")
     if not isinstance(node, Name):
@@ -108,7 +114,7 @@ def _array(context: Context, node: Expr) -> Quantity | None:
     return quantity
 
 
-def table1(context: Context, node: Call, extent: Extent) -> Value:
+def table1(context: LoweringContext, node: Call, extent: Extent) -> Value:
     """Lower `func1(x; F)`: F is a vector of 2n elements, breakpoints first."""
     x = expressions.lower(context, node.args[0], extent)
     table = _array(context, node.args[1])
@@ -120,7 +126,7 @@ def table1(context: Context, node: Call, extent: Extent) -> Value:
     return Table1(x, table.slot, size // 2)
 
 
-def table2(context: Context, node: Call, extent: Extent) -> Value:
+def table2(context: LoweringContext, node: Call, extent: Extent) -> Value:
     """Lower `func2(x, y; F, X, Y)`: F[n, m] over X[n] and Y[m]."""
     x = expressions.lower(context, node.args[0], extent)
     y = expressions.lower(context, node.args[1], extent)

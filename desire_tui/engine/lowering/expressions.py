@@ -27,7 +27,7 @@ from desire_tui.engine.nodes import (
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Value
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Expr
 
 Extent = tuple[int, ...]
@@ -36,7 +36,7 @@ SCALAR: Extent = ()
 OPERATIONS = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
 
 
-def lower(context: Context, node: Expr, extent: Extent = SCALAR) -> Value:
+def lower(context: LoweringContext, node: Expr, extent: Extent = SCALAR) -> Value:
     """Return the value of an expression over `extent`; problems go to the context.
 
     Errors 200, 70, 69, 2, 19, 59, 74, 75, 218 and those of FUNCTION calls (56, 52).
@@ -67,7 +67,7 @@ def lower(context: Context, node: Expr, extent: Extent = SCALAR) -> Value:
     return context.report("complex-in-dynamic", node, name="[…]")
 
 
-def name(context: Context, node: Name, extent: Extent) -> Value:
+def name(context: LoweringContext, node: Name, extent: Extent) -> Value:
     """Lower a name: a scalar, a FUNCTION's dummy, or a whole array where the extent allows it."""
     frame = context.frame
     argument = frame.arguments.get(node.name)
@@ -87,7 +87,7 @@ def name(context: Context, node: Name, extent: Extent) -> Value:
     return context.read(node)
 
 
-def subscripted(context: Context, node: Element) -> Value:
+def subscripted(context: LoweringContext, node: Element) -> Value:
     """Lower `A[i, k]`."""
     context.reads.append("")
     slot, _ = element(context, node)
@@ -98,7 +98,7 @@ def subscripted(context: Context, node: Element) -> Value:
     return Load(slot)
 
 
-def binary(context: Context, node: Binary, extent: Extent) -> Value:
+def binary(context: LoweringContext, node: Binary, extent: Extent) -> Value:
     """Lower an operation; products over an extent may hold matrix/vector products."""
     op = node.op
     if node.end - node.start >= LONG and op != "^":

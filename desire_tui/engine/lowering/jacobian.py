@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.lowered import Entry, Jacobian
+from desire_tui.engine.lowered import Jacobian, JacobianEntry
 from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.lowering.statements import assign
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.lowering.builder import Builder
+    from desire_tui.engine.lowering.builder import SegmentBuilder
     from desire_tui.engine.lowering.submodels import Line
     from desire_tui.engine.values import Values
 
@@ -33,11 +33,11 @@ def checked_array(segment: Segment, values: Values) -> int:
     return given.slot
 
 
-def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
+def lower_jacobian(builder: SegmentBuilder, lines: Sequence[Line]) -> Jacobian | None:
     """Lower the statements behind JACOBIAN. Errors 219, 229 without any element, 230 for one out of range."""
     context = builder.context
     known = len(context.problems)
-    entries: list[Entry] = []
+    entries: list[JacobianEntry] = []
     matrix: str | None = None
     slot: int | None = None
     outer, builder.body = builder.body, []
@@ -74,7 +74,7 @@ def lower_jacobian(builder: Builder, lines: Sequence[Line]) -> Jacobian | None:
         elif not (1 <= row < order + 1 and 1 <= column < order + 1):
             context.report("jacobian-entry", target, order=order)
         else:
-            entries.append(Entry(int(row) - 1, int(column) - 1, value, context.where(node)))
+            entries.append(JacobianEntry(int(row) - 1, int(column) - 1, value, context.where(node)))
     body, builder.body = tuple(builder.body), outer
     if slot is None:
         if len(context.problems) == known:

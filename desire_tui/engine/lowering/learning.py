@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import Const, Learn
+from desire_tui.engine.lowered import Const, LearningStep
 from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.products import array, nonconformable
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
@@ -13,11 +13,11 @@ from desire_tui.engine.nodes import Name
 
 if TYPE_CHECKING:
     from desire_tui.engine import nodes
-    from desire_tui.engine.lowering.builder import Builder
+    from desire_tui.engine.lowering.builder import SegmentBuilder
     from desire_tui.engine.values import Quantity
 
 
-def learn(builder: Builder, node: nodes.Learn) -> None:
+def learn(builder: SegmentBuilder, node: nodes.Learn) -> None:
     """`CLEARN v = W(x) lrate, crit[#]`, `PLEARN y = W*x; lrate`, `INTP v = W*x; thresh`.
 
     W is rows × cols, the output has `rows` elements, the input `cols`. Errors 70, 74, 75, 218.
@@ -45,7 +45,7 @@ def learn(builder: Builder, node: nodes.Learn) -> None:
         if UNKNOWN not in quantity.shape and quantity is not out:
             context.flow.read_range(quantity.slot, size_of(quantity))
     builder.body.append(
-        Learn(
+        LearningStep(
             node.kind, out.slot, out.shape[0], weights.slot, given.slot, given.shape[0],
             rate, criterion, counts, context.where(node), full,
         )
@@ -53,7 +53,7 @@ def learn(builder: Builder, node: nodes.Learn) -> None:
     mark_array(context, out.slot, out.shape[0])
 
 
-def _ranked(builder: Builder, node: nodes.Learn, name: str, rank: int) -> Quantity | None:
+def _ranked(builder: SegmentBuilder, node: nodes.Learn, name: str, rank: int) -> Quantity | None:
     place = Name(name, node.start, node.end)
     quantity = array(builder.context, place)
     if quantity is not None and len(quantity.shape) != rank:

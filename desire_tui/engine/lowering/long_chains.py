@@ -20,11 +20,11 @@ from desire_tui.engine.lowering.scope import UNKNOWN
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Value
     from desire_tui.engine.lowering.expressions import Extent
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Binary, Expr
 
 
-def lower_long(context: Context, node: Binary, extent: Extent) -> Value:
+def lower_long(context: LoweringContext, node: Binary, extent: Extent) -> Value:
     """Return the value of a long sum or product. Error 401 where random numbers forbid pieces."""
 
     def keep(value: Value) -> Value:
@@ -52,7 +52,7 @@ def lower_long(context: Context, node: Binary, extent: Extent) -> Value:
     return _bounded(context, node, result) if extent and draws(result) else result
 
 
-def _kept(context: Context, node: Expr, value: Value, extent: Extent) -> Value:
+def _kept(context: LoweringContext, node: Expr, value: Value, extent: Extent) -> Value:
     """Compute a value before the statement; return what reads it.
 
     Vectors and matrices that draw random numbers stay where they are: each element draws in its turn.
@@ -76,7 +76,7 @@ def _kept(context: Context, node: Expr, value: Value, extent: Extent) -> Value:
     return Vec(slot, count)
 
 
-def _bounded(context: Context, node: Expr, value: Value) -> Value:
+def _bounded(context: LoweringContext, node: Expr, value: Value) -> Value:
     """Return what cannot be cut into pieces. Error 401: it is too deep."""
     if levels_of(value) > LEVELS_MOST:
         return context.report("expression-too-deep", node, limit=LEVELS_MOST)

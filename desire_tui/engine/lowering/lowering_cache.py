@@ -14,7 +14,7 @@ from desire_tui.engine.lowering.scope import LiveScope
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Value
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Expr
 
 KEPT_MOST = 100_000
@@ -34,7 +34,7 @@ _looking: dict[int, _Kept] = {}
 """Checks number the slots in their own way."""
 
 
-def lower_kept(context: Context, node: Expr) -> Value:
+def lower_kept(context: LoweringContext, node: Expr) -> Value:
     """Return `expressions.lower(context, node)`, from the store if it must be the same."""
     if not context.plain or context.redefines_library:
         return lower(context, node)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from desire_tui.engine.lowered import Action, Value
-    from desire_tui.engine.lowering.scope import Scope
+    from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.nodes import Expr, Function, Node
 
 BAD = Const(0.0)
@@ -41,7 +41,7 @@ class Argument:
     """
 
     node: Expr
-    outer: Frame
+    outer: ExpansionFrame
     value: Value | None = None
 
 
@@ -49,7 +49,7 @@ _NO_NAMES: Mapping[str, str] = {}
 _NO_ARGUMENTS: Mapping[str, Argument] = {}
 
 
-class Frame(NamedTuple):
+class ExpansionFrame(NamedTuple):
     """How names read in the text being lowered: dummies stand for something else.
 
     `at` is the offset of the statement's raw text in the source; `rename` gives a submodel's dummies their
@@ -72,18 +72,18 @@ class FunctionText:
     at: int
 
 
-class Context:
+class LoweringContext:
     """State shared by everything that lowers one segment.
 
     `assigned` holds the place of the first assignment to each scalar of the segment.
     """
 
-    def __init__(self, scope: Scope, source: Source, functions: Mapping[str, FunctionText]) -> None:
+    def __init__(self, scope: SegmentScope, source: Source, functions: Mapping[str, FunctionText]) -> None:
         self.scope = scope
         self.source = source
         self.functions = functions
         self.flow = Flow()
-        self.frame = Frame(0)
+        self.frame = ExpansionFrame(0)
         self.plain = True
         """Names read as they are written: the frame replaces none."""
         self.problems: list[Diagnostic] = []
@@ -104,7 +104,7 @@ class Context:
         """What the present statement computes first: the pieces of its long chains (`long_chains`)."""
         self.redefines_library = not functions.keys().isdisjoint(LIBRARY)
 
-    def enter(self, frame: Frame) -> None:
+    def enter(self, frame: ExpansionFrame) -> None:
         """Go on in another text."""
         self.frame = frame
         self.plain = not (frame.rename or frame.arguments)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.left_chains import PIECE, is_long
 from desire_tui.engine.library import rounded
-from desire_tui.engine.lowered import MatVec, Op, Outer, RowOf, Shifted, Vec
+from desire_tui.engine.lowered import MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowering import expressions
 from desire_tui.engine.lowering.lowering_context import BAD
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered import Value
     from desire_tui.engine.lowering.expressions import Extent
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Expr
 
 _OPERATIONS = {"*": "mul", "/": "div"}
 
 
 def product(
-    context: Context, node: Binary, extent: Extent, keep: Callable[[Value], Value] | None = None
+    context: LoweringContext, node: Binary, extent: Extent, keep: Callable[[Value], Value] | None = None
 ) -> Value:
     """Lower a chain of factors from left to right, with `A*x`, `A%*x`, `u*v`, `u & v` as units.
 
@@ -73,7 +73,7 @@ def product(
     return result
 
 
-def operand(context: Context, node: Expr, extent: Extent) -> Value:
+def operand(context: LoweringContext, node: Expr, extent: Extent) -> Value:
     """Lower a whole array that stands alone. Errors 74, 75, 69, 218, 84."""
     if not extent:
         name = getattr(node, "name", "")
@@ -97,12 +97,12 @@ def operand(context: Context, node: Expr, extent: Extent) -> Value:
         by = constant(context, node.by)
         shift = int(rounded(by)) if by is not None else 0
         note_read(context, node, quantity.slot, count, shift)
-        return Shifted(quantity.slot, count, shift)
+        return ShiftedVec(quantity.slot, count, shift)
     note_read(context, node, quantity.slot, count, 0)
     return Vec(quantity.slot, count)
 
 
-def unknown(context: Context, node: Name) -> Value:
+def unknown(context: LoweringContext, node: Name) -> Value:
     """Report error 70: a name in a vector expression that is neither array nor number."""
     name = context.actual(node.name)
     if context.once(name):
@@ -111,7 +111,7 @@ def unknown(context: Context, node: Name) -> Value:
     return BAD
 
 
-def array(context: Context, node: Expr) -> Quantity | None:
+def array(context: LoweringContext, node: Expr) -> Quantity | None:
     """Return the REAL array that a name, shifted name or row selector stands for. Errors 70, 218, 75."""
     assert isinstance(node, Name | ShiftedNode | RowOfNode), "the grammar lets nothing else stand here"
     name = node.name
@@ -130,12 +130,14 @@ def array(context: Context, node: Expr) -> Quantity | None:
     return quantity
 
 
-def nonconformable(context: Context, node: Expr, name: str, shape: tuple[int, ...], extent: Extent) -> Value:
+def nonconformable(
+    context: LoweringContext, node: Expr, name: str, shape: tuple[int, ...], extent: Extent
+) -> Value:
     """Report error 74."""
     return context.report("shapes-disagree", node, name=name, shape=_shown(shape), wanted=_shown(extent))
 
 
-def note_read(context: Context, node: Expr, slot: int, count: int, shift: int | None) -> None:
+def note_read(context: LoweringContext, node: Expr, slot: int, count: int, shift: int | None) -> None:
     """Note that an array is read; error 85 where elements would be read after their replacement.
 
     `shift`: element i reads element i + shift; None: every element reads the whole array.
@@ -152,7 +154,7 @@ def note_read(context: Context, node: Expr, slot: int, count: int, shift: int | 
 
 
 def matrix_vector(
-    context: Context, matrix: Expr, vector: Expr, rows: int, *, checked: bool = True
+    context: LoweringContext, matrix: Expr, vector: Expr, rows: int, *, checked: bool = True
 ) -> MatVec | None:
     """Lower `A*x` or `A%*x` of `rows` elements; None if the nodes are not a matrix and a vector."""
     a, x = _shaped(context, matrix, 2), _shaped(context, vector, 1)
@@ -169,7 +171,9 @@ def matrix_vector(
     return MatVec(a.slot, a.shape[0], a.shape[1], transposed, x.slot)
 
 
-def _signed_unit(context: Context, factor: Expr, following: tuple[str, Expr], extent: Extent) -> Value | None:
+def _signed_unit(
+    context: LoweringContext, factor: Expr, following: tuple[str, Expr], extent: Extent
+) -> Value | None:
     """Lower a unit whose factors may have signs: `-A*x`, `3*-u*v`."""
     op, right = following
     (sign, first), (other, second) = unsigned(factor), unsigned(right)
@@ -186,7 +190,9 @@ def unsigned(node: Expr) -> tuple[float, Expr]:
     return sign, node
 
 
-def _unit(context: Context, factor: Expr, following: tuple[str, Expr], extent: Extent) -> Value | None:
+def _unit(
+    context: LoweringContext, factor: Expr, following: tuple[str, Expr], extent: Extent
+) -> Value | None:
     op, right = following
     if len(extent) == 1:
         return matrix_vector(context, factor, right, extent[0]) if op == "*" else None
@@ -201,7 +207,7 @@ def _unit(context: Context, factor: Expr, following: tuple[str, Expr], extent: E
     return Outer(how, u.slot, u.shape[0], v.slot, v.shape[0])
 
 
-def _shaped(context: Context, node: Expr, rank: int) -> Quantity | None:
+def _shaped(context: LoweringContext, node: Expr, rank: int) -> Quantity | None:
     if not isinstance(node, Name | Transposed):
         return None
     quantity = context.quantity(node.name)
@@ -210,7 +216,7 @@ def _shaped(context: Context, node: Expr, rank: int) -> Quantity | None:
     return quantity
 
 
-def _row(context: Context, node: RowOfNode, quantity: Quantity, extent: Extent) -> Value:
+def _row(context: LoweringContext, node: RowOfNode, quantity: Quantity, extent: Extent) -> Value:
     if len(quantity.shape) != 2 or len(extent) != 1:
         return context.report("row-of-matrix", node, name=quantity.name)
     if not agree(quantity.shape[1], extent[0]):
@@ -218,10 +224,10 @@ def _row(context: Context, node: RowOfNode, quantity: Quantity, extent: Extent) 
     note_read(context, node, quantity.slot, size_of(quantity), None)
     if context.row_chosen is None and "iRow" not in context.assigned:
         context.row_chosen = context.where(node)
-    return RowOf(quantity.slot, quantity.shape[0], quantity.shape[1])
+    return PatternRow(quantity.slot, quantity.shape[0], quantity.shape[1])
 
 
-def _wrong_rank(context: Context, node: Expr, quantity: Quantity, extent: Extent) -> Value:
+def _wrong_rank(context: LoweringContext, node: Expr, quantity: Quantity, extent: Extent) -> Value:
     if len(extent) == 1 and len(quantity.shape) == 2:
         return context.report("matrix-needs-vector", node, name=quantity.name)
     if len(extent) == 2 and len(quantity.shape) == 1:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.lowered import Column, Picture, Request
+from desire_tui.engine.lowered import Picture, SampleColumn, SampleRequest
 from desire_tui.engine.lowering.scope import UNKNOWN, size_of
 from desire_tui.engine.lowering.subscripts import constant, element, whole
 from desire_tui.engine.nodes import Element
@@ -13,13 +13,13 @@ from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     from desire_tui.engine import nodes
-    from desire_tui.engine.lowering.builder import Builder
+    from desire_tui.engine.lowering.builder import SegmentBuilder
     from desire_tui.engine.nodes import Target
 
 _DISPLAYS = frozenset({"dispt", "dispxy", "DISPXY"})
 
 
-def request(builder: Builder, node: nodes.Request) -> None:
+def request(builder: SegmentBuilder, node: nodes.Request) -> None:
     """`dispt dispxy DISPXY type stash recover`. Errors 8, 14, 200, 69."""
     context = builder.context
     family = "display" if node.kind in _DISPLAYS else node.kind
@@ -39,10 +39,10 @@ def request(builder: Builder, node: nodes.Request) -> None:
         builder.recover.extend(columns)
     else:
         channel = None if node.channel is None else whole(context, node.channel)
-        builder.requests.append(Request(node.kind, columns, channel, context.where(node)))
+        builder.requests.append(SampleRequest(node.kind, columns, channel, context.where(node)))
 
 
-def column(builder: Builder, item: Target) -> Column | None:
+def column(builder: SegmentBuilder, item: Target) -> SampleColumn | None:
     """Return a requested variable: a scalar or an element that has a value when samples are taken."""
     context = builder.context
     if isinstance(item, Element):
@@ -50,7 +50,7 @@ def column(builder: Builder, item: Target) -> Column | None:
         if slot is None:
             return None
         builder.names[slot] = shown
-        return Column(shown, slot, context.where(item))
+        return SampleColumn(shown, slot, context.where(item))
     name = context.actual(item.name)
     quantity = context.scope.names.get(name)
     if quantity is not None and quantity.shape:
@@ -65,10 +65,10 @@ def column(builder: Builder, item: Target) -> Column | None:
             context.report("undefined-in-segment", item, name=name, close=close)
         return None
     builder.names[quantity.slot] = name
-    return Column(name, quantity.slot, context.where(item))
+    return SampleColumn(name, quantity.slot, context.where(item))
 
 
-def show(builder: Builder, node: nodes.Show) -> None:
+def show(builder: SegmentBuilder, node: nodes.Show) -> None:
     """`SHOW A, ncol`. Error 112."""
     context = builder.context
     quantity = context.quantity(node.name)

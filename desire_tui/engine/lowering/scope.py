@@ -28,7 +28,7 @@ def size_of(quantity: Quantity) -> int:
     return UNKNOWN if UNKNOWN in quantity.shape else prod(quantity.shape)
 
 
-class Scope(Protocol):
+class SegmentScope(Protocol):
     """Names, their quantities, and the values known now."""
 
     @property

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine import nodes
 from desire_tui.engine.lowered import Load, Segment, StateRange
 from desire_tui.engine.lowering import arrays, learning, requests, statements, targets
-from desire_tui.engine.lowering.builder import Builder
+from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
 from desire_tui.engine.lowering.jacobian import lower_jacobian
-from desire_tui.engine.lowering.lowering_context import Context
+from desire_tui.engine.lowering.lowering_context import LoweringContext
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.lowering.states import StateTable
 from desire_tui.engine.lowering.submodels import expand
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.lowering.lowering_context import FunctionText
-    from desire_tui.engine.lowering.scope import Scope
+    from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.lowering.submodels import Line
     from desire_tui.engine.nodes import SegmentText, Target
     from desire_tui.engine.source import Source
     from desire_tui.engine.structure.structure import SubmodelText
 
-_HANDLERS: dict[type, Callable[[Builder, Any], None]] = {
+_HANDLERS: dict[type, Callable[[SegmentBuilder, Any], None]] = {
     nodes.Assign: statements.assign,
     nodes.Derivative: statements.derivative,
     nodes.VectorDerivative: arrays.vector_derivative,
@@ -67,19 +67,19 @@ _ARRAY_TARGETS = (nodes.VectorAssign, nodes.MatrixAssign, nodes.Store, nodes.Lea
 
 def lower_segment(
     text: SegmentText,
-    scope: Scope,
+    scope: SegmentScope,
     source: Source,
     functions: Mapping[str, FunctionText],
     submodels: Mapping[str, SubmodelText],
     rule: int | None = None,
 ) -> tuple[Segment, list[Diagnostic]]:
     """Return the lowered segment and every problem found in it."""
-    context = Context(scope, source, functions)
+    context = LoweringContext(scope, source, functions)
     lines = expand(context, text.body, submodels)
     jacobian_lines = expand(context, text.jacobian, submodels)
     _collect_targets(context, lines)
     _collect_targets(context, jacobian_lines)
-    builder = Builder(context, _states(context, lines), rule)
+    builder = SegmentBuilder(context, _states(context, lines), rule)
     _ready_from_start(builder, lines)
     for node, frame in lines:
         context.enter(frame)
@@ -111,7 +111,7 @@ def lower_segment(
     return segment, context.problems
 
 
-def _collect_targets(context: Context, lines: Sequence[Line]) -> None:
+def _collect_targets(context: LoweringContext, lines: Sequence[Line]) -> None:
     """Note where each scalar of the segment is first assigned, and whether arrays are."""
     for node, frame in lines:
         get_targets = _SCALAR_TARGETS.get(node.__class__)
@@ -129,7 +129,7 @@ def _collect_targets(context: Context, lines: Sequence[Line]) -> None:
             context.assigned_arrays = True
 
 
-def _states(context: Context, lines: Sequence[Line]) -> StateTable:
+def _states(context: LoweringContext, lines: Sequence[Line]) -> StateTable:
     found: list[StateRange] = []
     for node, frame in lines:
         if isinstance(node, Derivative):
@@ -154,7 +154,9 @@ def _states(context: Context, lines: Sequence[Line]) -> StateTable:
     return StateTable(found)
 
 
-def _element_state(context: Context, node: Derivative, target: Element, number: int) -> list[StateRange]:
+def _element_state(
+    context: LoweringContext, node: Derivative, target: Element, number: int
+) -> list[StateRange]:
     # problems of the subscripts are reported when the statement itself is lowered
     known, complained = len(context.problems), set(context.complained)
     slot = targets.scalar_slot(context, target)
@@ -173,7 +175,7 @@ def _element_state(context: Context, node: Derivative, target: Element, number: 
     return [StateRange(name, slot, number, 1, context.where(node))]
 
 
-def _ready_from_start(builder: Builder, lines: Sequence[Line]) -> None:
+def _ready_from_start(builder: SegmentBuilder, lines: Sequence[Line]) -> None:
     """States that nobody assigns, t, and recovered variables can be read anywhere."""
     context = builder.context
     ready = context.flow.ready
@@ -190,6 +192,6 @@ def _ready_from_start(builder: Builder, lines: Sequence[Line]) -> None:
                 targets.mark_held(context, item)
 
 
-def _scalars(context: Context) -> tuple[int, ...]:
+def _scalars(context: LoweringContext) -> tuple[int, ...]:
     found = (context.scope.names.get(name) for name in context.assigned)
     return tuple(q.slot for q in found if q is not None and not q.shape)

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import DelayLine, Get, Load, Set, Store, Terminate, TrackHold
+from desire_tui.engine.lowered import (
+    DelayLine,
+    GetHistory,
+    Load,
+    Set,
+    StoreHistory,
+    Terminate,
+    UpdateTrackHold,
+)
 from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.lowering_cache import lower_kept
 from desire_tui.engine.lowering.lowering_context import BAD
@@ -16,11 +24,11 @@ from desire_tui.engine.nodes import Element, Name
 
 if TYPE_CHECKING:
     from desire_tui.engine import nodes
-    from desire_tui.engine.lowering.builder import Builder
+    from desire_tui.engine.lowering.builder import SegmentBuilder
     from desire_tui.engine.values import Quantity
 
 
-def assign(builder: Builder, node: nodes.Assign) -> None:
+def assign(builder: SegmentBuilder, node: nodes.Assign) -> None:
     """`y = e`: defined variable or difference equation."""
     context = builder.context
     target = node.target
@@ -35,7 +43,7 @@ def assign(builder: Builder, node: nodes.Assign) -> None:
         mark_set(context, target, slot)
 
 
-def derivative(builder: Builder, node: nodes.Derivative) -> None:
+def derivative(builder: SegmentBuilder, node: nodes.Derivative) -> None:
     """`d/dt x = e`, `d/dt x[i] = e`. Error 101 for a second one."""
     context = builder.context
     slot = scalar_slot(context, node.target)
@@ -53,14 +61,14 @@ def derivative(builder: Builder, node: nodes.Derivative) -> None:
     builder.derivative(slot, 1, value, where or context.where(node))
 
 
-def term(builder: Builder, node: nodes.Term) -> None:
+def term(builder: SegmentBuilder, node: nodes.Term) -> None:
     """`term e`."""
     context = builder.context
     builder.body.append(Terminate(lower(context, node.value), builder.terms, context.where(node)))
     builder.terms += 1
 
 
-def condition(builder: Builder, node: nodes.If) -> None:
+def condition(builder: SegmentBuilder, node: nodes.If) -> None:
     """`if e`; a script's `if C then` is error 219."""
     context = builder.context
     if node.value is None:
@@ -70,7 +78,7 @@ def condition(builder: Builder, node: nodes.If) -> None:
     builder.open("if", context.where(node), value)
 
 
-def simple(builder: Builder, node: nodes.Simple) -> None:
+def simple(builder: SegmentBuilder, node: nodes.Simple) -> None:
     """`OUT`, `step`, `else`, `end if`; anything else is error 219."""
     context = builder.context
     if node.word == "OUT":
@@ -87,7 +95,7 @@ def simple(builder: Builder, node: nodes.Simple) -> None:
         context.report("illegal-in-dynamic", node, word=node.word)
 
 
-def sample(builder: Builder, node: nodes.Sample) -> None:
+def sample(builder: SegmentBuilder, node: nodes.Sample) -> None:
     """`SAMPLE m`: m is fixed now and truncated. Error 8 for a second one, 44 for m < 1."""
     context = builder.context
     if "SAMPLE" in builder.once_only:
@@ -103,7 +111,7 @@ def sample(builder: Builder, node: nodes.Sample) -> None:
     builder.open("sample", context.where(node), every=whole)
 
 
-def store(builder: Builder, node: nodes.Store) -> None:
+def store(builder: SegmentBuilder, node: nodes.Store) -> None:
     """`store X = x`."""
     context = builder.context
     quantity = history(builder, node, node.array)
@@ -111,21 +119,23 @@ def store(builder: Builder, node: nodes.Store) -> None:
     if quantity is not None and isinstance(value, Load):
         count = size_of(quantity)
         context.flow.set_ranges.add(quantity.slot, max(count, 1))
-        builder.body.append(Store(quantity.slot, count, value.slot, builder.counter(), context.where(node)))
+        builder.body.append(
+            StoreHistory(quantity.slot, count, value.slot, builder.counter(), context.where(node))
+        )
 
 
-def get(builder: Builder, node: nodes.Get) -> None:
+def get(builder: SegmentBuilder, node: nodes.Get) -> None:
     """`get x = X`."""
     context = builder.context
     quantity = history(builder, node, node.array)
     slot = scalar_slot(context, node.variable)
     if quantity is not None and slot is not None:
         count = size_of(quantity)
-        builder.body.append(Get(slot, quantity.slot, count, builder.counter(), context.where(node)))
+        builder.body.append(GetHistory(slot, quantity.slot, count, builder.counter(), context.where(node)))
         mark_held(context, node.variable)
 
 
-def delay(builder: Builder, node: nodes.Delay) -> None:
+def delay(builder: SegmentBuilder, node: nodes.Delay) -> None:
     """`tdelay y = D(x, tau` and `delay y = D(x, tau`."""
     context = builder.context
     buffer = history(builder, node, node.buffer)
@@ -148,18 +158,18 @@ def delay(builder: Builder, node: nodes.Delay) -> None:
         mark_held(context, node.variable)
 
 
-def track_hold(builder: Builder, node: nodes.TrackHold) -> None:
+def track_hold(builder: SegmentBuilder, node: nodes.TrackHold) -> None:
     """`trkhld y, y0 = p, x`: both keep their values from pass to pass, 0 at first."""
     context = builder.context
     control, value = lower(context, node.control), lower(context, node.value)
     held, tracked = scalar_slot(context, node.held), scalar_slot(context, node.tracked)
     if held is not None and tracked is not None:
-        builder.body.append(TrackHold(held, tracked, control, value, context.where(node)))
+        builder.body.append(UpdateTrackHold(held, tracked, control, value, context.where(node)))
         mark_held(context, node.held)
         mark_held(context, node.tracked)
 
 
-def table(builder: Builder, node: nodes.FunctionTable) -> None:
+def table(builder: SegmentBuilder, node: nodes.FunctionTable) -> None:
     """`func y = F(x`, `func2 f = F(x, y; X, Y`."""
     context = builder.context
     slot = scalar_slot(context, node.target)
@@ -171,7 +181,7 @@ def table(builder: Builder, node: nodes.FunctionTable) -> None:
         mark_set(context, node.target, slot)
 
 
-def history(builder: Builder, node: nodes.Node, name: str) -> Quantity | None:
+def history(builder: SegmentBuilder, node: nodes.Node, name: str) -> Quantity | None:
     """Return the one-dimensional array of `store`, `get` or a delay. Errors 19, 75."""
     context = builder.context
     place = Name(name, node.start, node.end)

@@ -6,41 +6,41 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, Frame
+from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, ExpansionFrame
 from desire_tui.engine.nodes import Bare, Call, Invoke, Name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Expr, Placed, Statement
     from desire_tui.engine.structure.structure import SubmodelText
 
 LINES_MOST = 1_000_000
 """Statements that a segment may have when its submodels are expanded."""
 
-Line = tuple["Statement", Frame]
+Line = tuple["Statement", ExpansionFrame]
 
 
 def expand(
-    context: Context, statements: Sequence[Placed], submodels: Mapping[str, SubmodelText]
+    context: LoweringContext, statements: Sequence[Placed], submodels: Mapping[str, SubmodelText]
 ) -> list[Line]:
     """Return the statements with every invocation replaced by its body. Errors 201, 56, 52, 209."""
     lines: list[Line] = []
     for statement, at, _ in statements:
         if isinstance(statement, Invoke):
-            context.frame = Frame(at)
+            context.frame = ExpansionFrame(at)
             _invoke(context, statement, statement.name, statement.args, submodels, lines)
         elif isinstance(statement, Bare) and isinstance(statement.value, Call):
-            context.frame = Frame(at)
+            context.frame = ExpansionFrame(at)
             _invoke(context, statement, statement.value.name, statement.value.args, submodels, lines)
         else:
-            lines.append((statement, Frame(at)))
+            lines.append((statement, ExpansionFrame(at)))
     return lines
 
 
 def _invoke(
-    context: Context,
+    context: LoweringContext,
     node: Invoke | Bare,
     name: str,
     args: tuple[Expr, ...],
@@ -75,7 +75,7 @@ def _invoke(
     invoked = (*frame.invoked, context.span(node))
     calls = (*frame.calls, name)
     for statement, at, _ in submodel.body:
-        inner = Frame(at, rename, {}, invoked, calls)
+        inner = ExpansionFrame(at, rename, {}, invoked, calls)
         context.frame = inner
         if isinstance(statement, Invoke):
             _invoke(context, statement, statement.name, statement.args, submodels, lines)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.left_chains import chain
 from desire_tui.engine.library import LIBRARY, power
-from desire_tui.engine.lowering.lowering_context import Argument, Frame
+from desire_tui.engine.lowering.lowering_context import Argument, ExpansionFrame
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.nodes import Binary, Call, Element, Name, Number, Unary
 from desire_tui.engine.values import Kind
@@ -20,7 +20,7 @@ from desire_tui.engine.values import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Expr
 
 _OPERATIONS: dict[str, Callable[[float, float], float]] = {
@@ -28,7 +28,7 @@ _OPERATIONS: dict[str, Callable[[float, float], float]] = {
 }  # fmt: skip
 
 
-def constant(context: Context, node: Expr) -> float | None:
+def constant(context: LoweringContext, node: Expr) -> float | None:
     """Return the present value of an expression; None where it cannot be told, or was complained about."""
     if isinstance(node, Number):
         return node.value
@@ -39,7 +39,7 @@ def constant(context: Context, node: Expr) -> float | None:
         return None
 
 
-def whole(context: Context, node: Expr) -> int | None:
+def whole(context: LoweringContext, node: Expr) -> int | None:
     """Return the present value, truncated."""
     value = constant(context, node)
     if value is None:
@@ -50,7 +50,7 @@ def whole(context: Context, node: Expr) -> int | None:
     return int(value)
 
 
-def element(context: Context, node: Element) -> tuple[int | None, str]:
+def element(context: LoweringContext, node: Element) -> tuple[int | None, str]:
     """Return a subscripted name's slot, and the name with its subscripts worked out.
 
     The slot is None for a subscript that is not known yet and after errors 2, 19, 69, 218, 73.
@@ -85,7 +85,7 @@ def element(context: Context, node: Element) -> tuple[int | None, str]:
     return (None if slot is None else quantity.slot + slot), f"{name}[{','.join(shown)}]"
 
 
-def _value(context: Context, node: Expr) -> float | None:
+def _value(context: LoweringContext, node: Expr) -> float | None:
     if isinstance(node, Number):
         return node.value
     if isinstance(node, Name):
@@ -117,7 +117,7 @@ def _value(context: Context, node: Expr) -> float | None:
     return None
 
 
-def _named(context: Context, node: Name) -> float | None:
+def _named(context: LoweringContext, node: Name) -> float | None:
     name = node.name
     argument = context.frame.arguments.get(name)
     if argument is not None:
@@ -138,7 +138,7 @@ def _named(context: Context, node: Name) -> float | None:
     return context.scope.constant(quantity)
 
 
-def _called(context: Context, node: Call) -> float | None:
+def _called(context: LoweringContext, node: Call) -> float | None:
     function = context.functions.get(node.name)
     if function is not None and len(function.node.dummies) == len(node.args):
         inner = context.frame
@@ -147,7 +147,7 @@ def _called(context: Context, node: Call) -> float | None:
             return None
         arguments = {d: Argument(a, inner) for d, a in zip(function.node.dummies, node.args, strict=True)}
         invoked, called = (*inner.invoked, context.span(node)), (*inner.calls, node.name)
-        context.enter(Frame(function.at, {}, arguments, invoked, called))
+        context.enter(ExpansionFrame(function.at, {}, arguments, invoked, called))
         value = _value(context, function.node.body)
         context.enter(inner)
         return value

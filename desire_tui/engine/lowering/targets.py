@@ -12,12 +12,12 @@ from desire_tui.engine.nodes import Element, Name
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowering.lowering_context import Context
+    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes import Node, Target
     from desire_tui.engine.values import Quantity
 
 
-def scalar_slot(context: Context, target: Target) -> int | None:
+def scalar_slot(context: LoweringContext, target: Target) -> int | None:
     """Return the slot that `target` names, made if new. Errors 69, 218, 2, 19."""
     if isinstance(target, Element):
         quantity = context.quantity(target.name)
@@ -42,14 +42,14 @@ def scalar_slot(context: Context, target: Target) -> int | None:
     return (quantity or context.scope.scalar(name)).slot
 
 
-def mark_set(context: Context, target: Target, slot: int) -> None:
+def mark_set(context: LoweringContext, target: Target, slot: int) -> None:
     """Note that the pass has set a scalar or an element."""
     context.flow.set_slots.add(slot)
     if isinstance(target, Name):
         context.flow.ready[context.actual(target.name)] = Load(slot)
 
 
-def mark_held(context: Context, target: Target) -> None:
+def mark_held(context: LoweringContext, target: Target) -> None:
     """Note that a scalar can be read from now on, though not every pass sets it."""
     if isinstance(target, Name):
         quantity = context.quantity(target.name)
@@ -57,17 +57,17 @@ def mark_held(context: Context, target: Target) -> None:
             context.flow.ready[context.actual(target.name)] = Load(quantity.slot)
 
 
-def vector(context: Context, node: Node, name: str) -> Quantity | None:
+def vector(context: LoweringContext, node: Node, name: str) -> Quantity | None:
     """Return the one-dimensional REAL array to be assigned. Errors 70, 69, 75, 218."""
     return _array(context, node, name, 1)
 
 
-def matrix(context: Context, node: Node, name: str) -> Quantity | None:
+def matrix(context: LoweringContext, node: Node, name: str) -> Quantity | None:
     """Return the two-dimensional REAL array to be assigned. Errors 70, 69, 75, 218."""
     return _array(context, node, name, 2)
 
 
-def _array(context: Context, node: Node, name: str, rank: int) -> Quantity | None:
+def _array(context: LoweringContext, node: Node, name: str, rank: int) -> Quantity | None:
     place = Name(name, node.start, node.end)
     quantity = array(context, place)
     if quantity is None:
@@ -82,7 +82,7 @@ def _array(context: Context, node: Node, name: str, rank: int) -> Quantity | Non
     return quantity
 
 
-def mark_array(context: Context, slot: int, count: int) -> None:
+def mark_array(context: LoweringContext, slot: int, count: int) -> None:
     """Note that the pass has set a whole array."""
     if count != UNKNOWN:
         context.flow.set_ranges.add(slot, count)

@@ -28,7 +28,7 @@ StatusWord = Literal["done", "failed", "stopped", "limit"]
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class ResultProblem:
     """One message; rows and columns from 1, None where it has no place."""
 
     code: int
@@ -106,7 +106,7 @@ class Result:
     desire: str
     program: str
     status: StatusWord = "done"
-    problems: tuple[Problem, ...] = ()
+    problems: tuple[ResultProblem, ...] = ()
     console: str = ""
     runs: tuple[RunData, ...] = ()
     plots: tuple[PlotPoint, ...] = ()
@@ -118,12 +118,12 @@ class Result:
         return self.quantities[name]
 
 
-def problem_data(diagnostic: Diagnostic) -> Problem:
+def problem_data(diagnostic: Diagnostic) -> ResultProblem:
     """Return a diagnostic as plain data."""
     source, span = diagnostic.source, diagnostic.span
     start = source.position(span.start) if source is not None and span is not None else (None, None)
     end = source.position(span.end) if source is not None and span is not None else (None, None)
-    return Problem(
+    return ResultProblem(
         diagnostic.code, diagnostic.severity, diagnostic.message, source.name if source is not None else None,
         start[0], start[1], end[0], end[1], diagnostic.hint,
     )  # fmt: skip

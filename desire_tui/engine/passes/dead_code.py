@@ -21,7 +21,7 @@ def needed(actions: Actions, wanted: frozenset[int] = frozenset()) -> Actions:
 
     `wanted` are the ids of statements that are kept in any case.
     """
-    return _backward(actions, Memory(), wanted)
+    return _backward(actions, SlotSet(), wanted)
 
 
 def draws(action: Action) -> bool:
@@ -34,7 +34,7 @@ def with_bodies(guard: Guard, body: Actions, orelse: Actions) -> Guard:
     return Guard(guard.kind, body, guard.where, guard.condition, orelse, guard.every)
 
 
-class Memory:
+class SlotSet:
     """A set of numbers: scalars by slot, arrays and their elements as intervals."""
 
     def __init__(self) -> None:
@@ -57,7 +57,7 @@ class Memory:
         return slot < SCALAR_SLOTS and any(slot <= s < slot + count for s in self._scalars)
 
 
-def _backward(actions: Actions, seen: Memory, wanted: frozenset[int]) -> Actions:
+def _backward(actions: Actions, seen: SlotSet, wanted: frozenset[int]) -> Actions:
     kept: list[Action] = []
     for action in reversed(actions):
         if isinstance(action, Guard):
@@ -75,7 +75,7 @@ def _backward(actions: Actions, seen: Memory, wanted: frozenset[int]) -> Actions
     return tuple(reversed(kept))
 
 
-def _is_needed(action: Action, seen: Memory) -> bool:
+def _is_needed(action: Action, seen: SlotSet) -> bool:
     if not isinstance(action, Set | SetVec | SetMat | SetDot) or action.persistent or draws(action):
         return True
     return any(seen.touch(slot, count) for slot, count in writes(action))

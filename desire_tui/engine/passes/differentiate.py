@@ -22,12 +22,12 @@ from desire_tui.engine.lowered import (
     MatVec,
     Op,
     Outer,
-    RowOf,
+    PatternRow,
     Set,
     SetDot,
     SetMat,
     SetVec,
-    Shifted,
+    ShiftedVec,
     Table1,
     Table2,
     Vec,
@@ -155,17 +155,17 @@ class _Differentiator:
             return None if slot is None else Load(slot)
         if isinstance(value, Vec):
             return self._tangents.vector(value)
-        if isinstance(value, Shifted):
+        if isinstance(value, ShiftedVec):
             slot = self._tangents.slot(value.slot)
-            return None if slot is None else Shifted(slot, value.count, value.by)
+            return None if slot is None else ShiftedVec(slot, value.count, value.by)
         if isinstance(value, MatVec):
             total: Value | None = None
             for product in self._products(value):
                 total = plus(total, product)
             return total
-        if isinstance(value, RowOf):
+        if isinstance(value, PatternRow):
             slot = self._tangents.slot(value.slot)
-            return None if slot is None else RowOf(slot, value.rows, value.cols)
+            return None if slot is None else PatternRow(slot, value.rows, value.cols)
         if isinstance(value, Outer):
             return self._outer(value)
         return self._table(value)

@@ -16,17 +16,17 @@ from desire_tui.engine.lowered import (
     DelayLine,
     Deriv,
     DerivVec,
-    Get,
+    GetHistory,
     Guard,
     Set,
     SetDot,
     SetMat,
     SetVec,
-    Store,
+    StoreHistory,
     Terminate,
 )
 from desire_tui.engine.lowered.effects import reads, writes
-from desire_tui.engine.passes.dead_code import Memory, draws, with_bodies
+from desire_tui.engine.passes.dead_code import SlotSet, draws, with_bodies
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -53,11 +53,11 @@ def early(step_pass: Actions) -> frozenset[int]:
     """Return the `id` of each statement whose variable must keep the value that the STEP pass gives it."""
     found: set[int] = set()
     if holds_term(step_pass):
-        _collect(step_pass, Memory(), found)
+        _collect(step_pass, SlotSet(), found)
     return frozenset(found)
 
 
-def _collect(actions: Actions, changed: Memory, found: set[int]) -> None:
+def _collect(actions: Actions, changed: SlotSet, found: set[int]) -> None:
     """Go backward; `changed` is what statements further down remember."""
     for action in reversed(actions):
         if isinstance(action, Guard):
@@ -73,7 +73,7 @@ def _collect(actions: Actions, changed: Memory, found: set[int]) -> None:
                 changed.add(slot, count)
 
 
-def _reads_any(action: Action, changed: Memory) -> bool:
+def _reads_any(action: Action, changed: SlotSet) -> bool:
     return any(changed.touch(slot, count) for slot, count in reads(action))
 
 
@@ -98,7 +98,7 @@ def tail(actions: Iterable[Action], known: frozenset[int]) -> Actions:
                 body, orelse = tail(action.body, known), tail(action.orelse, known)
                 if body or orelse:
                     kept.append(with_bodies(action, body, orelse))
-        elif isinstance(action, Store | Get):
+        elif isinstance(action, StoreHistory | GetHistory):
             kept.append(action)
         elif isinstance(action, DelayLine):
             if not action.per_step:

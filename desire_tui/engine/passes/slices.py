@@ -12,10 +12,10 @@ from desire_tui.engine.lowered import (
     DelayLine,
     Deriv,
     DerivVec,
-    Get,
+    GetHistory,
     Guard,
     Set,
-    Store,
+    StoreHistory,
     Terminate,
 )
 from desire_tui.engine.passes.dead_code import needed, with_bodies
@@ -109,6 +109,6 @@ def _resolve(actions: Iterable[Action], *, comm: bool, step: bool) -> Actions:
         elif isinstance(action, DelayLine):
             if step if action.per_step else comm:
                 kept.append(action)
-        elif not isinstance(action, Store | Get) or comm:
+        elif not isinstance(action, StoreHistory | GetHistory) or comm:
             kept.append(action)
     return tuple(kept)

@@ -21,10 +21,10 @@ from desire_tui.engine.lowered import (
     MatVec,
     Op,
     Outer,
-    RowOf,
+    PatternRow,
     Set,
     SetVec,
-    Shifted,
+    ShiftedVec,
     Table1,
     Table2,
     Vec,
@@ -115,7 +115,7 @@ class _Finder:
             return self._read(value.slot, 1)
         if isinstance(value, Vec):
             return self._read(value.slot, value.count)
-        if isinstance(value, Shifted):
+        if isinstance(value, ShiftedVec):
             return _shift(self._read(value.slot, value.count), value.by, value.count)
         if isinstance(value, Table1):
             return self.of(value.x)
@@ -162,7 +162,7 @@ def extent(value: Value) -> int:
     """Return the number of elements of an expression."""
     if isinstance(value, Op):
         return max((extent(argument) for argument in value.args), default=1)
-    if isinstance(value, Vec | Shifted):
+    if isinstance(value, Vec | ShiftedVec):
         return value.count
     if isinstance(value, Table1):
         return extent(value.x)
@@ -170,7 +170,7 @@ def extent(value: Value) -> int:
         return max(extent(value.x), extent(value.y))
     if isinstance(value, MatVec):
         return value.cols if value.transposed else value.rows
-    if isinstance(value, RowOf):
+    if isinstance(value, PatternRow):
         return value.cols
     if isinstance(value, Outer):
         return value.u_count * value.v_count

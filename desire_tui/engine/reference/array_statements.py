@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.reference.expressions import Expressions
+from desire_tui.engine.reference.expressions import ExpressionClosures
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.lowered import SetDot, SetMat, SetVec
-    from desire_tui.engine.reference.statements import Statements
+    from desire_tui.engine.reference.statements import StatementClosures
 
     Run = Callable[[], None]
 
 
-def vector(statements: Statements, action: SetVec) -> Run:
+def vector(statements: StatementClosures, action: SetVec) -> Run:
     """Return the closure of `Vector` or `Vectr delta`."""
     target = statements.data[action.slot : action.slot + action.count]
     mask = None
@@ -43,12 +43,12 @@ def vector(statements: Statements, action: SetVec) -> Run:
     return run
 
 
-def matrix(statements: Statements, action: SetMat) -> Run:
+def matrix(statements: StatementClosures, action: SetMat) -> Run:
     """Return the closure of `MATRIX` or `DELTA`."""
     count = action.rows * action.cols
     target = statements.data[action.slot : action.slot + count]
     mask = None if action.mask_slot is None else statements.data[action.mask_slot : action.mask_slot + count]
-    expressions = Expressions(statements.values, statements.sequence, count)
+    expressions = ExpressionClosures(statements.values, statements.sequence, count)
     value = expressions.compile(action.value)
     lower = None if action.lower is None else expressions.compile(action.lower)
     upper = None if action.upper is None else expressions.compile(action.upper)
@@ -68,7 +68,7 @@ def matrix(statements: Statements, action: SetMat) -> Run:
     return run
 
 
-def dot(statements: Statements, action: SetDot) -> Run:
+def dot(statements: StatementClosures, action: SetDot) -> Run:
     """Return the closure of `DOT` or `AVG`."""
     terms = []
     for term in action.terms:

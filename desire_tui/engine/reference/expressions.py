@@ -14,8 +14,8 @@ from desire_tui.engine.lowered import (
     MatVec,
     Op,
     Outer,
-    RowOf,
-    Shifted,
+    PatternRow,
+    ShiftedVec,
     Table1,
     Table2,
     Vec,
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     Thunk = Callable[[], Any]
 
 
-class Expressions:
+class ExpressionClosures:
     """Compiles the expressions of one statement; `begin` must be called before each evaluation.
 
     `count` None: a number; else the number of elements that the statement assigns. An expression object that
@@ -112,13 +112,13 @@ class Expressions:
             return self._operation(value)
         if isinstance(value, Vec):
             return partial(data.__getitem__, slice(value.slot, value.slot + value.count))
-        if isinstance(value, Shifted):
+        if isinstance(value, ShiftedVec):
             return partial(_shifted, data[value.slot : value.slot + value.count], value.by)
         if isinstance(value, MatVec):
             matrix = data[value.slot : value.slot + value.rows * value.cols].reshape(value.rows, value.cols)
             matrix = matrix.T if value.transposed else matrix
             return partial(matrix.dot, data[value.x_slot : value.x_slot + matrix.shape[1]])
-        if isinstance(value, RowOf):
+        if isinstance(value, PatternRow):
             matrix = data[value.slot : value.slot + value.rows * value.cols].reshape(value.rows, value.cols)
             return partial(_row, matrix, self.cells)
         if isinstance(value, Outer):

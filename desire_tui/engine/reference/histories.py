@@ -5,19 +5,19 @@ from __future__ import annotations
 import ctypes
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine.lowered import DelayLine, Store, TrackHold
+from desire_tui.engine.lowered import DelayLine, StoreHistory, UpdateTrackHold
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.lowered import Get
-    from desire_tui.engine.reference.statements import Statements
+    from desire_tui.engine.lowered import GetHistory
+    from desire_tui.engine.reference.statements import StatementClosures
     from desire_tui.engine.runtime.run_memory import RunMemory
 
     Run = Callable[[], None]
 
 
-def sampled(statements: Statements, every: int, body: Run) -> Run:
+def sampled(statements: StatementClosures, every: int, body: Run) -> Run:
     """Return what carries `body` out at every m-th communication point (`SAMPLE m`)."""
 
     def run() -> None:
@@ -29,10 +29,12 @@ def sampled(statements: Statements, every: int, body: Run) -> Run:
     return run
 
 
-def history(statements: Statements, action: Store | Get | DelayLine | TrackHold) -> Run:
+def history(
+    statements: StatementClosures, action: StoreHistory | GetHistory | DelayLine | UpdateTrackHold
+) -> Run:
     """Return the closure of a statement that remembers."""
     cells = statements.cells
-    if isinstance(action, TrackHold):
+    if isinstance(action, UpdateTrackHold):
         control, value = statements.value(action.control), statements.value(action.value)
         held, tracked = action.held_slot, action.tracked_slot
 
@@ -47,7 +49,7 @@ def history(statements: Statements, action: Store | Get | DelayLine | TrackHold)
         return _delay(statements, action)
     array = action.array_slot
     count, counter, slot = action.count, action.counter, action.slot
-    stores = isinstance(action, Store)
+    stores = isinstance(action, StoreHistory)
 
     def move() -> None:
         memory = statements.memory
@@ -66,7 +68,7 @@ def history(statements: Statements, action: Store | Get | DelayLine | TrackHold)
     return move
 
 
-def _delay(statements: Statements, action: DelayLine) -> Run:
+def _delay(statements: StatementClosures, action: DelayLine) -> Run:
     source = statements.value(action.source)
     cells, buffer, count = statements.cells, action.buffer_slot, action.count
     slot, counter = action.slot, action.counter

@@ -15,7 +15,7 @@ from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.lowering.jacobian import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.passes.slices import jacobian_pass
-from desire_tui.engine.reference.statements import Statements
+from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.runtime.run_faults import state_name
 from desire_tui.engine.values import T
 
@@ -92,7 +92,7 @@ class _Matrices:
         self.order, self.values = segment.order, values
         self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self.array = checked_array(segment, values)
-        self.statements = Statements(values, self.order)
+        self.statements = StatementClosures(values, self.order)
         self.jacobian = self.statements.compile(jacobian_pass(segment, self.order))
         tangent = differentiate(segment, values.room)
         self.directions = tangent.directions

@@ -9,12 +9,12 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Learn
+    from desire_tui.engine.lowered import LearningStep
 
     Array = NDArray[np.float64]
 
 
-def learn(action: Learn, data: Array, rate: float, criterion: float | None) -> None:
+def learn(action: LearningStep, data: Array, rate: float, criterion: float | None) -> None:
     """Carry out one learning step. W is rows × cols, v has `rows` elements, x `cols`."""
     rows, cols = action.out_count, action.in_count
     out = data[action.out_slot : action.out_slot + rows]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
-from desire_tui.engine.reference.statements import Statements
+from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.states import states_of
 from desire_tui.engine.reference.steps import fixed_step, variable_step
 from desire_tui.engine.runtime.run_memory import Ended, Phase
@@ -40,7 +40,7 @@ class ReferenceModel:
         self.nodes = [] if tableau is None else [(i, float(c)) for i, c in enumerate(tableau.c) if i]
         """Stages behind the first, and where in the step they stand."""
         self.columns = [column.slot for column in segment.columns]
-        self.statements = Statements(values, segment.order)
+        self.statements = StatementClosures(values, segment.order)
         self.states = states_of(segment, tableau, values, self.statements.derivatives)
         compile_ = self.statements.compile
         self.full = compile_(full_pass(segment))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from desire_tui.engine.lowered import Action, Value
-    from desire_tui.engine.reference.statements import Statements
+    from desire_tui.engine.reference.statements import StatementClosures
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2)}
 _ATOM, _SIGNED = 4, 3
@@ -32,7 +32,7 @@ class CannotWriteError(Exception):
 class PassText:
     """Writes the function of one pass."""
 
-    def __init__(self, statements: Statements) -> None:
+    def __init__(self, statements: StatementClosures) -> None:
         self.statements = statements
         self.lines: list[str] = []
         self.names: dict[str, Any] = {

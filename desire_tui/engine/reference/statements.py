@@ -10,19 +10,19 @@ from desire_tui.engine.lowered import (
     DelayLine,
     Deriv,
     DerivVec,
-    Get,
+    GetHistory,
     Guard,
-    Learn,
+    LearningStep,
     Set,
     SetDot,
     SetMat,
     SetVec,
-    Store,
+    StoreHistory,
     Terminate,
-    TrackHold,
+    UpdateTrackHold,
 )  # fmt: skip
 from desire_tui.engine.reference.array_statements import dot, matrix, vector
-from desire_tui.engine.reference.expressions import Expressions
+from desire_tui.engine.reference.expressions import ExpressionClosures
 from desire_tui.engine.reference.histories import history, sampled
 from desire_tui.engine.reference.learning import learn
 from desire_tui.engine.reference.random import Sequence
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     Run = Callable[[], None]
 
 
-class Statements:
+class StatementClosures:
     """Compiles statements.
 
     `memory` is the run's, `derivatives` the array that passes write to, `fired` the first `term` that fired
@@ -64,7 +64,7 @@ class Statements:
 
     def value(self, value: Value, count: int | None = None) -> Thunk:
         """Return the closure of an expression over a number or `count` elements."""
-        expressions = Expressions(self.values, self.sequence, count)
+        expressions = ExpressionClosures(self.values, self.sequence, count)
         thunk = expressions.compile(value)
         if expressions.is_plain:
             return thunk
@@ -91,11 +91,11 @@ class Statements:
                 return matrix(self, action)
             case SetDot():
                 return dot(self, action)
-            case Store() | Get() | DelayLine() | TrackHold():
+            case StoreHistory() | GetHistory() | DelayLine() | UpdateTrackHold():
                 return history(self, action)
             case Terminate():
                 return self._term(action.number, self.value(action.value))
-            case Learn():
+            case LearningStep():
                 rate = self.value(action.rate)
                 criterion = None if action.criterion is None else self.value(action.criterion)
                 return lambda: learn(action, self.data, rate(), None if criterion is None else criterion())

@@ -23,13 +23,13 @@ from desire_tui.engine.integration.problem import (
     STUCK_MOST,
 )
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
-from desire_tui.engine.integration.system import Functions, StiffSystem
+from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.lowering.jacobian import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import dependence
 from desire_tui.engine.reference.model import ReferenceModel
-from desire_tui.engine.reference.statements import Statements
+from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.integration.plan import Plan
+    from desire_tui.engine.integration.plan import SolverPlan
     from desire_tui.engine.lowered import Segment
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
@@ -55,19 +55,19 @@ class StiffReferenceModel(ReferenceModel):
         self._segment = segment
         self._directions = self._array = 0
         self._advised = False
-        self._others = Statements(values, segment.order)  # passes between steps write here
+        self._others = StatementClosures(values, segment.order)  # passes between steps write here
         self._stage = self._others.compile(derivative_slice(segment))
         self._acts = acts_at_steps(segment)
         self._callbacks = PythonCallbacks(self)
         way = self._plan(rule)
         natives = replace(self._callbacks.natives, own=is_own(rule, self.order, way))
         self.system = self._callbacks.system = StiffSystem(
-            rule, way, values.address, self.ranges, Functions(), natives
+            rule, way, values.address, self.ranges, ModelFunctions(), natives
         )  # fmt: skip
         if isinstance(self.system.solver, OwnSolver):
             self.system.solver.connect(*self._callbacks.own)
 
-    def _plan(self, rule: int) -> Plan:
+    def _plan(self, rule: int) -> SolverPlan:
         segment = self._segment
         order, kind, given = segment.order, kind_of(rule), segment.jacobian
         program = tangent = False

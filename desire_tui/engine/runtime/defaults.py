@@ -7,7 +7,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP, Plan
+from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP, RunPlan
 from desire_tui.engine.values import (
     CHECKN,
     DT,
@@ -63,7 +63,7 @@ class Defaults:
         self._steps = Steps()
         self._generation = values.generation
 
-    def plan(self, segment: Segment, rule: int, source: Source, at: Span | None) -> Plan:
+    def plan(self, segment: Segment, rule: int, source: Source, at: Span | None) -> RunPlan:
         """Return the plan of a run of `segment` under `irule` (1 if never set). Errors 87, 93, 110, 124."""
         if segment.row_chosen is not None and not self._values.cells[IROW] >= 1.0:
             facts = {"value": self._values.cells[IROW]}
@@ -78,7 +78,7 @@ class Defaults:
             placed = [Diagnostic(d.key, at, d.facts, source) for d in error.diagnostics]
             raise DesireError(*placed) from None
 
-    def _plan(self, segment: Segment, rule: int) -> Plan:
+    def _plan(self, segment: Segment, rule: int) -> RunPlan:
         cells = self._values.cells
         t0 = self._own(T)
         if t0 is None:
@@ -98,7 +98,7 @@ class Defaults:
         least = self._steps.least(dt) if step_rule else 0.0
         error_max = self._tolerance(rule)
         every = self._own(MM)
-        return Plan(
+        return RunPlan(
             rule=rule, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
             dt_max=self._largest_step(rule, comint),
             dt_min=self._or_default(DTMIN, least / 16, supply=step_rule),

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from desire_tui.engine.lowered import Action, Segment, Value
-    from desire_tui.engine.runtime.plan import Plan
+    from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.values import Values
 
 _OPERATIONS: dict[str, Callable[..., float]] = {
@@ -34,7 +34,7 @@ _OPERATIONS: dict[str, Callable[..., float]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class TimedDelay:
     """A delay line, and the statements before it that its time depends on, in their order."""
 
     action: DelayLine
@@ -45,9 +45,9 @@ class Delays:
     """The delay lines of segments, looked for once."""
 
     def __init__(self) -> None:
-        self._found: dict[int, tuple[Segment, tuple[Line, ...], bool]] = {}
+        self._found: dict[int, tuple[Segment, tuple[TimedDelay, ...], bool]] = {}
 
-    def lags(self, segment: Segment, plan: Plan, values: Values) -> dict[int, int]:
+    def lags(self, segment: Segment, plan: RunPlan, values: Values) -> dict[int, int]:
         """Return each delay line's lag by its counter. DesireError 105: buffer too short; 122: DT varies."""
         known = self._found.get(id(segment))
         if known is None or known[0] is not segment:
@@ -57,14 +57,14 @@ class Delays:
         return _lags(segment, lines, changes_dt, plan, values) if lines else {}
 
 
-def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[Line]:
+def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[TimedDelay]:
     """Find delay lines; `before` are the numbers set up to here whatever the conditions are."""
     for action in body:
         match action:
             case Set():
                 before.append(action)
             case DelayLine():
-                yield Line(action, _needed(action.tau, before))
+                yield TimedDelay(action, _needed(action.tau, before))
             case Guard(kind="step" | "out"):
                 yield from _lines(action.body, before)
             case Guard():
@@ -85,7 +85,7 @@ def _needed(tau: Value, before: list[Set]) -> tuple[Set, ...]:
 
 
 def _lags(
-    segment: Segment, lines: tuple[Line, ...], changes_dt: bool, plan: Plan, values: Values
+    segment: Segment, lines: tuple[TimedDelay, ...], changes_dt: bool, plan: RunPlan, values: Values
 ) -> dict[int, int]:
     found: dict[int, int] = {}
     for known in lines:
@@ -104,7 +104,7 @@ def _lags(
     return found
 
 
-def _time(line: Line, values: Values) -> float:
+def _time(line: TimedDelay, values: Values) -> float:
     """Return a delay's time, as the run's first pass finds it; nan, which is refused, where it has none."""
     own: dict[int, float] = {}
     for action in line.before:

@@ -42,7 +42,7 @@ class Start:
 
 
 @dataclass
-class History:
+class RunHistory:
     """Positions by segment, and the start of the last run."""
 
     values: Values
@@ -52,7 +52,7 @@ class History:
     _ranges: list[tuple[int, int]] = field(default_factory=list)
     _names: int = -1
 
-    def copy(self) -> History:
+    def copy(self) -> RunHistory:
         """Return a copy that later runs leave alone."""
         positions = {label: known.copy() for label, known in self.positions.items()}
         return replace(self, positions=positions)

@@ -13,7 +13,7 @@ VARIABLE_ORDER = frozenset(range(9, 17))
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class RunPlan:
     """Everything a run needs to know before its first step; times in the program's unit.
 
     The run goes from `t0` to `t0` + `t_max` (TMAX), with `nn` communication points `comint` apart, of which

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered import Action, Segment, Where
-    from desire_tui.engine.runtime.plan import Plan
+    from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -43,7 +43,7 @@ def first_not_finite(data: NDArray[np.float64], states: NDArray[np.int64], colum
     return 0
 
 
-def fault(ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values: Values) -> DesireError:
+def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, values: Values) -> DesireError:
     """Return the error for a run that ended by a fault."""
     cells, t = values.cells, values.cells[T]
     which = int(memory.which)
@@ -70,7 +70,7 @@ def fault(ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values:
 
 
 def exhausted(
-    ended: Ended, segment: Segment, plan: Plan, memory: RunMemory, values: Values
+    ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, values: Values
 ) -> DesireError | None:
     """Return error 232 for a run that ended because a CLEARN had no template left, else None."""
     if ended is not Ended.TERM:

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Column, Request
+    from desire_tui.engine.lowered import SampleColumn, SampleRequest
 
 EndedWord = Literal["running", "tmax", "term", "stopped", "failed"]
 
@@ -26,8 +26,8 @@ class RunRecord:
     number: int
     segment: str | None
     line: int
-    requests: tuple[Request, ...]
-    columns: tuple[Column, ...]
+    requests: tuple[SampleRequest, ...]
+    columns: tuple[SampleColumn, ...]
     overlay: bool
     rule: int
     scale: float
@@ -73,7 +73,7 @@ class RunRecord:
             self.count = min(self.count, len(kept))
             self.rows = kept
 
-    def first_column(self, request: Request) -> int:
+    def first_column(self, request: SampleRequest) -> int:
         """Return where a request's variables begin in `columns`, which holds all requests' in turn."""
         before = 0
         for known in self.requests:

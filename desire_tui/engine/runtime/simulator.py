@@ -11,7 +11,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.runtime.heartbeat import Ticker
-from desire_tui.engine.runtime.history import History
+from desire_tui.engine.runtime.history import RunHistory
 from desire_tui.engine.runtime.plan import DUMMY
 from desire_tui.engine.runtime.run_faults import exhausted, fault
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.history import Positions
     from desire_tui.engine.runtime.pause_and_stop import Control
-    from desire_tui.engine.runtime.plan import Plan
+    from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.runtime.run_record import EndedWord, RunRecord
     from desire_tui.engine.values import Values
 
@@ -54,7 +54,7 @@ class Simulator:
 
     def __init__(self, values: Values, control: Control) -> None:
         self.defaults = Defaults(values)
-        self.history = History(values)
+        self.history = RunHistory(values)
         self._values = values
         self._control = control
         self._ticker = Ticker(control)
@@ -77,7 +77,9 @@ class Simulator:
         seconds = now - began if began > 0.0 else record.seconds if record is not None else 0.0
         return steps / seconds if seconds > 0.0 else 0.0
 
-    def run(self, model: Model, segment: Segment, plan: Plan, record: RunRecord, observer: Observer) -> bool:
+    def run(
+        self, model: Model, segment: Segment, plan: RunPlan, record: RunRecord, observer: Observer
+    ) -> bool:
         """Run to the end; False if the user ended it. DesireError: a fault; the record then says `failed`."""
         self._began = perf_counter()
         positions = self.history.begin(segment)
@@ -110,7 +112,7 @@ class Simulator:
         raise error
 
     def _set_up(
-        self, segment: Segment, plan: Plan, positions: Positions, lag: NDArray[np.int64]
+        self, segment: Segment, plan: RunPlan, positions: Positions, lag: NDArray[np.int64]
     ) -> RunMemory:
         values = self._values
         joined = positions.end == values.cells[T]
@@ -167,7 +169,7 @@ class Simulator:
         return may_go_on
 
     def _settle(
-        self, plan: Plan, memory: RunMemory, positions: Positions, record: RunRecord, *, sampled: bool
+        self, plan: RunPlan, memory: RunMemory, positions: Positions, record: RunRecord, *, sampled: bool
     ) -> None:
         """Make the run's results the script's; `sampled`: it ended with a sample."""
         values = self._values
@@ -193,7 +195,7 @@ class Simulator:
             record.pictures = record.pictures[::2]
 
 
-def _rows(plan: Plan, record: RunRecord) -> NDArray[np.float64]:
+def _rows(plan: RunPlan, record: RunRecord) -> NDArray[np.float64]:
     """Room for all samples at once: pages cost memory only when they are written. DesireError 470."""
     columns = 1 + len(record.columns)
     size = plan.rows_most * columns * 8

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.lowered import Get
+from desire_tui.engine.lowered import GetHistory
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Column, Segment
+    from desire_tui.engine.lowered import SampleColumn, Segment
     from desire_tui.engine.values import Values
 
 
@@ -38,7 +38,7 @@ def write_stash(path: Path, histories: NDArray[np.float64]) -> None:
         ) from None
 
 
-def read_stash(path: Path, wanted: tuple[Column, ...], segment: Segment) -> NDArray[np.float64]:
+def read_stash(path: Path, wanted: tuple[SampleColumn, ...], segment: Segment) -> NDArray[np.float64]:
     """Return the file's samples × variables. DesireError 92: missing, unreadable or too narrow."""
     where = wanted[0].where.span
     facts: dict[str, object] = {"path": path, "wanted": len(wanted)}
@@ -67,7 +67,7 @@ def with_recovery(segment: Segment, samples: int, values: Values) -> tuple[Segme
         slots.append(values.array(hidden, (samples,)).slot)
         del values.names[hidden]
     gets = tuple(
-        Get(column.slot, slot, samples, segment.counters + number, column.where)
+        GetHistory(column.slot, slot, samples, segment.counters + number, column.where)
         for number, (column, slot) in enumerate(zip(segment.recover, slots, strict=True))
     )
     changed = replace(segment, body=gets + segment.body, counters=segment.counters + len(gets), recover=())

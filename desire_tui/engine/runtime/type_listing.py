@@ -8,10 +8,10 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Request
+    from desire_tui.engine.lowered import SampleRequest
 
 
-def header(request: Request) -> str:
+def header(request: SampleRequest) -> str:
     """Return the first line: `t,   x,y`."""
     return "t,   " + ",".join(column.name for column in request.columns)
 

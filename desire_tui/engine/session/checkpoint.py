@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from desire_tui.engine.runtime.defaults import Wishes
-    from desire_tui.engine.runtime.history import History
+    from desire_tui.engine.runtime.history import RunHistory
     from desire_tui.engine.runtime.simulator import Simulator
     from desire_tui.engine.values import Saved, Values
 
@@ -16,15 +16,15 @@ NUMBERS_MOST = 1 << 20
 
 
 @dataclass(frozen=True, slots=True)
-class Situation:
+class Checkpoint:
     """Quantities, random numbers, positions of histories, and which settings are defaults."""
 
     saved: Saved
-    history: History
+    history: RunHistory
     defaults: Wishes
 
     @classmethod
-    def now(cls, values: Values, simulator: Simulator) -> Situation:
+    def now(cls, values: Values, simulator: Simulator) -> Checkpoint:
         """Return the present situation."""
         return cls(values.saved(), simulator.history.copy(), simulator.defaults.saved())
 

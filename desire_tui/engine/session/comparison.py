@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.lowered import Column, Where
+from desire_tui.engine.lowered import SampleColumn, Where
 from desire_tui.engine.passes.slices import full_pass, is_pure
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.session.differences import needs_steps_of, table
@@ -17,15 +17,15 @@ from desire_tui.engine.values import DT, ERMAX
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.session.script_host import World
+    from desire_tui.engine.session.script_host import ScriptHost
     from desire_tui.engine.session.session import Session
-    from desire_tui.engine.session.workspace import Desk
+    from desire_tui.engine.session.workspace import Workspace
 
 RULES = (*range(6), *range(7, 17))
 
 
 @dataclass(frozen=True)
-class Change:
+class Variation:
     """What the run is repeated with; None: as it was."""
 
     rule: int | None = None
@@ -33,7 +33,7 @@ class Change:
     error_max: float | None = None
 
     @classmethod
-    def parse(cls, argument: str) -> Change:
+    def parse(cls, argument: str) -> Variation:
         """Read `rule 4`, `DT 0.001`, `rule 14 ERMAX 1.0E-08`. DesireError 404, 86."""
         words = argument.split()
         found: dict[str, float] = {}
@@ -57,7 +57,7 @@ class Change:
         return ", ".join(parts)
 
 
-def compare_runs(session: Session, world: World, desk: Desk, change: Change) -> str:
+def compare_runs(session: Session, world: ScriptHost, desk: Workspace, change: Variation) -> str:
     """Return a table: for each displayed variable the largest difference, its time, and the final values.
 
     Both runs are shown on a page of their own. Everything is put back afterwards: quantities, random
@@ -81,7 +81,7 @@ def compare_runs(session: Session, world: World, desk: Desk, change: Change) -> 
 
 
 def _sampled_alike(
-    world: World, desk: Desk, one: RunRecord, other: RunRecord, change: Change
+    world: ScriptHost, desk: Workspace, one: RunRecord, other: RunRecord, change: Variation
 ) -> tuple[RunRecord, RunRecord]:
     """Return the runs, or where their samples stand at different times one of them made again.
 
@@ -98,17 +98,17 @@ def _sampled_alike(
     repeated, spacing = again
     try:
         if repeated is one:
-            return run_again(world, desk, one, Change(), spacing), other
+            return run_again(world, desk, one, Variation(), spacing), other
         return one, run_again(world, desk, one, change, spacing)
     except DesireError:
         return one, other  # the runs themselves came to their ends: that is enough to tell
 
 
 def run_again(
-    world: World,
-    desk: Desk,
+    world: ScriptHost,
+    desk: Workspace,
     last: RunRecord,
-    change: Change,
+    change: Variation,
     spacing: float | None = None,
     recorded: tuple[str, int] | None = None,
 ) -> RunRecord:
@@ -127,7 +127,7 @@ def run_again(
     if segment.recover:
         segment = desk.segments.recovering(segment, desk.stash_path)
     if recorded is not None:  # stashed variables are columns and nothing else
-        segment = replace(segment, stash=(*segment.stash, Column(*recorded, _anywhere(segment))))
+        segment = replace(segment, stash=(*segment.stash, SampleColumn(*recorded, _anywhere(segment))))
     for slot, value in ((DT, change.dt), (ERMAX, change.error_max)):
         if value is not None:
             desk.values.assign(slot, value)

@@ -33,7 +33,7 @@ def make_backend(name: str) -> Backend:
     return ReferenceBackend()
 
 
-class Segments:
+class CompiledSegments:
     """Segments of the active program, by label."""
 
     def __init__(self, values: Values, backend: str) -> None:

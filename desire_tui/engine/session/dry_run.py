@@ -45,7 +45,7 @@ def wrong_jacobians(program: Program) -> tuple[Diagnostic, ...]:
     for name in state_order(program):
         values.scalar(name, is_state=True)
     script = structure(program)
-    world = EmptyWorld(program, script, values, labels)
+    world = DryHost(program, script, values, labels)
     interpreter = Interpreter(program, script, values, world)
     try:
         interpreter.run()
@@ -60,7 +60,7 @@ def wrong_jacobians(program: Program) -> tuple[Diagnostic, ...]:
     return tuple(world.found)
 
 
-class EmptyWorld:
+class DryHost:
     """Implements `interpreter.Host`: a script runs in it, but nothing comes of it."""
 
     def __init__(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes import Dump, Write
-from desire_tui.engine.session.dry_run import EmptyWorld
+from desire_tui.engine.session.dry_run import DryHost
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def glance(text: str, program: Program, structure: Structure, values: Values) ->
     return "".join(world.written)
 
 
-class _Looking(EmptyWorld):
+class _Looking(DryHost):
     """A world in which nothing happens; what is written there is kept."""
 
     def __init__(

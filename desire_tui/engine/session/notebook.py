@@ -25,7 +25,7 @@ RUNS_MAX = 8
 """Runs of a command that are noted one by one; of more, only the last."""
 
 
-class Journal:
+class Notebook:
     """Writes to one file at a time, always appending.
 
     What a command prints is written together when something else is to be noted or the command ends; every

@@ -54,11 +54,11 @@ def overridden(program: Program, structure: Structure, overrides: Mapping[str, f
 
 def problems_of(program: Program, structure: Structure, overrides: Mapping[str, float]) -> list[Diagnostic]:
     """Return errors 409, 55, 73: settings of names that the program does not know or that take no value."""
-    from desire_tui.engine.check.declared import Survey
+    from desire_tui.engine.check.declared import DeclaredNames
     from desire_tui.engine.syntax.words import KEYWORDS
     from desire_tui.engine.values import SYSTEM_VARIABLES
 
-    survey = Survey(program, structure)
+    survey = DeclaredNames(program, structure)
     words = set(_WORD.findall(program.source.text)) - KEYWORDS.keys()
     known = {*survey.everything, *SYSTEM_VARIABLES, *words}
     problems = []

@@ -9,14 +9,14 @@ import numpy as np
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.graph.quantity_pages import array_chart, history_chart
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.session.comparison import Change, run_again
+from desire_tui.engine.session.comparison import Variation, run_again
 from desire_tui.engine.session.overrides import parts
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.session.script_host import World
+    from desire_tui.engine.session.script_host import ScriptHost
     from desire_tui.engine.session.session import Session
-    from desire_tui.engine.session.workspace import Desk
+    from desire_tui.engine.session.workspace import Workspace
     from desire_tui.engine.values import Values
 
 Charted = Literal["shown", "unknown", "no run", "constant", "changed", "failed"]
@@ -24,7 +24,7 @@ Charted = Literal["shown", "unknown", "no run", "constant", "changed", "failed"]
 or forgotten names the run cannot be made again; it `failed` when made again."""
 
 
-def chart(session: Session, world: World, desk: Desk, wanted: str) -> Charted:
+def chart(session: Session, world: ScriptHost, desk: Workspace, wanted: str) -> Charted:
     """Plot `x`, `A` or `A[2,3]`. What the last run did not record is recorded by that run made once more.
 
     Then everything is put back: quantities, random numbers, positions of histories.
@@ -59,7 +59,7 @@ def _slot(values: Values, name: str, subscripts: tuple[int, ...]) -> int | None:
     return quantity.slot + at * (quantity.slots // quantity.size)
 
 
-def _history(session: Session, world: World, desk: Desk, name: str, slot: int) -> Charted:
+def _history(session: Session, world: ScriptHost, desk: Workspace, name: str, slot: int) -> Charted:
     record = session.runs[-1] if session.runs else None
     if record is None or not record.count:
         return "no run"
@@ -74,7 +74,7 @@ def _history(session: Session, world: World, desk: Desk, name: str, slot: int) -
         return "constant"
     try:
         with world.runs.restored():
-            again = run_again(world, desk, record, Change(), recorded=(name, slot))
+            again = run_again(world, desk, record, Variation(), recorded=(name, slot))
     except Interrupted:
         raise
     except DesireError:

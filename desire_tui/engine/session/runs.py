@@ -11,7 +11,7 @@ from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
 from desire_tui.engine.runtime.stash import write_stash
-from desire_tui.engine.session.checkpoint import NUMBERS_MOST, Situation
+from desire_tui.engine.session.checkpoint import NUMBERS_MOST, Checkpoint
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.session.listener import Listener
-    from desire_tui.engine.session.type_output import Lister
-    from desire_tui.engine.session.workspace import Desk
+    from desire_tui.engine.session.type_output import TypeOutput
+    from desire_tui.engine.session.workspace import Workspace
     from desire_tui.engine.values import Values
 
 RUNS_BYTES_MAX = 1 << 30
@@ -36,7 +36,7 @@ THINNED_ROWS = 10_000
 class Runs:
     """Makes runs and keeps their records. Lives on the session's thread."""
 
-    def __init__(self, desk: Desk, listener: Listener, control: Control, graphs: GraphBook) -> None:
+    def __init__(self, desk: Workspace, listener: Listener, control: Control, graphs: GraphBook) -> None:
         self._desk = desk
         self._listener = listener
         self._graphs = graphs
@@ -47,7 +47,7 @@ class Runs:
         self.count = 0
         """Runs made since then."""
         self._bytes = 0  # of all samples kept but the newest run's
-        self.start: Situation | None = None
+        self.start: Checkpoint | None = None
         """Where the last run began, unless the model is large."""
         self.run_of: tuple[str, int] | None = None
         """The last run's program text, and `Values.generation` then."""
@@ -59,7 +59,7 @@ class Runs:
         rule: int,
         *,
         star: bool,
-        on_start: Callable[[RunRecord], Lister],
+        on_start: Callable[[RunRecord], TypeOutput],
     ) -> None:
         """Make one run of a segment, to its end; `star`: its stash is not written.
 
@@ -105,9 +105,9 @@ class Runs:
         if segment.stash and not star:
             self._stash(segment, record)
 
-    def _situation(self) -> Situation | None:
+    def _situation(self) -> Checkpoint | None:
         values = self._values
-        return Situation.now(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
+        return Checkpoint.now(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
 
     def _advise(self, model: Model, segment: Segment) -> None:
         """Show what a model has to say before its first run (rules 9 … 16)."""
@@ -148,7 +148,7 @@ class Runs:
     @contextmanager
     def restored(self) -> Iterator[None]:
         """Put everything that a run could change back afterwards."""
-        before = Situation.now(self._values, self.simulator)
+        before = Checkpoint.now(self._values, self.simulator)
         try:
             yield
         finally:

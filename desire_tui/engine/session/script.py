@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes import Placed
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.session.listener import Listener
-    from desire_tui.engine.session.script_host import World
-    from desire_tui.engine.session.workspace import Desk
+    from desire_tui.engine.session.script_host import ScriptHost
+    from desire_tui.engine.session.workspace import Workspace
 
 
-class Script:
+class ScriptRunner:
     """Owns the interpreter. Everything here runs on the session's thread."""
 
-    def __init__(self, desk: Desk, world: World, control: Control, listener: Listener) -> None:
+    def __init__(self, desk: Workspace, world: ScriptHost, control: Control, listener: Listener) -> None:
         self._desk, self._world, self._control, self._listener = desk, world, control, listener
         self._interpreter: Interpreter | None = None
         self.stopped: StoppedAt | None = None

@@ -9,7 +9,7 @@ import numpy as np
 
 from desire_tui.engine.session.runs import Runs
 from desire_tui.engine.session.status import State
-from desire_tui.engine.session.type_output import Lister
+from desire_tui.engine.session.type_output import TypeOutput
 from desire_tui.engine.values import SCALE
 
 if TYPE_CHECKING:
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.listener import Listener
-    from desire_tui.engine.session.workspace import Desk
+    from desire_tui.engine.session.workspace import Workspace
     from desire_tui.engine.values import Quantity, Values
 
 
-class World:
+class ScriptHost:
     """Implements `interpreter.Host` for a session. Lives on the session's thread."""
 
-    def __init__(self, desk: Desk, listener: Listener, control: Control, graphs: GraphBook) -> None:
+    def __init__(self, desk: Workspace, listener: Listener, control: Control, graphs: GraphBook) -> None:
         self._desk = desk
         self._listener = listener
         self._control = control
@@ -58,11 +58,11 @@ class World:
         finally:
             self.state = before
 
-    def _run_starts(self, record: RunRecord) -> Lister:
+    def _run_starts(self, record: RunRecord) -> TypeOutput:
         self.state = State.RUNNING
         ahead = self.runs_ahead()
         self.runs_expected = None if ahead is None else record.number + ahead
-        return Lister(record, self.write, self.write_to_channel)
+        return TypeOutput(record, self.write, self.write_to_channel)
 
     @contextmanager
     def working(self) -> Iterator[None]:

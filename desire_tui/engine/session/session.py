@@ -9,14 +9,14 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph import GraphBook
 from desire_tui.engine.runtime.pause_and_stop import Control
 from desire_tui.engine.session.listener import Listener
-from desire_tui.engine.session.notebook import Journal
+from desire_tui.engine.session.notebook import Notebook
 from desire_tui.engine.session.permissions import Permissions
-from desire_tui.engine.session.script import Script
-from desire_tui.engine.session.script_host import World
-from desire_tui.engine.session.session_commands import Commands
-from desire_tui.engine.session.static_check import Checker
+from desire_tui.engine.session.script import ScriptRunner
+from desire_tui.engine.session.script_host import ScriptHost
+from desire_tui.engine.session.session_commands import SessionCommands
+from desire_tui.engine.session.static_check import StaticChecker
 from desire_tui.engine.session.status import State, Status
-from desire_tui.engine.session.workspace import Desk
+from desire_tui.engine.session.workspace import Workspace
 from desire_tui.engine.source import Source
 from desire_tui.engine.values import DT, SCALE, TMAX, T
 
@@ -53,17 +53,17 @@ class Session:
     ) -> None:
         self._listener = console if console is not None else Listener()
         self._control = Control()
-        self._journal = Journal(lambda problem: self._listener.problems((problem,)), _draw)
+        self._journal = Notebook(lambda problem: self._listener.problems((problem,)), _draw)
         if permissions is None:
             permissions = Permissions()
-        self._desk = Desk(backend, folder, permissions, self._journal)
+        self._desk = Workspace(backend, folder, permissions, self._journal)
         self.graphs = GraphBook()
         """The last graphs, oldest first; `graph` is the newest."""
-        self._world = World(self._desk, self._listener, self._control, self.graphs)
-        self._commands = Commands(self, self._desk, self._world, self._listener)
+        self._world = ScriptHost(self._desk, self._listener, self._control, self.graphs)
+        self._commands = SessionCommands(self, self._desk, self._world, self._listener)
         self._world.carry_out = self._commands.carry_out
-        self._script = Script(self._desk, self._world, self._control, self._listener)
-        self._checker = Checker()
+        self._script = ScriptRunner(self._desk, self._world, self._control, self._listener)
+        self._checker = StaticChecker()
 
     # ------------------------------------------------------------------ what there is
 

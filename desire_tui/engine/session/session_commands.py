@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes import Dump, FileCommand, Simple
-from desire_tui.engine.session.comparison import Change, compare_runs
+from desire_tui.engine.session.comparison import Variation, compare_runs
 from desire_tui.engine.session.report import run_report
 from desire_tui.engine.session.status import State
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.nodes import Placed, Statement
     from desire_tui.engine.session.listener import Listener
-    from desire_tui.engine.session.script_host import World
+    from desire_tui.engine.session.script_host import ScriptHost
     from desire_tui.engine.session.session import Session
-    from desire_tui.engine.session.workspace import Desk
+    from desire_tui.engine.session.workspace import Workspace
     from desire_tui.engine.source import Source
 
 _OWN_WORDS = frozenset(
@@ -26,10 +26,10 @@ _OWN_WORDS = frozenset(
 )
 
 
-class Commands:
+class SessionCommands:
     """Carries out what is no statement of a script."""
 
-    def __init__(self, session: Session, desk: Desk, world: World, listener: Listener) -> None:
+    def __init__(self, session: Session, desk: Workspace, world: ScriptHost, listener: Listener) -> None:
         self._session = session
         self._desk = desk
         self._world = world
@@ -127,7 +127,7 @@ class Commands:
         return with_numbers(text)
 
     def _compare(self, argument: str | None) -> None:
-        change = Change.parse(argument or "")
+        change = Variation.parse(argument or "")
         try:
             with self._world.working():
                 table = compare_runs(self._session, self._world, self._desk, change)

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.source import Source
 
 
-class Checker:
+class StaticChecker:
     """Checks texts, and keeps the last answer: the editor and `accept` ask about the same text.
 
     May be asked from any thread.

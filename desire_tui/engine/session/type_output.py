@@ -9,18 +9,18 @@ from desire_tui.engine.runtime import type_listing
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.lowered import Request
+    from desire_tui.engine.lowered import SampleRequest
     from desire_tui.engine.runtime.run_record import RunRecord
 
 
-class Lister:
+class TypeOutput:
     """Observes one run; silent where it has no `type` line. The header comes at once."""
 
     def __init__(
         self, record: RunRecord, console: Callable[[str], object], channel: Callable[[int, str], object]
     ) -> None:
         self._console, self._channel = console, channel
-        self._request: Request | None = next((r for r in record.requests if r.kind == "type"), None)
+        self._request: SampleRequest | None = next((r for r in record.requests if r.kind == "type"), None)
         if self._request is not None:
             self._first = record.first_column(self._request)
             self._write(self._request, type_listing.header(self._request) + "\n")
@@ -31,7 +31,7 @@ class Lister:
             rows = record.rows[first_row : record.count]
             self._write(self._request, type_listing.lines(rows, self._first, len(self._request.columns)))
 
-    def _write(self, request: Request, text: str) -> None:
+    def _write(self, request: SampleRequest, text: str) -> None:
         if request.channel is None:
             self._console(text)
         else:

@@ -6,25 +6,27 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.session.compiled_segments import Segments
+from desire_tui.engine.session.compiled_segments import CompiledSegments
 from desire_tui.engine.source import Source
 from desire_tui.engine.values import Values
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes import Placed, Program
-    from desire_tui.engine.session.notebook import Journal
+    from desire_tui.engine.session.notebook import Notebook
     from desire_tui.engine.session.permissions import Permissions
     from desire_tui.engine.structure.structure import Structure
 
 _NO_SOURCE = Source("", "<none>")
 
 
-class Desk:
+class Workspace:
     """State of a session that belongs to the program rather than to a run."""
 
-    def __init__(self, backend: str, folder: Path | None, permissions: Permissions, journal: Journal) -> None:
+    def __init__(
+        self, backend: str, folder: Path | None, permissions: Permissions, journal: Notebook
+    ) -> None:
         self.values = Values()
-        self.segments = Segments(self.values, backend)
+        self.segments = CompiledSegments(self.values, backend)
         self.permissions = permissions
         self.program: Program | None = None
         self.structure: Structure | None = None

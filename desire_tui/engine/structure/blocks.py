@@ -32,7 +32,7 @@ class _Open:
         return self.place if self.middle < 0 else self.middle
 
 
-class Survey:
+class BlockSurvey:
     """One walk through a script: finds partners, labels, definitions, and what is wrong with them."""
 
     def __init__(self, script: tuple[n.Placed, ...], source: Source, broken: bool) -> None:

@@ -10,10 +10,10 @@ from desire_tui.engine.diagnostics import closest
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.structure.blocks import Survey
+    from desire_tui.engine.structure.blocks import BlockSurvey
 
 
-def check_jumps(survey: Survey, segments: set[str | None] | None) -> None:
+def check_jumps(survey: BlockSurvey, segments: set[str | None] | None) -> None:
     """Check where every `go to` and `restore` leads, and give every `exit` its loop's end."""
     found = survey.found
     for place, opener in found.exits.items():
@@ -30,12 +30,12 @@ def check_jumps(survey: Survey, segments: set[str | None] | None) -> None:
             _unknown(survey, placed, node.target)
 
 
-def _unknown(survey: Survey, placed: n.Placed, target: str) -> None:
+def _unknown(survey: BlockSurvey, placed: n.Placed, target: str) -> None:
     known = map(str, survey.found.numbers) if target.isdigit() else survey.found.labels
     survey.report("no-such-label", placed, name=target, close=closest(target, known))
 
 
-def _jump(survey: Survey, place: int, placed: n.Placed, target: str, segments: set[str | None]) -> None:
+def _jump(survey: BlockSurvey, place: int, placed: n.Placed, target: str, segments: set[str | None]) -> None:
     to = survey.found.place(target)
     if to is None:
         if target in segments:
@@ -52,7 +52,7 @@ def _jump(survey: Survey, place: int, placed: n.Placed, target: str, segments: s
             survey.report("jump-out", placed, survey.also("block-begins", definition), name=target)
 
 
-def _around(survey: Survey, place: int) -> set[int]:
+def _around(survey: BlockSurvey, place: int) -> set[int]:
     """All blocks around a statement."""
     around = set()
     block = survey.found.inside[place]
@@ -62,7 +62,7 @@ def _around(survey: Survey, place: int) -> set[int]:
     return around
 
 
-def match_segments(survey: Survey, segments: Sequence[n.SegmentText]) -> None:
+def match_segments(survey: BlockSurvey, segments: Sequence[n.SegmentText]) -> None:
     """Match `if`, `else`, `end if` in the segments; a label may name one segment only."""
     seen: dict[str | None, n.SegmentText] = {}
     for segment in segments:
@@ -75,7 +75,7 @@ def match_segments(survey: Survey, segments: Sequence[n.SegmentText]) -> None:
             _segment(survey, segment.body, partner)
 
 
-def _segment(survey: Survey, body: Sequence[n.Placed], partner: dict[int, int]) -> None:
+def _segment(survey: BlockSurvey, body: Sequence[n.Placed], partner: dict[int, int]) -> None:
     opened: list[int] = []
     for place, placed in enumerate(body):
         node = placed.node

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.structure.blocks import Survey
+from desire_tui.engine.structure.blocks import BlockSurvey
 from desire_tui.engine.structure.jumps import check_jumps, match_segments
 from desire_tui.engine.structure.outline import ProcedureText, Structure, SubmodelText
 
@@ -26,7 +26,7 @@ def structure(program: n.Program) -> Structure:
     """Find the structure of a program. Never raises: the problems are in the result."""
     # Where an opener or closer could not be parsed, its partner is not the user's second mistake.
     broken = any(p.facts.get(fact) in _BLOCK_WORDS for p in program.problems for fact in ("word", "close"))
-    survey = Survey(program.script, program.source, broken)
+    survey = BlockSurvey(program.script, program.source, broken)
     survey.script()
     known = {segment.label for segment in program.segments}
     check_jumps(survey, known)
@@ -36,7 +36,7 @@ def structure(program: n.Program) -> Structure:
 
 def script_structure(script: Sequence[n.Placed], source: Source) -> Structure:
     """Return the structure of statements that stand alone, such as a command line."""
-    survey = Survey(tuple(script), source, broken=False)
+    survey = BlockSurvey(tuple(script), source, broken=False)
     survey.script()
     check_jumps(survey, None)
     return survey.finished()

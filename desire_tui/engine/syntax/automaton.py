@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 from desire_tui.engine.left_chains import OPERATORS
-from desire_tui.engine.syntax.build import Builder, Misuse
+from desire_tui.engine.syntax.build import Misuse, NodeBuilder
 from desire_tui.engine.syntax.lalr_tables import tables
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 HEIGHT_MAX = 200
 """Levels of an expression's tree: later passes recurse, twice for each level at worst."""
 PIECE_HEIGHT = 100
-"""Left operands of this height count no more: long chains are computed piece by piece (`engine.left_chains`)."""
+"""Left operands of this height count no more: long chains are computed in pieces (`engine.left_chains`)."""
 
 
 class Unexpected(Exception):  # noqa: N818 - not an error of this program
@@ -39,7 +39,7 @@ def derive(kinds: Sequence[str], texts: Sequence[str]) -> Statement:
     """
     table = tables()
     actions, gotos, rules = table.actions, table.gotos, table.rules
-    builder = Builder()
+    builder = NodeBuilder()
     states = [table.start]
     values: list[Value] = []
     firsts: list[int] = []

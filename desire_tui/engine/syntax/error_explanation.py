@@ -16,7 +16,7 @@ from desire_tui.engine.syntax.statement_tokens import (
     NUMBER,
     OCTAL,
     STRING,
-    Fault,
+    TokenFault,
     shown,
 )
 from desire_tui.engine.syntax.words import CLOSERS, OPENERS, RELATIONS, keyword_like
@@ -24,7 +24,7 @@ from desire_tui.engine.syntax.words import CLOSERS, OPENERS, RELATIONS, keyword_
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.syntax.statement_tokens import Chunk
+    from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
 _OPERANDS = frozenset({NAME, NUMBER, OCTAL, STRING})
 _OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%"})
@@ -34,20 +34,20 @@ _WHOLE_ARRAYS = frozenset({"Vector", "MATRIX", "DELTA", "Delta", "store"})
 _LABELS = frozenset({"label", "go to", "restore"})
 
 
-def explain(chunk: Chunk, at: int, expected: frozenset[str]) -> Fault:
+def explain(chunk: StatementTokens, at: int, expected: frozenset[str]) -> TokenFault:
     """Return the fault of a statement whose token number `at`, or its end, is none of the `expected`."""
     stuck = _Stuck(chunk, at, expected)
     for rule in _RULES:
         key = rule(stuck)
         if key:
-            return Fault(key, stuck.start, stuck.end, stuck.facts)
-    return Fault("statement-end", stuck.start, stuck.end, stuck.facts)
+            return TokenFault(key, stuck.start, stuck.end, stuck.facts)
+    return TokenFault("statement-end", stuck.start, stuck.end, stuck.facts)
 
 
 class _Stuck:
     """Where the automaton got stuck, in the words the rules use."""
 
-    def __init__(self, chunk: Chunk, at: int, expected: frozenset[str]) -> None:
+    def __init__(self, chunk: StatementTokens, at: int, expected: frozenset[str]) -> None:
         self.kinds, self.texts, self.at, self.expected = chunk.kinds, chunk.texts, at, expected
         self.chunk = chunk
         self.ended = at >= len(chunk.kinds)

@@ -9,7 +9,7 @@ from desire_tui.engine.syntax.statement_tokens import LETTER, NAME, RAW, STRING
 from desire_tui.engine.syntax.words import KEYWORDS, RAW_AFTER
 
 if TYPE_CHECKING:
-    from desire_tui.engine.syntax.statement_tokens import Chunk
+    from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
 _ASKING = frozenset({"if", "while", "until"})
 _SECOND_WORD = {
@@ -29,7 +29,7 @@ _FFT_KIND = re.compile(r"[ \t]*([FIRC])(?=[ \t]*[,;])")
 _REST = re.compile(r"[ \t]*((?:'[^'\n]*'|\"[^\"\n]*\"|(?!--|—)[^|\n'\"])*)")
 
 
-def add_head(chunk: Chunk, text: str, lexeme: str, start: int, pos: int) -> int:
+def add_head(chunk: StatementTokens, text: str, lexeme: str, start: int, pos: int) -> int:
     """Add a statement's first word and what only this keyword allows behind it; return where to go on."""
     kind = KEYWORDS.get(lexeme)
     if lexeme == "d" and (found := _D_DT.match(text, start)):
@@ -86,7 +86,7 @@ def _is_variable(text: str, lexeme: str, pos: int) -> bool:
     return False
 
 
-def _rest(chunk: Chunk, text: str, pos: int) -> int:
+def _rest(chunk: StatementTokens, text: str, pos: int) -> int:
     """Add the rest of the statement as one token, a string if it is one."""
     found = _REST.match(text, pos)
     assert found is not None

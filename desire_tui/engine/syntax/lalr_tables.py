@@ -34,7 +34,7 @@ class Rule(NamedTuple):
     splice: bool
 
 
-class Tables(NamedTuple):
+class LalrTables(NamedTuple):
     """Per state: token kind → next state (≥ 0) or −1 − rule; rule name → next state. `$END` ends."""
 
     start: int
@@ -45,7 +45,7 @@ class Tables(NamedTuple):
 
 
 @cache
-def tables() -> Tables:
+def tables() -> LalrTables:
     """Return the tables, from the cache if it has them for exactly this grammar."""
     here = os.path.dirname(__file__)
     with open(os.path.join(here, "desire.lark"), encoding="utf-8") as file:
@@ -58,8 +58,8 @@ def tables() -> Tables:
     return _unpack(stored)
 
 
-def _unpack(stored: dict[str, Any]) -> Tables:
-    return Tables(
+def _unpack(stored: dict[str, Any]) -> LalrTables:
+    return LalrTables(
         stored["start"],
         stored["accept"],
         stored["actions"],

@@ -5,17 +5,17 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.statement_tokens import NUMBER, OCTAL, STRING, Fault, shown
+from desire_tui.engine.syntax.statement_tokens import NUMBER, OCTAL, STRING, TokenFault, shown
 
 if TYPE_CHECKING:
-    from desire_tui.engine.syntax.statement_tokens import Chunk
+    from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
 _OCTAL = re.compile(r"&[0-7]+\Z|&&[0-9A-Fa-f]+\Z")
 _NUMBER_START = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _EXPONENT = re.compile(r"[eE](?![A-Za-z])")
 
 
-def add_odd(chunk: Chunk, group: int, lexeme: str, start: int) -> int:
+def add_odd(chunk: StatementTokens, group: int, lexeme: str, start: int) -> int:
     """Add a token of the rare `group` (tokens.py); return where to go on."""
     base, end = chunk.base, start + len(lexeme)
     fault = None
@@ -29,10 +29,10 @@ def add_odd(chunk: Chunk, group: int, lexeme: str, start: int) -> int:
             chunk.add("&", "&", start, end)
         else:
             key = "octal-too-large" if _OCTAL.match(lexeme) else "octal-digits"
-            fault = Fault(key, start - base, end - base, {"text": shown(lexeme)})
+            fault = TokenFault(key, start - base, end - base, {"text": shown(lexeme)})
             chunk.add(OCTAL, "&0", start, end)
     elif group == 9:
-        fault = Fault("quote-unclosed", start - base, end - base, {"quote": lexeme[0]})
+        fault = TokenFault("quote-unclosed", start - base, end - base, {"quote": lexeme[0]})
         chunk.add(STRING, lexeme + lexeme[0], start, end)
     elif group == 10:
         good = _NUMBER_START.match(lexeme)
@@ -41,10 +41,10 @@ def add_odd(chunk: Chunk, group: int, lexeme: str, start: int) -> int:
             end = start + good.end()
             chunk.add(NUMBER, good[0], start, end)
         else:
-            fault = Fault("number-format", start - base, end - base, {"text": shown(lexeme)})
+            fault = TokenFault("number-format", start - base, end - base, {"text": shown(lexeme)})
             chunk.add(NUMBER, "0", start, end)
     else:
-        fault = Fault("strange-character", start - base, end - base, {"char": lexeme})
+        fault = TokenFault("strange-character", start - base, end - base, {"char": lexeme})
     if chunk.fault is None:
         chunk.fault = fault
     return end

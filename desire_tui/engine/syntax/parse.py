@@ -15,7 +15,7 @@ from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
 from desire_tui.engine.syntax.shapes import statement
-from desire_tui.engine.syntax.statement_tokens import Fault, shown
+from desire_tui.engine.syntax.statement_tokens import TokenFault, shown
 from desire_tui.engine.syntax.tokens import scan
 from desire_tui.engine.syntax.words import keyword_like
 
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from desire_tui.engine.nodes import Statement
-    from desire_tui.engine.syntax.statement_tokens import Chunk
+    from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
-    Item = tuple[Statement | Fault, int]
+    Item = tuple[Statement | TokenFault, int]
     Entry = tuple[tuple[Item, ...], bool]
 
 KEPT_MAX = 20_000_000
@@ -64,7 +64,7 @@ def parse(source: Source) -> Program:
             if not entry[0] and body is not None:
                 alone.append(_number_before(source.text, at))
         for item, offset in entry[0]:
-            if isinstance(item, Fault):
+            if isinstance(item, TokenFault):
                 if body is not None:
                     problems.append(_diagnostic(item, at + offset, source))
                 continue
@@ -103,7 +103,7 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
     problems: list[Diagnostic] = []
     for entry, at, _, _ in logical_lines(source.text, command=True):
         for item, offset in entry[0]:
-            if isinstance(item, Fault):
+            if isinstance(item, TokenFault):
                 problems.append(_diagnostic(item, at + offset, source))
             else:
                 placed.append(Placed(item, at + offset))
@@ -139,7 +139,7 @@ def _swallowed(line: str, whole: Entry, parts: list[str]) -> bool:
 
 
 def _has_fault(entry: Entry) -> bool:
-    return any(isinstance(item, Fault) for item, _ in entry[0])
+    return any(isinstance(item, TokenFault) for item, _ in entry[0])
 
 
 def numbered(line: str) -> int:
@@ -150,15 +150,15 @@ def numbered(line: str) -> int:
     return found.end() if found else 0
 
 
-def _no_statement(item: Bare) -> Fault:
+def _no_statement(item: Bare) -> TokenFault:
     """Return the fault of an expression that stands alone in a program (a command line prints it)."""
     if isinstance(item.value, Name):
         name = item.value.name
-        return Fault("not-a-statement", 0, item.end, {"first": shown(name), "close": keyword_like(name)})
-    return Fault("expression-alone", 0, item.end)
+        return TokenFault("not-a-statement", 0, item.end, {"first": shown(name), "close": keyword_like(name)})
+    return TokenFault("expression-alone", 0, item.end)
 
 
-def _diagnostic(fault: Fault, at: int, source: Source) -> Diagnostic:
+def _diagnostic(fault: TokenFault, at: int, source: Source) -> Diagnostic:
     return Diagnostic(fault.key, Span(at + fault.start, at + fault.end), fault.facts, source)
 
 
@@ -228,7 +228,7 @@ def _parse_line(line: str) -> Entry:
     return entry
 
 
-def _item(chunk: Chunk) -> Statement | Fault:
+def _item(chunk: StatementTokens) -> Statement | TokenFault:
     if chunk.fault is not None:
         return chunk.fault
     try:
@@ -238,4 +238,4 @@ def _item(chunk: Chunk) -> Statement | Fault:
 
         return explain(chunk, problem.at, problem.expected)
     except Misuse as problem:
-        return Fault(problem.key, chunk.starts[problem.first], chunk.ends[problem.last], problem.facts)
+        return TokenFault(problem.key, chunk.starts[problem.first], chunk.ends[problem.last], problem.facts)

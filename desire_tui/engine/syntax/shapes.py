@@ -20,9 +20,9 @@ from desire_tui.engine.syntax.statement_tokens import NUMBER, STRING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.syntax.statement_tokens import Chunk
+    from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
-    Maker = Callable[[Chunk], nodes.Statement]
+    Maker = Callable[[StatementTokens], nodes.Statement]
 
 SHAPES_MAX = 5_000
 SHARED_TOKENS_MAX = 300
@@ -34,7 +34,7 @@ _makers: dict[tuple[str, ...], Maker] = {}
 _NAMESPACE: dict[str, Any] = {**vars(nodes), "octal_value": octal_value}
 
 
-def statement(chunk: Chunk) -> nodes.Statement:
+def statement(chunk: StatementTokens) -> nodes.Statement:
     """Return the statement of these tokens. Raises automaton.Unexpected or build.Misuse."""
     shape = tuple(chunk.kinds)
     if shape[0] in _LETTERED:
@@ -62,7 +62,7 @@ def forget() -> None:
     _makers.clear()
 
 
-def _filled(part: Any, chunk: Chunk) -> Any:
+def _filled(part: Any, chunk: StatementTokens) -> Any:
     """Copy a pattern with this statement's texts and offsets: worth it for a shape that is seen only once."""
     if isinstance(part, nodes.Binary) and part.op in OPERATORS:
         first, steps = chain(part)

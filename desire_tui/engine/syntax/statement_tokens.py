@@ -16,7 +16,7 @@ OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%"
 QUOTED_MAX = 40
 
 
-class Fault:
+class TokenFault:
     """Something wrong in a statement: wording key, place counted from the statement's start, facts."""
 
     __slots__ = ("end", "facts", "key", "start")
@@ -31,12 +31,12 @@ def shown(text: str) -> str:
     return text if len(text) <= QUOTED_MAX else f"{text[: QUOTED_MAX - 1]}…"
 
 
-class Chunk:
+class StatementTokens:
     """The tokens of one statement; positions count from the first, which stands at `base` of the line."""
 
     __slots__ = ("base", "ends", "fault", "kinds", "starts", "texts")
 
-    def __init__(self, base: int, fault: Fault | None = None) -> None:
+    def __init__(self, base: int, fault: TokenFault | None = None) -> None:
         self.base = base
         self.kinds: list[str] = []
         self.texts: list[str] = []
@@ -52,10 +52,12 @@ class Chunk:
         self.ends.append(end - self.base)
 
 
-class Line:
+class LogicalLine:
     """A logical line: its statements, its comments' places, and whether it goes on in the next line."""
 
     __slots__ = ("chunks", "comments", "continues")
 
-    def __init__(self, chunks: list[Chunk], comments: list[tuple[int, int]], *, continues: bool) -> None:
+    def __init__(
+        self, chunks: list[StatementTokens], comments: list[tuple[int, int]], *, continues: bool
+    ) -> None:
         self.chunks, self.comments, self.continues = chunks, comments, continues

@@ -17,9 +17,9 @@ from desire_tui.engine.syntax.statement_tokens import (
     NUMBER,
     OPERAND_END,
     STRING,
-    Chunk,
-    Fault,
-    Line,
+    LogicalLine,
+    StatementTokens,
+    TokenFault,
 )
 from desire_tui.engine.syntax.typography import normalised
 from desire_tui.engine.syntax.words import CLOSERS, OPENERS, SOFT_WORDS, STAND_ALONE
@@ -55,23 +55,23 @@ _WAY = re.compile(r"[ \t]*(input|output)(?![A-Za-z0-9$_])")
 _OPERAND_FOLLOWS = re.compile(r"[ \t]*[A-Za-z0-9.(&]")
 
 
-def scan(text: str) -> Line:
+def scan(text: str) -> LogicalLine:
     """Split a line (continuation lines included) into the tokens of its statements. Never raises."""
     if not text.isascii():
         text = normalised(text)
-    chunks: list[Chunk] = []
+    chunks: list[StatementTokens] = []
     comments: list[tuple[int, int]] = []
     match = _TOKEN.match
     pos, words, in_if, depth, base = 0, None, False, 0, 0
-    chunk: Chunk | None = None
+    chunk: StatementTokens | None = None
     # The open chunk's lists in local names: this is the hot loop of a cold start, and calls would double it.
     kinds: list[str]
     texts: list[str]
     starts: list[int]
     ends: list[int]
     if len(text) > LINE_MAX:
-        chunks.append(Chunk(0, fault=Fault("line-too-long", 0, 1, {"limit": LINE_MAX})))
-        return Line(chunks, comments, continues=False)
+        chunks.append(StatementTokens(0, fault=TokenFault("line-too-long", 0, 1, {"limit": LINE_MAX})))
+        return LogicalLine(chunks, comments, continues=False)
     while True:
         found = match(text, pos)
         assert found is not None
@@ -87,7 +87,7 @@ def scan(text: str) -> Line:
             chunk, words, depth = None, None, 0
             continue
         if chunk is None:
-            chunk = Chunk(start)
+            chunk = StatementTokens(start)
             chunks.append(chunk)
             base, kinds, texts, starts, ends = start, chunk.kinds, chunk.texts, chunk.starts, chunk.ends
             if group == 1:
@@ -107,7 +107,7 @@ def scan(text: str) -> Line:
                     chunk.add(way[1], way[1], way.start(1), pos)
                 continue
             if in_if and lexeme in ("else", "proceed") and _is_over(chunk):
-                chunks.append(Chunk(start))
+                chunks.append(StatementTokens(start))
                 chunks[-1].add(lexeme, lexeme, start, pos)
                 chunk, words, depth = None, None, 0
                 continue
@@ -117,7 +117,7 @@ def scan(text: str) -> Line:
             ends.append(pos - base)
         elif group == 2:
             if len(lexeme) >= INFINITE_MIN and too_large(lexeme):
-                chunk.fault = chunk.fault or Fault("number-too-large", start - base, pos - base)
+                chunk.fault = chunk.fault or TokenFault("number-too-large", start - base, pos - base)
             kinds.append(NUMBER)
             texts.append(lexeme)
             starts.append(start - base)
@@ -130,7 +130,9 @@ def scan(text: str) -> Line:
             if lexeme in _OPEN:
                 depth += 1
                 if depth > DEPTH_MAX and chunk.fault is None:
-                    chunk.fault = Fault("nested-too-deep", start - base, pos - base, {"limit": DEPTH_MAX})
+                    chunk.fault = TokenFault(
+                        "nested-too-deep", start - base, pos - base, {"limit": DEPTH_MAX}
+                    )
             elif lexeme in CLOSERS:
                 depth -= 1
         elif group == 6:
@@ -141,10 +143,10 @@ def scan(text: str) -> Line:
             pos = add_odd(chunk, group, lexeme, start)
     code_from = comments[-1][1] if comments else 0
     continues = bool(chunk and _wants_more(chunk)) or text[code_from:].rstrip().endswith("_")
-    return Line(chunks, comments, continues=continues)
+    return LogicalLine(chunks, comments, continues=continues)
 
 
-def _is_soft(chunk: Chunk, lexeme: str, text: str, pos: int) -> bool:
+def _is_soft(chunk: StatementTokens, lexeme: str, text: str, pos: int) -> bool:
     """Whether a special word stands where its statement expects one (else it is a variable's name)."""
     last = chunk.kinds[-1]
     if lexeme == "not":
@@ -152,7 +154,7 @@ def _is_soft(chunk: Chunk, lexeme: str, text: str, pos: int) -> bool:
     return last in OPERAND_END
 
 
-def _is_over(chunk: Chunk) -> bool:
+def _is_over(chunk: StatementTokens) -> bool:
     """Whether the statement could end before `else` or `proceed` behind a `then`."""
     kinds = chunk.kinds
     if not kinds:
@@ -160,6 +162,6 @@ def _is_over(chunk: Chunk) -> bool:
     return kinds[-1] in OPERAND_END or (len(kinds) == 1 and kinds[0] in STAND_ALONE)
 
 
-def _wants_more(chunk: Chunk) -> bool:
+def _wants_more(chunk: StatementTokens) -> bool:
     kinds = chunk.kinds
     return bool(kinds) and kinds[-1] in _CONTINUES

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
 
 
 class Cells(Protocol):
@@ -32,7 +32,7 @@ class MemoryCells:
 
     __slots__ = ("_known", "_text")
 
-    def __init__(self, text: Text) -> None:
+    def __init__(self, text: IrText) -> None:
         self._text = text
         self._known: dict[int, str] = {}
 
@@ -76,7 +76,7 @@ class RegisterCells:
 
     __slots__ = ("_memory", "pinned", "prefix", "slots", "text", "written")
 
-    def __init__(self, text: Text, slots: Iterable[int], pinned: frozenset[int]) -> None:
+    def __init__(self, text: IrText, slots: Iterable[int], pinned: frozenset[int]) -> None:
         self.text = text
         self.pinned = pinned
         self.slots = sorted(set(slots) - pinned)

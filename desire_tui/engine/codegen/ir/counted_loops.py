@@ -9,10 +9,10 @@ from desire_tui.engine.codegen.ir.lanes import Lanes
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
 
 
-def loop(text: Text, first: str, end: str, step: int, body: Callable[[str], None]) -> None:
+def loop(text: IrText, first: str, end: str, step: int, body: Callable[[str], None]) -> None:
     """Write `for i = first; i < end; i += step`; `body(i)` may contain blocks."""
     stem = text.fresh()
     before = f"{stem}.pre"
@@ -31,7 +31,7 @@ def loop(text: Text, first: str, end: str, step: int, body: Callable[[str], None
     text.begin(f"{stem}.done")
 
 
-def elementwise(text: Text, count: str, width: int, body: Callable[[Lanes, str], None]) -> None:
+def elementwise(text: IrText, count: str, width: int, body: Callable[[Lanes, str], None]) -> None:
     """Write a loop over `count` elements, `width` at a time, and one by one for what is left."""
     rest = text.op(f"urem i64 {count}, {width}")
     main = text.op(f"sub i64 {count}, {rest}")

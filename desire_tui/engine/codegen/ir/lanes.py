@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.text import literal
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
 
 
 class Lanes:
@@ -19,7 +19,7 @@ class Lanes:
 
     __slots__ = ("flags", "integers", "kind", "suffix", "text", "width")
 
-    def __init__(self, text: Text, width: int = 1) -> None:
+    def __init__(self, text: IrText, width: int = 1) -> None:
         self.text = text
         self.width = width
         self.kind = "double" if width == 1 else f"<{width} x double>"

@@ -13,7 +13,7 @@ def literal(value: float) -> str:
     return f"0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X}"
 
 
-class Text:
+class IrText:
     """Lines of a function's body.
 
     `needs` collects the names of outside functions and helpers called (`symbols`, `helpers` know their text).

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.runtime.run_memory import RunMemory
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
 
 PASSES = ("derivative", "step", "full", "tail")
 """The pass with its flags folded in: later stages, step starts, communication points, after `term`."""
 
 
-class Context(ctypes.Structure):
+class WorkMemory(ctypes.Structure):
     """One model's tables. A table of pieces is an array of function addresses that ends with 0.
 
     The addresses in a table may be replaced at any moment by those of faster code that computes the same
@@ -54,7 +54,7 @@ class Fields:
 
     __slots__ = ("_base", "_offsets", "_text")
 
-    def __init__(self, text: Text, structure: type[ctypes.Structure], base: str) -> None:
+    def __init__(self, text: IrText, structure: type[ctypes.Structure], base: str) -> None:
         self._text = text
         self._base = base
         self._offsets = _offsets(structure)
@@ -88,11 +88,11 @@ def _offsets(structure: type[ctypes.Structure]) -> dict[str, tuple[int, str]]:
 _TABLES: dict[type[ctypes.Structure], dict[str, tuple[int, str]]] = {}
 
 
-def memory_fields(text: Text, base: str = "%m") -> Fields:
+def memory_fields(text: IrText, base: str = "%m") -> Fields:
     """Fields of the run's memory."""
     return Fields(text, RunMemory, base)
 
 
-def context_fields(text: Text, base: str = "%c") -> Fields:
+def context_fields(text: IrText, base: str = "%c") -> Fields:
     """Fields of the model's context."""
-    return Fields(text, Context, base)
+    return Fields(text, WorkMemory, base)

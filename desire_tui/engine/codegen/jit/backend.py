@@ -8,7 +8,7 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.jit.background import Improver
-from desire_tui.engine.codegen.jit.cache import Store
+from desire_tui.engine.codegen.jit.cache import CodeCache
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.native_model import NativeModel
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop
@@ -24,7 +24,7 @@ _RULES_BY_USE = (1, 3, 0, 2, 4, 5, 7, 8)
 _SETTLED_SECONDS = 0.4
 """A process that lives longer than this may run more programs: a headless run is over by then."""
 STIFF_RULES = range(9, 17)
-_STORE = Store()
+_STORE = CodeCache()
 """One for all back ends of a process: code depends on nothing but its text."""
 _IMPROVER = Improver()
 

@@ -11,7 +11,7 @@ from desire_tui.engine.codegen.jit.compiler import compile_text, module_text
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.codegen.jit.compiler import Code
+    from desire_tui.engine.codegen.jit.compiler import MachineCode
     from desire_tui.engine.codegen.jit.pass_pieces import Piece
 
 _KEPT_MOST = 2000
@@ -21,10 +21,10 @@ class Compiled(NamedTuple):
     """A function's address, and the code that holds it: keep both."""
 
     address: int
-    code: Code
+    code: MachineCode
 
 
-class Store:
+class CodeCache:
     """Functions by name (which is a digest of the text) and quality."""
 
     def __init__(self) -> None:

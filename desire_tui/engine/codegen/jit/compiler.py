@@ -23,7 +23,7 @@ _STARTING = threading.Lock()
 
 
 @dataclass(frozen=True)
-class Machine:
+class TargetMachine:
     """The machine compiled for: LLVM's binding, its target, and the widest useful vector of doubles."""
 
     llvm: Any
@@ -39,7 +39,7 @@ class Machine:
 
 
 @functools.cache
-def _machine() -> Machine:
+def _machine() -> TargetMachine:
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
@@ -50,19 +50,19 @@ def _machine() -> Machine:
     width = 8 if host.get("avx512f") and host.get("avx512dq") else 4 if host.get("avx2") else 2
     for name, address in symbols.vector_addresses(width).items():
         llvm.add_symbol(f"desire.{name}.{width}", address)
-    return Machine(
+    return TargetMachine(
         llvm, llvm.Target.from_default_triple(), llvm.get_process_triple(), llvm.get_host_cpu_name(),
         host.flatten(), width,
     )  # fmt: skip
 
 
-def machine() -> Machine:
+def machine() -> TargetMachine:
     """Return the machine; the first call loads LLVM (about 60 ms)."""
     with _STARTING:
         return _machine()
 
 
-class Code:
+class MachineCode:
     """Compiled functions; their memory is freed with this object."""
 
     def __init__(self, engine: Any) -> None:
@@ -108,11 +108,11 @@ def _scalar_declaration(name: str) -> str:
     return f"declare double @desire.{name}.1({arguments}) #1"
 
 
-def compile_text(text: str, *, level: int, slp: bool = False, vectorize: bool = False) -> Code:
+def compile_text(text: str, *, level: int, slp: bool = False, vectorize: bool = False) -> MachineCode:
     """Compile a module at level 0 … 3. Level 0 is for quick code: no optimisation passes at all."""
     engine = _engine(text, level, slp=slp, vectorize=vectorize)
     engine.finalize_object()
-    return Code(engine)
+    return MachineCode(engine)
 
 
 def _engine(text: str, level: int, *, slp: bool, vectorize: bool) -> Any:
@@ -132,7 +132,7 @@ def _engine(text: str, level: int, *, slp: bool, vectorize: bool) -> Any:
     return llvm.create_mcjit_compiler(module, options)
 
 
-def kept_code(name: str) -> Code | None:
+def kept_code(name: str) -> MachineCode | None:
     """Return code that `compile_and_keep` stored for a processor like this one; None if there is none."""
     file = _file_of(name)
     content = disk_cache.read(file)
@@ -143,16 +143,16 @@ def kept_code(name: str) -> Code | None:
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), host.options(0))
     engine.add_object_file(llvm.ObjectFileRef.from_data(content[len(_mark(file)) :]))
     engine.finalize_object()
-    return Code(engine)
+    return MachineCode(engine)
 
 
-def compile_and_keep(text: str, name: str, *, level: int, vectorize: bool) -> Code:
+def compile_and_keep(text: str, name: str, *, level: int, vectorize: bool) -> MachineCode:
     """Compile as `compile_text` does; later processes find the code under `name`."""
     engine = _engine(text, level, slp=False, vectorize=vectorize)
     file = _file_of(name)
     engine.set_object_cache(lambda _, content: disk_cache.write(file, _mark(file) + content))
     engine.finalize_object()
-    return Code(engine)
+    return MachineCode(engine)
 
 
 def _mark(file: str) -> bytes:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.codegen.ir.work_memory import PASSES, Context
-from desire_tui.engine.codegen.jit.piece_tables import Tables
+from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
+from desire_tui.engine.codegen.jit.piece_tables import PieceTables
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
 from desire_tui.engine.codegen.scalar.slot_usage import survey
 from desire_tui.engine.lowered import Deriv
@@ -52,9 +52,9 @@ class NativeModel:
         self._states = _state_slots(segment)
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
         self._passes = passes_of(segment)
-        self._tables = Tables(self._store, self._passes)
+        self._tables = PieceTables(self._store, self._passes)
         self._temps = np.zeros(self._tables.temps)
-        self.context = Context(values=values.address, temps=self._temps.ctypes.data)
+        self.context = WorkMemory(values=values.address, temps=self._temps.ctypes.data)
         for kind in PASSES:
             setattr(self.context, kind, self._tables.addresses[kind])
         self._kept: list[object] = []

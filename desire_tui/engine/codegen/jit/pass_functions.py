@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.codegen.ir.text import Text
-from desire_tui.engine.codegen.ir.work_memory import Context, context_fields
+from desire_tui.engine.codegen.ir.text import IrText
+from desire_tui.engine.codegen.ir.work_memory import WorkMemory, context_fields
 from desire_tui.engine.codegen.jit.pass_pieces import Piece
-from desire_tui.engine.codegen.jit.piece_tables import Tables
+from desire_tui.engine.codegen.jit.piece_tables import PieceTables
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from desire_tui.engine.codegen.jit.cache import Compiled, Store
+    from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
     from desire_tui.engine.lowered import Action
     from desire_tui.engine.values import Values
 
@@ -32,16 +32,16 @@ class PassFunctions:
 
     def __init__(
         self,
-        store: Store,
+        store: CodeCache,
         values: Values,
         order: int,
         passes: Mapping[str, tuple[Action, ...]],
         own: frozenset[str] = frozenset({"step", "full", "tail"}),
     ) -> None:
         self.k1 = np.zeros(max(order, 1))
-        self._tables = Tables(store, passes)
+        self._tables = PieceTables(store, passes)
         self._temps = np.zeros(self._tables.temps)
-        self._context = Context(
+        self._context = WorkMemory(
             values=values.address, k1=self.k1.ctypes.data, temps=self._temps.ctypes.data, states=order
         )
         written = {name: self._function(name, own=name in own) for name in passes}
@@ -62,7 +62,7 @@ class PassFunctions:
         return self._tables.improve()
 
     def _function(self, name: str, *, own: bool) -> Piece:
-        text = Text()
+        text = IrText()
         fields = context_fields(text)
         text.do(f"%c = inttoptr i64 {ctypes.addressof(self._context)} to ptr")
         fields.store("memory", "%m")
@@ -79,7 +79,7 @@ class PassFunctions:
         return Piece(digest, f"define i64 @{digest}(ptr %m, ptr %k) #0 {{\n{body}\n}}", frozenset())
 
 
-def call_table(text: Text, table: str, derivatives: str) -> None:
+def call_table(text: IrText, table: str, derivatives: str) -> None:
     """Write calls of all pieces of a table; `%v` and `%c` must be there."""
     stem = text.fresh()
     text.jump(f"{stem}.pre")

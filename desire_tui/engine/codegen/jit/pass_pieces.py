@@ -10,10 +10,10 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.ir.cells import MemoryCells
-from desire_tui.engine.codegen.ir.text import Text
+from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
-from desire_tui.engine.codegen.vector.vectors import Statements
+from desire_tui.engine.codegen.vector.vectors import ArrayStatements
 from desire_tui.engine.lowered import Guard
 
 if TYPE_CHECKING:
@@ -60,8 +60,8 @@ def _weight(action: Action | Rolled) -> int:
 
 def write(actions: Sequence[Action | Rolled]) -> Piece:
     """Write one piece."""
-    text = Text()
-    statements = Statements(text, MemoryCells(text), machine().width)
+    text = IrText()
+    statements = ArrayStatements(text, MemoryCells(text), machine().width)
     statements.write(actions)
     body = "\n".join(text.lines)
     start = ["entry:", *text.allocas]

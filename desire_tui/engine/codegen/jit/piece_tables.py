@@ -12,19 +12,19 @@ from desire_tui.engine.codegen.scalar.rerolling import roll
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from desire_tui.engine.codegen.jit.cache import Store
+    from desire_tui.engine.codegen.jit.cache import CodeCache
     from desire_tui.engine.codegen.jit.pass_pieces import Piece
     from desire_tui.engine.codegen.scalar.rerolling import Rolled
     from desire_tui.engine.lowered import Action
 
 
-class Tables:
+class PieceTables:
     """Tables of function addresses, each ended by 0, by the pass they belong to.
 
     `temps` is the scratch memory, in doubles, that the pieces want at `Context.temps`.
     """
 
-    def __init__(self, store: Store, passes: Mapping[str, tuple[Action, ...]]) -> None:
+    def __init__(self, store: CodeCache, passes: Mapping[str, tuple[Action, ...]]) -> None:
         self._store = store
         self._pieces: dict[str, Piece] = {}
         names: dict[str, list[str]] = {}

@@ -17,14 +17,14 @@ from desire_tui.engine.codegen.loop.stage_sums import scaled, weighted
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.integration.tableaus import Row
 
 
 class ArrayStorage:
     """Implements `storage.Storage`. `contiguous`: the states stand side by side in the values."""
 
-    def __init__(self, text: Text, stages: int, width: int, *, contiguous: bool) -> None:
+    def __init__(self, text: IrText, stages: int, width: int, *, contiguous: bool) -> None:
         self.text = text
         self.stages = stages
         self.vector = width if contiguous else 1

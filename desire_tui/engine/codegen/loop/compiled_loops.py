@@ -6,7 +6,7 @@ import functools
 from hashlib import blake2b
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.ir.text import Text
+from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.pass_pieces import Piece
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 @functools.cache
 def array_loop(rule: int, *, contiguous: bool) -> Piece:
     """Write the loop over arrays: the same for all models of a rule."""
-    text = Text()
+    text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
     storage = ArrayStorage(text, stages, machine().width, contiguous=contiguous)
@@ -33,7 +33,7 @@ def register_loop(
     passes: dict[str, tuple[Action, ...]], rule: int, states: list[int], columns: list[int]
 ) -> Piece:
     """Write the loop of a small model, its passes in line."""
-    text = Text()
+    text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
     storage = RegisterStorage(text, passes, states, columns, stages)
@@ -41,7 +41,7 @@ def register_loop(
     return named(text)
 
 
-def named(text: Text) -> Piece:
+def named(text: IrText) -> Piece:
     """Make the loop's body a function, named by its content."""
     body = text.body()
     name = "r" + blake2b(body.encode(), digest_size=10).hexdigest()

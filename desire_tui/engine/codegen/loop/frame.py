@@ -8,7 +8,7 @@ from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.work_memory import context_fields, memory_fields
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.codegen.loop.storage import Storage
     from desire_tui.engine.runtime.run_memory import Ended, Phase
 
@@ -28,7 +28,7 @@ _KEPT = {
 class LoopFrame:
     """Variables of the loop (stack cells), fields of `RunMemory` and of the context, and the exit."""
 
-    def __init__(self, text: Text, storage: Storage) -> None:
+    def __init__(self, text: IrText, storage: Storage) -> None:
         self.text = text
         self.storage = storage
         self.lanes = Lanes(text)

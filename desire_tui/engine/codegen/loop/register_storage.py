@@ -13,7 +13,7 @@ from desire_tui.engine.codegen.scalar.statements import ScalarStatements
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.integration.tableaus import Row
     from desire_tui.engine.lowered import Action
 
@@ -23,7 +23,7 @@ class RegisterStorage:
 
     def __init__(
         self,
-        text: Text,
+        text: IrText,
         passes: dict[str, tuple[Action, ...]],
         states: list[int],
         columns: list[int],

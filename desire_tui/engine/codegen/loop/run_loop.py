@@ -22,7 +22,7 @@ from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.codegen.loop.storage import Storage
     from desire_tui.engine.integration.tableaus import Tableau
 
@@ -33,7 +33,7 @@ _CHECK_EVERY = 1024
 class Driver(LoopFrame):
     """Writes the function `i32 @run(ptr memory, ptr context)`; `tableau` None: rule 0, no steps."""
 
-    def __init__(self, text: Text, storage: Storage, tableau: Tableau | None) -> None:
+    def __init__(self, text: IrText, storage: Storage, tableau: Tableau | None) -> None:
         super().__init__(text, storage)
         self.tableau = tableau
 

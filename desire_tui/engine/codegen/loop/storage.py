@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class Storage(Protocol):
-    """Where states, derivatives and scalars are: stack cells (`register_storage`) or arrays (`array_storage`)."""
+    """Where states, derivatives and scalars are: stack cells or arrays (`…_storage`)."""
 
     def enter(self) -> None:
         """Begin the function."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered import Value
 
 
-class Expressions:
+class IrExpressions:
     """Evaluates one statement's values; an object met again is the same number (`engine.lowered`)."""
 
     def __init__(self, lanes: Lanes, cells: Cells) -> None:
@@ -76,7 +76,7 @@ class Expressions:
         raise NotImplementedError
 
 
-class ScalarExpressions(Expressions):
+class ScalarExpressions(IrExpressions):
     """Scalar values; random numbers come one by one from the state at `%random`."""
 
     def __init__(self, lanes: Lanes, cells: Cells, random: str) -> None:

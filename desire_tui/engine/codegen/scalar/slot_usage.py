@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.lowered import (
     DelayLine,
     Deriv,
-    Get,
+    GetHistory,
     Guard,
     Load,
     Set,
-    Store,
+    StoreHistory,
     Terminate,
-    TrackHold,
+    UpdateTrackHold,
 )
 from desire_tui.engine.lowered.effects import OVER_ELEMENTS, expressions, memory, walk
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(slots=True)
-class Scope:
+class SlotUsage:
     """Scalar slots read and written one by one; arrays (slot, count), complete where `only_scalars`.
 
     `only_scalars`: no statement over arrays, no array operand.
@@ -47,9 +47,9 @@ class Scope:
         )
 
 
-def survey(passes: Iterable[Iterable[Action]]) -> Scope:
+def survey(passes: Iterable[Iterable[Action]]) -> SlotUsage:
     """Look through all statements of all passes."""
-    scope = Scope()
+    scope = SlotUsage()
     seen: set[int] = set()
     for actions in passes:
         for action in actions:
@@ -59,7 +59,7 @@ def survey(passes: Iterable[Iterable[Action]]) -> Scope:
     return scope
 
 
-def _action(action: Action, scope: Scope) -> None:
+def _action(action: Action, scope: SlotUsage) -> None:
     scope.statements += 1
     for node in walk(*expressions(action)):
         if isinstance(node, Load):
@@ -75,16 +75,16 @@ def _action(action: Action, scope: Scope) -> None:
         case Guard():
             for inner in (*action.body, *action.orelse):
                 _action(inner, scope)
-        case Store():
+        case StoreHistory():
             scope.read.add(action.slot)
             scope.arrays.add((action.array_slot, action.count))
-        case Get():
+        case GetHistory():
             scope.written.add(action.slot)
             scope.arrays.add((action.array_slot, action.count))
         case DelayLine():
             scope.written.add(action.slot)
             scope.arrays.add((action.buffer_slot, action.count))
-        case TrackHold():
+        case UpdateTrackHold():
             scope.written.update((action.held_slot, action.tracked_slot))
         case _:
             scope.only_scalars = False

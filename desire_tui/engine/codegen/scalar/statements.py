@@ -11,19 +11,19 @@ from desire_tui.engine.codegen.scalar.expressions import ScalarExpressions
 from desire_tui.engine.lowered import (
     DelayLine,
     Deriv,
-    Get,
+    GetHistory,
     Guard,
     Set,
-    Store,
+    StoreHistory,
     Terminate,
-    TrackHold,
+    UpdateTrackHold,
 )  # fmt: skip
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from desire_tui.engine.codegen.ir.cells import Cells
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.lowered import Action
 
 
@@ -34,7 +34,7 @@ class ScalarStatements:
     `%c` the model's context, `%random` the state of `ran()`.
     """
 
-    def __init__(self, text: Text, cells: Cells) -> None:
+    def __init__(self, text: IrText, cells: Cells) -> None:
         self.text = text
         self.cells = cells
         self.lanes = Lanes(text)
@@ -63,13 +63,13 @@ class ScalarStatements:
                     self.cells.derivative(action.state, value)
             case Guard():
                 self._guard(action)
-            case Store():
+            case StoreHistory():
                 self._store(action)
-            case Get():
+            case GetHistory():
                 self._get(action)
             case DelayLine():
                 self._delay(action)
-            case TrackHold():
+            case UpdateTrackHold():
                 self._track(action)
             case Terminate():
                 self._terminate(action)
@@ -164,7 +164,7 @@ class ScalarStatements:
         room = self.text.op(f"icmp slt i64 {position}, {count}")
         return self.text.op(f"and i1 {room}, {self._fresh_point()}")
 
-    def _store(self, action: Store) -> None:
+    def _store(self, action: StoreHistory) -> None:
         at, position = self._position(action.counter)
         value = self.cells.load(action.slot)
         done = self._skip_unless(self._inside(position, action.count))
@@ -172,7 +172,7 @@ class ScalarStatements:
         self.text.do(f"store i64 {self.text.op(f'add i64 {position}, 1')}, ptr {at}")
         self._rejoin(done)
 
-    def _get(self, action: Get) -> None:
+    def _get(self, action: GetHistory) -> None:
         at, position = self._position(action.counter)
         index = self._present(position)
         done = self._skip_unless(self.text.op(f"icmp ult i64 {index}, {action.count}"))
@@ -211,7 +211,7 @@ class ScalarStatements:
         self.text.do(f"store i64 {op(f'add i64 {index}, 1')}, ptr {at}")
         self._rejoin(done)
 
-    def _track(self, action: TrackHold) -> None:
+    def _track(self, action: UpdateTrackHold) -> None:
         control = self.scalars.value(action.control)
         value = self.scalars.value(action.value)
         done = self._skip_unless(self.lanes.compare("ogt", control, self.lanes.const(0.0)))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.functions import apply, power
 from desire_tui.engine.codegen.ir.lanes import Lanes
-from desire_tui.engine.codegen.ir.text import Text, literal
+from desire_tui.engine.codegen.ir.text import IrText, literal
 from desire_tui.engine.lowered import Const, Load, Op
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def shape(node: Value, key: list[object], leaves: list[int | float]) -> None:
         raise NotPlainError
 
 
-def write(text: Text, cells: Cells, node: Value) -> str | None:
+def write(text: IrText, cells: Cells, node: Value) -> str | None:
     """Write a scalar value; return its name, or None if templates do not cover it."""
     key: list[object] = []
     leaves: list[int | float] = []
@@ -97,7 +97,7 @@ def write_shape(lanes: Lanes, node: Value, leaves: Iterator[str]) -> str:
 
 
 def _learn(key: tuple[object, ...], node: Value) -> tuple[str, frozenset[str], str]:
-    text = Text("!")
+    text = IrText("!")
     lanes = Lanes(text)
     count = key.count(None)
     result = write_shape(lanes, node, iter([f"?{number}?" for number in range(1, count + 1)]))

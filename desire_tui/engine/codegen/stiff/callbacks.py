@@ -1,6 +1,6 @@
 """CVODE's callbacks as native functions: right-hand side, error weights, Jacobian.
 
-They know the model only through `integration.problem.Problem`, which CVODE hands to them as user data. An
+They know the model only through `integration.problem.SolverProblem`, which CVODE passes as user data. An
 N_Vector is `{content, ops, context}`, a serial one's content `{int32 length; int32 own_data; double* data}`.
 """
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
 
-from desire_tui.engine.codegen.stiff.ir_builder import INT, INT32, POINTER, REAL, VOID, Function
+from desire_tui.engine.codegen.stiff.ir_builder import INT, INT32, POINTER, REAL, VOID, FixedFunction
 from desire_tui.engine.integration.problem import FLOOR, Matrix
 from desire_tui.engine.values import T
 
@@ -41,28 +41,28 @@ def add_callbacks(module: Any) -> None:
     _add_evaluate(module)
     _add_weigh(module)
     _add_fill(module)
-    f = Function(module, "desire_rhs", INT32, [REAL, POINTER, POINTER, POINTER])
+    f = FixedFunction(module, "desire_rhs", INT32, [REAL, POINTER, POINTER, POINTER])
     t, y, ydot, problem = f.arguments
     f.build.ret(f.outside("desire_evaluate", INT32, [problem, t, _numbers(f, y), _numbers(f, ydot)]))
-    f = Function(module, "desire_weights", INT32, [POINTER, POINTER, POINTER])
+    f = FixedFunction(module, "desire_weights", INT32, [POINTER, POINTER, POINTER])
     y, w, problem = f.arguments
     f.build.ret(f.outside("desire_weigh", INT32, [problem, _numbers(f, y), _numbers(f, w)]))
     _add_jacobian(module)
 
 
-def scatter(f: Function, problem: Any, y: Any) -> None:
+def scatter(f: FixedFunction, problem: Any, y: Any) -> None:
     """Write a state vector to the states' places among the values."""
     f.outside("desire_scatter", VOID, [problem, y])
 
 
-def _numbers(f: Function, vector: Any) -> Any:
+def _numbers(f: FixedFunction, vector: Any) -> Any:
     """Return the address of a serial N_Vector's numbers."""
     content = f.build.load(vector, typ=POINTER)
     return f.build.load(f.at(content, INT(1), INT), typ=POINTER)
 
 
 def _add_scatter(module: Any) -> None:
-    f = Function(module, "desire_scatter", VOID, [POINTER, POINTER])
+    f = FixedFunction(module, "desire_scatter", VOID, [POINTER, POINTER])
     problem, y = f.arguments
     values, ranges = f.get(problem, "values"), f.get(problem, "ranges")
     with f.loop(INT(0), f.get(problem, "range_count")) as i:
@@ -80,7 +80,7 @@ def _add_scatter(module: Any) -> None:
 
 def _add_evaluate(module: Any) -> None:
     """Where a derivative is not finite, name the state `suspect` and ask for a smaller step."""
-    f = Function(module, "desire_evaluate", INT32, [POINTER, REAL, POINTER, POINTER])
+    f = FixedFunction(module, "desire_evaluate", INT32, [POINTER, REAL, POINTER, POINTER])
     problem, t, y, k = f.arguments
     f.store(f.get(problem, "values"), INT(T), t)
     scatter(f, problem, y)
@@ -96,7 +96,7 @@ def _add_evaluate(module: Any) -> None:
     f.build.ret(INT32(GO_BACK))
 
 
-def _all_finite(f: Function, k: Any, n: Any) -> Any:
+def _all_finite(f: FixedFunction, k: Any, n: Any) -> Any:
     """Whether n numbers are finite: 0·x is 0 for finite x only. Eight at a time: this follows every call."""
     eight = ir.VectorType(REAL, _LANES)
     total, single = f.build.alloca(eight), f.build.alloca(REAL)
@@ -118,7 +118,7 @@ def _all_finite(f: Function, k: Any, n: Any) -> Any:
 
 def _add_weigh(module: Any) -> None:
     """1 / (ERMAX·max |y| so far), the maximum taken as 1 while it is 0 (language.md 11)."""
-    f = Function(module, "desire_weigh", INT32, [POINTER, POINTER, POINTER])
+    f = FixedFunction(module, "desire_weigh", INT32, [POINTER, POINTER, POINTER])
     problem, y, w = f.arguments
     largest, tolerance = f.get(problem, "largest"), f.get(problem, "tolerance")
     n, most = f.get(problem, "n"), f.build.alloca(REAL)
@@ -133,7 +133,7 @@ def _add_weigh(module: Any) -> None:
     f.build.ret(INT32(0))
 
 
-def _scale(f: Function, problem: Any, i: Any) -> Any:
+def _scale(f: FixedFunction, problem: Any, i: Any) -> Any:
     """Return the largest magnitude of state i so far, 1 for 0."""
     size = f.load(f.get(problem, "largest"), i)
     not_less = f.intrinsic("llvm.maxnum", size, f.get(problem, "floor"))
@@ -142,7 +142,7 @@ def _scale(f: Function, problem: Any, i: Any) -> Any:
 
 def _add_jacobian(module: Any) -> None:
     """CVLsJacFn; CVODE has cleared the matrix."""
-    f = Function(module, "desire_jacobian", INT32, [REAL, *[POINTER] * 7])
+    f = FixedFunction(module, "desire_jacobian", INT32, [REAL, *[POINTER] * 7])
     t, y, fy, matrix, problem, spare, spare2, _ = f.arguments
     data = f.call(f.get(problem, "data_of"), POINTER, [matrix])
     with f.build.if_then(f.build.icmp_signed("!=", f.get(problem, "nonzeros"), INT(0))):
@@ -153,7 +153,7 @@ def _add_jacobian(module: Any) -> None:
 
 def _add_fill(module: Any) -> None:
     """Write the Jacobian's entries to their places in a matrix that has been cleared."""
-    f = Function(module, "desire_fill", INT32, [POINTER, REAL, *[POINTER] * 5])
+    f = FixedFunction(module, "desire_fill", INT32, [POINTER, REAL, *[POINTER] * 5])
     problem, t, y, fy, data, spare, spare2 = f.arguments
     f.add(problem, "jacobian_calls", INT(1))
     f.store(f.get(problem, "values"), INT(T), t)
@@ -170,7 +170,7 @@ def _add_fill(module: Any) -> None:
     f.build.ret(f.build.select(wild, f.build.select(own, INT32(GIVE_UP), INT32(GO_BACK)), INT32(0)))
 
 
-def _finite_entries(f: Function, problem: Any, data: Any) -> Any:
+def _finite_entries(f: FixedFunction, problem: Any, data: Any) -> Any:
     """Whether all is finite: an infinite entry makes corrections 0, which would pass for convergence."""
     total, places = f.build.alloca(REAL), f.get(problem, "places")
     f.build.store(REAL(0.0), total)
@@ -180,7 +180,7 @@ def _finite_entries(f: Function, problem: Any, data: Any) -> Any:
     return f.build.fcmp_ordered("==", f.build.load(total, typ=REAL), REAL(0.0))
 
 
-def _write_pattern(f: Function, problem: Any, matrix: Any) -> None:
+def _write_pattern(f: FixedFunction, problem: Any, matrix: Any) -> None:
     """Give a sparse matrix its rows and column starts, which SUNMatZero cleared."""
     size = f.build.mul(f.get(problem, "nonzeros"), INT(4))
     f.copy(f.call(f.get(problem, "indices_of"), POINTER, [matrix]), f.get(problem, "row_indices"), size)
@@ -189,7 +189,7 @@ def _write_pattern(f: Function, problem: Any, matrix: Any) -> None:
 
 
 @contextmanager
-def _slice(f: Function, problem: Any, table: str, colour: Any) -> Iterator[Any]:
+def _slice(f: FixedFunction, problem: Any, table: str, colour: Any) -> Iterator[Any]:
     """Loop over the positions that belong to a colour."""
     starts = f.get(problem, table)
     stop = f.load(starts, f.build.add(colour, INT(1)), INT32)
@@ -197,7 +197,7 @@ def _slice(f: Function, problem: Any, table: str, colour: Any) -> Iterator[Any]:
         yield i
 
 
-def _fill_by_tangent(f: Function, problem: Any, data: Any, column: Any) -> None:
+def _fill_by_tangent(f: FixedFunction, problem: Any, data: Any, column: Any) -> None:
     seeds, directions = f.get(problem, "seeds"), f.get(problem, "directions")
     rows, places = f.get(problem, "rows"), f.get(problem, "places")
     with f.loop(INT(0), f.get(problem, "colours")) as colour:
@@ -211,7 +211,7 @@ def _fill_by_tangent(f: Function, problem: Any, data: Any, column: Any) -> None:
 
 
 def _fill_by_differences(
-    f: Function, problem: Any, data: Any, base: tuple[Any, Any], spare: tuple[Any, Any]
+    f: FixedFunction, problem: Any, data: Any, base: tuple[Any, Any], spare: tuple[Any, Any]
 ) -> None:
     """Curtis, Powell and Reid (1974): states that share no row are moved together."""
     (y, fy), (column, moved) = base, spare
@@ -240,7 +240,7 @@ def _fill_by_differences(
             f.store(data, f.load(places, i, INT32), slope)
 
 
-def _fill_by_program(f: Function, problem: Any, data: Any) -> None:
+def _fill_by_program(f: FixedFunction, problem: Any, data: Any) -> None:
     f.call(f.get(problem, "jacobian"), INT, [f.get(problem, "memory"), data])
     array, sources, places = (f.get(problem, name) for name in ("array", "sources", "places"))
     with _slice(f, problem, "entry_starts", INT(0)) as i:

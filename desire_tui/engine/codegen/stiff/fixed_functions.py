@@ -12,14 +12,20 @@ from typing import Any, NamedTuple
 
 from llvmlite import ir
 
-from desire_tui.engine.codegen.jit.compiler import Code, compile_and_keep, compile_text, kept_code, machine
+from desire_tui.engine.codegen.jit.compiler import (
+    MachineCode,
+    compile_and_keep,
+    compile_text,
+    kept_code,
+    machine,
+)
 from desire_tui.engine.codegen.stiff.callbacks import add_callbacks
 from desire_tui.engine.codegen.stiff.interval import add_gather, add_interval
 from desire_tui.engine.codegen.stiff.plain_python import PlainPython
 from desire_tui.engine.codegen.stiff.steppers import CvodeStepper, OwnStepper
 from desire_tui.engine.integration.bdf import choice, coefficients, newton, start, step
 from desire_tui.engine.integration.bdf.memory import Bdf
-from desire_tui.engine.integration.problem import Problem
+from desire_tui.engine.integration.problem import SolverProblem
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 from desire_tui.engine.runtime.run_memory import RunMemory
@@ -123,7 +129,9 @@ def _connect() -> None:
 
 @cache
 def _name(n: int) -> str:
-    layouts = repr([T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, Problem, RunMemory))])
+    layouts = repr(
+        [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory))]
+    )
     everything = b"".join(_TEXTS.values()) + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
     return f"bdf-{n}-{blake2b(everything, digest_size=8).hexdigest()}"
 
@@ -144,7 +152,7 @@ def _module(*, own: bool, n: int = _ANY) -> ir.Module:
     return module
 
 
-def _found(code: Code, *, own: bool) -> StiffFunctions:
+def _found(code: MachineCode, *, own: bool) -> StiffFunctions:
     return StiffFunctions(
         rhs=code.address("desire_rhs"),
         weights=code.address("desire_weights"),

@@ -17,7 +17,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.codegen.stiff.callbacks import scatter
-from desire_tui.engine.codegen.stiff.ir_builder import INT, INT32, POINTER, REAL, VOID, Function
+from desire_tui.engine.codegen.stiff.ir_builder import INT, INT32, POINTER, REAL, VOID, FixedFunction
 from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
     CHATTER_PART,
@@ -42,7 +42,7 @@ def add_interval(module: Any, stepper: Stepper) -> None:
 
 def add_gather(module: Any) -> None:
     """Add `desire_gather`: copy the states' values to the solver's vector."""
-    f = Function(module, "desire_gather", VOID, [POINTER])
+    f = FixedFunction(module, "desire_gather", VOID, [POINTER])
     (problem,) = f.arguments
     values, ranges, states = (f.get(problem, name) for name in ("values", "ranges", "states"))
     with f.loop(INT(0), f.get(problem, "range_count")) as i:
@@ -54,7 +54,7 @@ def add_gather(module: Any) -> None:
 
 def _add_sync(module: Any, stepper: Stepper) -> None:
     """Begin anew if t or a state is not what the solver left."""
-    f = Function(module, f"{stepper.prefix}_sync", VOID, [POINTER])
+    f = FixedFunction(module, f"{stepper.prefix}_sync", VOID, [POINTER])
     (problem,) = f.arguments
     f.outside("desire_gather", VOID, [problem])
     states, last = f.get(problem, "states"), f.get(problem, "last")
@@ -81,7 +81,7 @@ def _add_sync(module: Any, stepper: Stepper) -> None:
 
 
 def _add_interval(module: Any, stepper: Stepper) -> None:
-    f = Function(module, f"{stepper.prefix}_interval", INT32, [POINTER, POINTER, REAL, INT32])
+    f = FixedFunction(module, f"{stepper.prefix}_interval", INT32, [POINTER, POINTER, REAL, INT32])
     problem, memory, t_next, passed = f.arguments
     build = f.build
     values, states, last = (f.get(problem, name) for name in ("values", "states", "last"))
@@ -129,7 +129,7 @@ def _add_interval(module: Any, stepper: Stepper) -> None:
     build.branch(start)
 
 
-def _watch_progress(f: Function, problem: Any, t: Any, flag: Any) -> Any:
+def _watch_progress(f: FixedFunction, problem: Any, t: Any, flag: Any) -> Any:
     """Count steps that do not change t; too many of them make a failure of a success."""
     same = f.build.fcmp_ordered("==", t, f.get(problem, "t"))
     stuck = f.build.select(same, f.build.add(f.get(problem, "stuck"), INT(1)), INT(0))
@@ -140,7 +140,7 @@ def _watch_progress(f: Function, problem: Any, t: Any, flag: Any) -> Any:
     return f.build.select(hopeless, reason, flag)
 
 
-def _watch_chatter(f: Function, stepper: Stepper, run: tuple[Any, Any], t: Any, flag: Any) -> Any:
+def _watch_chatter(f: FixedFunction, stepper: Stepper, run: tuple[Any, Any], t: Any, flag: Any) -> Any:
     """Make a failure of steps that fail about as often as they succeed and get nowhere."""
     build, (problem, memory) = f.build, run
     with build.goto_entry_block():  # this stands in a loop: an alloca here would eat the stack
@@ -162,7 +162,7 @@ def _watch_chatter(f: Function, stepper: Stepper, run: tuple[Any, Any], t: Any, 
     return build.load(result, typ=INT32)
 
 
-def _record_step(f: Function, memory: Any, dt: Any) -> None:
+def _record_step(f: FixedFunction, memory: Any, dt: Any) -> None:
     first = f.build.icmp_signed("==", f.get(memory, "steps", RunMemory), INT(0))
     f.add(memory, "steps", INT(1), RunMemory)
     for field, better in (("dt_least", "<"), ("dt_most", ">")):

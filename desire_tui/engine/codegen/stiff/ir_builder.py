@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
 
-from desire_tui.engine.integration.problem import Problem
+from desire_tui.engine.integration.problem import SolverProblem
 
 if TYPE_CHECKING:
     import ctypes
@@ -23,7 +23,7 @@ VOID = ir.VoidType()
 BYTE = ir.IntType(8)
 
 
-class Function:
+class FixedFunction:
     """A function being built: its builder, its arguments, fields of the C structures, loops."""
 
     def __init__(self, module: ir.Module, name: str, result: Any, arguments: Sequence[Any]) -> None:
@@ -32,16 +32,16 @@ class Function:
         self.arguments = self.function.args
         self.build = ir.IRBuilder(self.function.append_basic_block("entry"))
 
-    def get(self, structure: Any, field: str, of: type[ctypes.Structure] = Problem) -> Any:
+    def get(self, structure: Any, field: str, of: type[ctypes.Structure] = SolverProblem) -> Any:
         """Load a field of the structure at a pointer; addresses come as pointers."""
         place, kind = self.field(structure, field, of)
         return self.build.load(place, typ=kind)
 
-    def put(self, structure: Any, field: str, value: Any, of: type[ctypes.Structure] = Problem) -> None:
+    def put(self, structure: Any, field: str, value: Any, of: type[ctypes.Structure] = SolverProblem) -> None:
         """Store a field."""
         self.build.store(value, self.field(structure, field, of)[0])
 
-    def add(self, structure: Any, field: str, value: Any, of: type[ctypes.Structure] = Problem) -> None:
+    def add(self, structure: Any, field: str, value: Any, of: type[ctypes.Structure] = SolverProblem) -> None:
         """Count a whole-numbered field up."""
         place, kind = self.field(structure, field, of)
         self.build.store(self.build.add(self.build.load(place, typ=kind), value), place)

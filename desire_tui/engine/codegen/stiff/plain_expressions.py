@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from desire_tui.engine.codegen.stiff.ir_builder import FLAG, INT, POINTER, REAL, Function
+from desire_tui.engine.codegen.stiff.ir_builder import FLAG, INT, POINTER, REAL, FixedFunction
 
 if TYPE_CHECKING:
     import ctypes
@@ -37,14 +37,14 @@ class Surroundings(NamedTuple):
     """For a function pointer of the structure the IR function that it always points at."""
     known: Mapping[str, int]
     """Whole-numbered fields that always have this value."""
-    functions: Mapping[str, Function]
+    functions: Mapping[str, FixedFunction]
     constants: Mapping[str, Any]
 
 
-class Expressions:
+class PlainExpressions:
     """Writes one function's expressions, and the assignments that make its variables."""
 
-    def __init__(self, around: Surroundings, function: Function) -> None:
+    def __init__(self, around: Surroundings, function: FixedFunction) -> None:
         self._around, self._f = around, function
         self._build = function.build
         self._variables: dict[str, _Variable] = {}

@@ -13,8 +13,8 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine.codegen.stiff.ir_builder import INT, POINTER, REAL, VOID, Function
-from desire_tui.engine.codegen.stiff.plain_expressions import Array, Expressions, Surroundings
+from desire_tui.engine.codegen.stiff.ir_builder import INT, POINTER, REAL, VOID, FixedFunction
+from desire_tui.engine.codegen.stiff.plain_expressions import Array, PlainExpressions, Surroundings
 
 if TYPE_CHECKING:
     import ctypes
@@ -53,17 +53,17 @@ class PlainPython:
             around = Surroundings(structure, natives, known, self.functions, constants)
             _Body(around, self.functions[node.name]).write(node)
 
-    def _declare(self, node: ast.FunctionDef) -> Function:
+    def _declare(self, node: ast.FunctionDef) -> FixedFunction:
         arguments = [_KINDS.get(_name(argument.annotation), POINTER) for argument in node.args.args]
-        return Function(
+        return FixedFunction(
             self._module, self._prefix + node.name, _KINDS.get(_name(node.returns), VOID), arguments
         )
 
 
-class _Body(Expressions):
+class _Body(PlainExpressions):
     """Writes one function."""
 
-    def __init__(self, around: Surroundings, function: Function) -> None:
+    def __init__(self, around: Surroundings, function: FixedFunction) -> None:
         super().__init__(around, function)
         self._loops: list[tuple[Any, Any]] = []
 

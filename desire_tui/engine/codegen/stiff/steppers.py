@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
-from desire_tui.engine.codegen.stiff.ir_builder import INT, INT32, REAL, Function
+from desire_tui.engine.codegen.stiff.ir_builder import INT, INT32, REAL, FixedFunction
 from desire_tui.engine.integration.bdf.memory import Bdf
 from desire_tui.engine.integration.sundials.signatures import ONE_STEP
 
@@ -18,16 +18,16 @@ class Stepper(Protocol):
 
     prefix: str
 
-    def restart(self, f: Function, problem: Any, t: Any, first_step: Any) -> None:
+    def restart(self, f: FixedFunction, problem: Any, t: Any, first_step: Any) -> None:
         """Begin anew from the states in `Problem.states`; a first step of 0: the solver looks for one."""
 
-    def step(self, f: Function, problem: Any, t_next: Any, reached: Any) -> Any:
+    def step(self, f: FixedFunction, problem: Any, t_next: Any, reached: Any) -> Any:
         """Return the flag; store t in `reached`, the solution in `Problem.states`."""
 
-    def last_step(self, f: Function, problem: Any) -> Any:
+    def last_step(self, f: FixedFunction, problem: Any) -> Any:
         """Return the last step's size."""
 
-    def failed(self, f: Function, problem: Any) -> Any:
+    def failed(self, f: FixedFunction, problem: Any) -> Any:
         """Return the number of tries that failed, whole steps each."""
 
 
@@ -36,26 +36,26 @@ class CvodeStepper:
 
     prefix = "cvode"
 
-    def restart(self, f: Function, problem: Any, t: Any, first_step: Any) -> None:
+    def restart(self, f: FixedFunction, problem: Any, t: Any, first_step: Any) -> None:
         """CVodeReInit."""
         solver = f.get(problem, "solver")
         f.outside("CVodeReInit", INT32, [solver, t, f.get(problem, "vector")])
         f.outside("CVodeSetInitStep", INT32, [solver, first_step])
 
-    def step(self, f: Function, problem: Any, t_next: Any, reached: Any) -> Any:
+    def step(self, f: FixedFunction, problem: Any, t_next: Any, reached: Any) -> Any:
         """CVode."""
         solver = f.get(problem, "solver")
         f.outside("CVodeSetStopTime", INT32, [solver, t_next])
         arguments = [solver, t_next, f.get(problem, "vector"), reached, INT32(ONE_STEP)]
         return f.outside("CVode", INT32, arguments)
 
-    def last_step(self, f: Function, problem: Any) -> Any:
+    def last_step(self, f: FixedFunction, problem: Any) -> Any:
         """CVodeGetLastStep."""
         cell = self._cell(f, REAL)
         f.outside("CVodeGetLastStep", INT32, [f.get(problem, "solver"), cell])
         return f.build.load(cell, typ=REAL)
 
-    def failed(self, f: Function, problem: Any) -> Any:
+    def failed(self, f: FixedFunction, problem: Any) -> Any:
         """CVodeGetNumErrTestFails and CVodeGetNumStepSolveFails."""
         total, cell = INT(0), self._cell(f, INT)
         for name in ("CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails"):
@@ -65,7 +65,7 @@ class CvodeStepper:
         return total
 
     @staticmethod
-    def _cell(f: Function, kind: Any) -> Any:
+    def _cell(f: FixedFunction, kind: Any) -> Any:
         with f.build.goto_entry_block():  # in a loop an alloca would eat the stack
             return f.build.alloca(kind)
 
@@ -75,29 +75,29 @@ class OwnStepper:
 
     prefix = "own"
 
-    def __init__(self, functions: dict[str, Function]) -> None:
+    def __init__(self, functions: dict[str, FixedFunction]) -> None:
         self._functions = functions
 
-    def restart(self, f: Function, problem: Any, t: Any, first_step: Any) -> None:
+    def restart(self, f: FixedFunction, problem: Any, t: Any, first_step: Any) -> None:
         """`bdf.step.restart`."""
         self._call(f, "restart", f.get(problem, "solver"), t, first_step)
 
-    def step(self, f: Function, problem: Any, t_next: Any, reached: Any) -> Any:
+    def step(self, f: FixedFunction, problem: Any, t_next: Any, reached: Any) -> Any:
         """`bdf.step.advance`."""
         solver = f.get(problem, "solver")
         flag = self._call(f, "advance", solver, t_next)
         f.build.store(f.get(solver, "t", Bdf), reached)
         return f.build.trunc(flag, INT32)
 
-    def last_step(self, f: Function, problem: Any) -> Any:
+    def last_step(self, f: FixedFunction, problem: Any) -> Any:
         """Read the field."""
         return f.get(f.get(problem, "solver"), "h_last", Bdf)
 
-    def failed(self, f: Function, problem: Any) -> Any:
+    def failed(self, f: FixedFunction, problem: Any) -> Any:
         """Read the fields."""
         solver = f.get(problem, "solver")
         tests, corrections = (f.get(solver, name, Bdf) for name in ("failed_tests", "failed_corrections"))
         return f.build.add(tests, corrections)
 
-    def _call(self, f: Function, name: str, *arguments: Any) -> Any:
+    def _call(self, f: FixedFunction, name: str, *arguments: Any) -> Any:
         return f.build.call(self._functions[name].function, arguments)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.ir.text import Text
+from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
 from desire_tui.engine.codegen.loop.compiled_loops import named
 from desire_tui.engine.codegen.loop.run_loop import Driver
@@ -44,7 +44,7 @@ class StiffDriver(Driver):
 
 def stiff_loop() -> Piece:
     """Write the loop; it is the same for all models and all eight rules."""
-    text = Text()
+    text = IrText()
     tableau = TABLEAUS[
         2
     ]  # one stage: what the loop wants to know is only that there are steps of constant rule

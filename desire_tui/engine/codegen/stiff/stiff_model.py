@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.codegen.ir.work_memory import PASSES, Context
+from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.jit.native_model import passes_of
 from desire_tui.engine.codegen.jit.pass_functions import PassFunctions
-from desire_tui.engine.codegen.jit.piece_tables import Tables
+from desire_tui.engine.codegen.jit.piece_tables import PieceTables
 from desire_tui.engine.codegen.stiff.fixed_functions import StiffFunctions, fast_functions, first_functions
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import is_own, kind_of, plan
-from desire_tui.engine.integration.system import Functions, Natives, StiffSystem
+from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
 from desire_tui.engine.lowering.jacobian import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.jit.backend import NativeBackend
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.integration.plan import Plan
+    from desire_tui.engine.integration.plan import SolverPlan
     from desire_tui.engine.lowered import Action, Segment
     from desire_tui.engine.values import Values
 
@@ -65,11 +65,11 @@ class StiffModel:
             way,
             values.address,
             [(s.slot, s.first, s.count) for s in segment.states],
-            Functions(**addresses),
+            ModelFunctions(**addresses),
             directions=directions,
             array=array,
         )
-        self._tables = Tables(backend.store, passes)
+        self._tables = PieceTables(backend.store, passes)
         self._fill_context(segment)
         self._better: StiffFunctions | None = None
         self._use(first_functions(segment.order, own=self._own))
@@ -93,7 +93,7 @@ class StiffModel:
         )
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
         self._temps, self._k1 = np.zeros(self._tables.temps), np.zeros(order)
-        self.context = context = Context(values=self._values.address, states=order)
+        self.context = context = WorkMemory(values=self._values.address, states=order)
         for kind in PASSES:
             setattr(context, kind, self._tables.addresses[kind])
         context.temps, context.k1 = self._temps.ctypes.data, self._k1.ctypes.data
@@ -175,7 +175,7 @@ def _jacobian_passes(
     return {"tangent": tangent.body}, tangent.directions, 0
 
 
-def _plan(segment: Segment, rule: int, extra: Mapping[str, object]) -> Plan:
+def _plan(segment: Segment, rule: int, extra: Mapping[str, object]) -> SolverPlan:
     order = segment.order
     if kind_of(rule) in {"fixed-point", "diagonal"}:
         pattern = Pattern.of(order, np.zeros(0, np.int32), np.zeros(0, np.int32))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir import random
-from desire_tui.engine.codegen.scalar.expressions import Expressions
-from desire_tui.engine.lowered import Const, MatVec, Op, Outer, RowOf, Shifted, Vec
+from desire_tui.engine.codegen.scalar.expressions import IrExpressions
+from desire_tui.engine.lowered import Const, MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowered.effects import DRAWS, OVER_ELEMENTS, operands, walk
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def invariants(node: Value) -> list[Value]:
     return [part for operand in operands(node) for part in invariants(operand)]
 
 
-class ElementExpressions(Expressions):
+class StripExpressions(IrExpressions):
     """Evaluates one statement for one strip."""
 
     def __init__(self, strip: Strip, cells: Cells, prepared: Prepared) -> None:
@@ -71,9 +71,9 @@ class ElementExpressions(Expressions):
         match node:
             case Vec() | MatVec():
                 return strip.fetch(base)
-            case Shifted():
+            case ShiftedVec():
                 return strip.fetch_shifted(base, node.by, node.count)
-            case RowOf():
+            case PatternRow():
                 return strip.fetch(base)
             case Outer():
                 return self._outer(node, base)

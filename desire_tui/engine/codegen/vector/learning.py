@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
-from desire_tui.engine.codegen.ir.text import Text
+from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.vector import products
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.vector.vectors import Statements
-    from desire_tui.engine.lowered import Learn
+    from desire_tui.engine.codegen.vector.vectors import ArrayStatements
+    from desire_tui.engine.lowered import LearningStep
 
 _INFINITY = float("inf")
 
 
-def write_learning(statements: Statements, action: Learn) -> None:
+def write_learning(statements: ArrayStatements, action: LearningStep) -> None:
     """Write one learning step as a call."""
     text = statements.text
     rows, cols = action.out_count, action.in_count
@@ -43,13 +43,13 @@ def write_learning(statements: Statements, action: Learn) -> None:
     text.do(f"call void @sanger(ptr {out}, ptr {weights}, ptr {x}, {sizes}, ptr {statements.temp(cols)})")
 
 
-def _row(text: Text, row: str) -> str:
+def _row(text: IrText, row: str) -> str:
     return text.op(f"getelementptr double, ptr %w, i64 {text.op(f'mul i64 {row}, %cols')}")
 
 
 @functools.cache
 def _threshold() -> str:
-    text = Text()
+    text = IrText()
     e = Lanes(text)
 
     def one(i: str) -> None:
@@ -64,7 +64,7 @@ def _threshold() -> str:
 @functools.cache
 def _sanger() -> str:
     """W[i] += rate·v[i]·(x - Σ over k ≤ i of v[k]·W[k])."""
-    text = Text()
+    text = IrText()
     e = Lanes(text)
     loop(text, "0", "%cols", 1, lambda k: put(e, "%rest", k, fetch(e, "%x", k)))
 
@@ -92,7 +92,7 @@ def _compete() -> str:
 
     The function returns 1 where no row is near enough and none is free, else 0.
     """
-    text = Text()
+    text = IrText()
     e = Lanes(text)
     best, best_raw = text.alloca("double"), text.alloca("double")
     winner, free_row = text.alloca("i64"), text.alloca("i64")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.counted_loops import loop
 from desire_tui.engine.codegen.vector import products
-from desire_tui.engine.codegen.vector.elements import ElementExpressions
+from desire_tui.engine.codegen.vector.elements import StripExpressions
 from desire_tui.engine.codegen.vector.fusion import Reach, needs_copy, value_reach
 from desire_tui.engine.codegen.vector.strips import Strip
 from desire_tui.engine.lowered import Outer
@@ -31,7 +31,7 @@ def write_matrix(statements: ArrayOperands, action: SetMat) -> None:
     mask = None if action.mask_slot is None else statements.at(action.mask_slot)
 
     def body(strip: Strip) -> None:
-        expressions = ElementExpressions(strip, statements.cells, prepared)
+        expressions = StripExpressions(strip, statements.cells, prepared)
         lanes = strip.lanes
         value = expressions.value(action.value)
         if action.mode == "add":

@@ -11,7 +11,7 @@ from desire_tui.engine.codegen.scalar.statements import ScalarStatements
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import Prepared, invariants, lane_states
 from desire_tui.engine.codegen.vector.strips import Strip
-from desire_tui.engine.lowered import MatVec, Outer, RowOf, Shifted, Vec
+from desire_tui.engine.lowered import MatVec, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowered.effects import walk
 from desire_tui.engine.values import IROW
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.codegen.ir.cells import Cells
-    from desire_tui.engine.codegen.ir.text import Text
+    from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.lowered import Value
 
 
@@ -29,7 +29,7 @@ class ArrayOperands(ScalarStatements):
     `temps` says how many doubles of scratch the context's `temps` must hold.
     """
 
-    def __init__(self, text: Text, cells: Cells, width: int) -> None:
+    def __init__(self, text: IrText, cells: Cells, width: int) -> None:
         super().__init__(text, cells)
         self.wide = Lanes(text, width)
         self.temps = 0
@@ -59,7 +59,7 @@ class ArrayOperands(ScalarStatements):
             for part in invariants(value):
                 prepared.splats[id(part)] = self.wide.splat(self.scalars.value(part))
             for node in walk(value):
-                if isinstance(node, Vec | Shifted | MatVec | RowOf | Outer):
+                if isinstance(node, Vec | ShiftedVec | MatVec | PatternRow | Outer):
                     prepared.bases[id(node)] = self.base(node)
         if per_element:
             start = self.text.op("load i64, ptr %random")
@@ -71,12 +71,12 @@ class ArrayOperands(ScalarStatements):
             self.text.do(f"store i64 {after}, ptr %random")
         return prepared
 
-    def base(self, node: Vec | Shifted | MatVec | RowOf | Outer) -> str:
+    def base(self, node: Vec | ShiftedVec | MatVec | PatternRow | Outer) -> str:
         """Return the address of an operand's first element; products are computed now."""
         match node:
             case MatVec():
                 return self.product(node)
-            case RowOf():
+            case PatternRow():
                 return self._row(node)
             case Outer():
                 return self.at(node.v_slot)
@@ -96,7 +96,7 @@ class ArrayOperands(ScalarStatements):
         )
         return result
 
-    def _row(self, node: RowOf) -> str:
+    def _row(self, node: PatternRow) -> str:
         """Return the address of row ((trnc(iRow) - 1) mod rows); beyond all reason, the first one."""
         op = self.text.op
         number = self.cells.load(IROW)

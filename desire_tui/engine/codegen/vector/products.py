@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
-from desire_tui.engine.codegen.ir.text import Text
+from desire_tui.engine.codegen.ir.text import IrText
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,12 +20,12 @@ _LANES = 8
 _ROWS = 4
 
 
-def _function(kind: str, name: str, parameters: str, text: Text, memory: str) -> str:
+def _function(kind: str, name: str, parameters: str, text: IrText, memory: str) -> str:
     head = f"define internal {kind} @{name}({parameters}) nounwind willreturn memory({memory})"
     return f"{head} {{\n{text.body()}\n}}"
 
 
-def _begin(text: Text, lanes: Lanes, count: int) -> list[str]:
+def _begin(text: IrText, lanes: Lanes, count: int) -> list[str]:
     cells = [text.alloca(lanes.kind) for _ in range(count)]
     for cell in cells:
         text.do(f"store {lanes.kind} zeroinitializer, ptr {cell}")
@@ -47,7 +47,7 @@ def _collect(wide: Lanes, cell: str) -> str:
     return parts[0]
 
 
-def _rows_times(text: Text, first: str, rows: int) -> None:
+def _rows_times(text: IrText, first: str, rows: int) -> None:
     """Write y[first …] for so many rows side by side."""
     wide, single = Lanes(text, _LANES), Lanes(text)
     bases = []
@@ -80,7 +80,7 @@ def _rows_times(text: Text, first: str, rows: int) -> None:
 @functools.cache
 def matrix_times_vector() -> str:
     """Return `void @matvec(a, x, y, rows, cols)`: y = A·x."""
-    text = Text()
+    text = IrText()
     text.do(f"%rest = urem i64 %cols, {_LANES}")
     text.do("%main = sub i64 %cols, %rest")
     text.do(f"%some = urem i64 %rows, {_ROWS}")
@@ -95,7 +95,7 @@ def matrix_times_vector() -> str:
 @functools.cache
 def transposed_times_vector() -> str:
     """Return `void @tmatvec(a, x, y, rows, cols)`: y = Aᵀ·x."""
-    text = Text()
+    text = IrText()
     wide, single = Lanes(text, _LANES), Lanes(text)
     text.do(f"%rest = urem i64 %cols, {_LANES}")
     text.do("%main = sub i64 %cols, %rest")
@@ -121,7 +121,7 @@ def transposed_times_vector() -> str:
 
 def _reduction(name: str, arrays: Sequence[str]) -> str:
     """Return `double @name(arrays…, n)`: the sum of the products of the arrays' elements."""
-    text = Text()
+    text = IrText()
     wide, single = Lanes(text, _LANES), Lanes(text)
     text.do(f"%rest = urem i64 %n, {2 * _LANES}")
     text.do("%main = sub i64 %n, %rest")
@@ -160,7 +160,7 @@ def total() -> str:
 @functools.cache
 def largest() -> str:
     """Return `void @largest(x, y, n)`: y is x at its largest element (ties: the highest index), else 0."""
-    text = Text()
+    text = IrText()
     single = Lanes(text)
     most, where = text.alloca("double"), text.alloca("i64")
     text.do(f"store double {fetch(single, '%x', '0')}, ptr {most}")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.scalar.rerolled_loops import write_rolled
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector import products
-from desire_tui.engine.codegen.vector.elements import ElementExpressions
+from desire_tui.engine.codegen.vector.elements import StripExpressions
 from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_reach
 from desire_tui.engine.codegen.vector.learning import write_learning
 from desire_tui.engine.codegen.vector.matrices import write_dot, write_matrix
@@ -15,12 +15,12 @@ from desire_tui.engine.codegen.vector.operands import ArrayOperands
 from desire_tui.engine.lowered import (
     Deriv,
     DerivVec,
-    Learn,
+    LearningStep,
     Set,
     SetDot,
     SetMat,
     SetVec,
-    Shifted,
+    ShiftedVec,
 )
 from desire_tui.engine.lowered.effects import OVER_ELEMENTS, draws, walk
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered import Action
 
 
-class Statements(ArrayOperands):
+class ArrayStatements(ArrayOperands):
     """All statements."""
 
     def write(self, actions: Iterable[Action | Rolled]) -> None:
@@ -52,7 +52,7 @@ class Statements(ArrayOperands):
                 write_matrix(self, action)
             case SetDot():
                 write_dot(self, action)
-            case Learn():
+            case LearningStep():
                 write_learning(self, action)
                 self.cells.forget()
             case _:
@@ -74,7 +74,7 @@ class Statements(ArrayOperands):
     def _fused(self, group: list[SetVec | DerivVec]) -> None:
         """Write statements of one length as one loop."""
         writers = [_Writer(self, action) for action in group]
-        shifts = [n.by for a in group for n in walk(a.value) if isinstance(n, Shifted)]
+        shifts = [n.by for a in group for n in walk(a.value) if isinstance(n, ShiftedVec)]
         below = max((-by for by in shifts if by < 0), default=0)
         above = max((by for by in shifts if by > 0), default=0)
 
@@ -91,7 +91,7 @@ class Statements(ArrayOperands):
 class _Writer:
     """Writes one elementwise statement: before the loop, in it, and behind it."""
 
-    def __init__(self, statements: Statements, action: SetVec | DerivVec) -> None:
+    def __init__(self, statements: ArrayStatements, action: SetVec | DerivVec) -> None:
         self._statements = statements
         self._action = action
         self._mask = self._own = ""
@@ -109,7 +109,7 @@ class _Writer:
 
     def write(self, strip: Strip) -> None:
         """Write the statement for one strip."""
-        expressions = ElementExpressions(strip, self._statements.cells, self._prepared)
+        expressions = StripExpressions(strip, self._statements.cells, self._prepared)
         value = expressions.value(self._action.value)
         expressions.finish()
         lanes = strip.lanes

@@ -10,15 +10,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 from desire_tui.engine.syntax.build.children import Kids, Misuse, NumberToken, Token, Value
-from desire_tui.engine.syntax.build.expressions import Expressions
-from desire_tui.engine.syntax.build.script import Script
+from desire_tui.engine.syntax.build.expressions import ExpressionProductions
+from desire_tui.engine.syntax.build.script import ScriptProductions
 from desire_tui.engine.syntax.build.segment import Dynamic
 
 if TYPE_CHECKING:
     from desire_tui.engine import nodes as n
 
 
-class Builder(Expressions, Script, Dynamic):
+class NodeBuilder(ExpressionProductions, ScriptProductions, Dynamic):
     """The productions' methods. `kids` are the children, tokens included; offsets are token numbers."""
 
     def token(self, kind: str, text: str, number: int) -> Token:
@@ -32,4 +32,4 @@ class Builder(Expressions, Script, Dynamic):
         return cast("n.Node", getattr(self, method)(kids, first, last))
 
 
-__all__ = ["Builder", "Misuse", "NumberToken", "Token", "Value"]
+__all__ = ["Misuse", "NodeBuilder", "NumberToken", "Token", "Value"]

@@ -19,7 +19,7 @@ from desire_tui.engine.syntax.literals import octal_value
 from desire_tui.engine.syntax.statement_tokens import NUMBER
 
 
-class Expressions:
+class ExpressionProductions:
     """Numbers to conditions; assignments."""
 
     def number(self, kids: Kids, first: int, last: int) -> n.Node:

@@ -24,7 +24,7 @@ from desire_tui.engine.syntax.build.children import (
 DIMENSIONS_MAX = 10
 
 
-class Script:
+class ScriptProductions:
     """Blocks, jumps, declarations, input and output, graphs."""
 
     def if_then(self, kids: Kids, first: int, last: int) -> n.Node:
