@@ -19,14 +19,14 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.bench_run_speed import ladder as ladder_work
-from desire_tui.engine.codegen import NativeBackend
+from desire_tui.engine.codegen.jit.backend import NativeBackend
 from desire_tui.engine.codegen.scalar import rerolling, templates
 from desire_tui.engine.lowering import lowering_cache
 from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse, shapes
-from desire_tui.engine.syntax.parse import forget_lines
+from desire_tui.engine.syntax import shapes
+from desire_tui.engine.syntax.parse import forget_lines, parse
 from desire_tui.engine.values import DT, T, Values
 
 Program = tuple[str, tuple[str, ...], tuple[str, ...]]

@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 import time
 
-from desire_tui.engine.interpreter import Interpreter
+from desire_tui.engine.interpreter.interpreter import Interpreter
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import structure
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.values import Values
 
 PASSES = 200_000

@@ -28,7 +28,8 @@ from numpy.typing import NDArray
 
 from desire_tui.engine.codegen.stiff.fixed_functions import fast_functions
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.session import Listener, Session
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.session import Session
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -55,7 +55,7 @@ def program(curves: int, t_max: float) -> str:
 
 def lasting(curves: int, seconds: float) -> str:
     """Return the program so long that its run takes about so many seconds here: curves grow all the time."""
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.session.session import Session
     from desire_tui.engine.source import Source
 
     session = Session()

@@ -10,8 +10,8 @@ import ast
 from time import process_time
 
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse, shapes
-from desire_tui.engine.syntax.parse import forget_lines
+from desire_tui.engine.syntax import shapes
+from desire_tui.engine.syntax.parse import forget_lines, parse
 
 REPEATS = 15
 

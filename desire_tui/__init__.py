@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from desire_tui.engine.outputs.results import Result
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.session.session import Session
 
 __version__ = "0.1.0"
 __all__ = ["Session", "__version__", "run"]
@@ -42,7 +42,7 @@ def run(program: str | PathLike[str], **settings: Any) -> Result:
 
 def __getattr__(name: str) -> Any:
     if name == "Session":
-        from desire_tui.engine.session import Session
+        from desire_tui.engine.session.session import Session
 
         return Session
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

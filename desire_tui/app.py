@@ -57,7 +57,7 @@ if TYPE_CHECKING:
 
     from desire_tui.actions import Controller
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.session import Permissions
+    from desire_tui.engine.session.permissions import Permissions
 
 STATUS_EVERY_S, QUANTITIES_EVERY_S = 0.1, 0.6
 """Numbers to read: drawing the table of quantities takes as long as five frames of the graph."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from desire_tui.engine.session import Session
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 DOCS = Path(__file__).parent

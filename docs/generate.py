@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.commands import BY_ID
-from desire_tui.help import topics
 from desire_tui.help.example_catalogue import CHAPTERS, Example, examples
+from desire_tui.help.page_catalogue import topics
 from desire_tui.panes.key_names import key_names
 from tests.programs.coverage import markdown as tested_where
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from desire_tui.help import Topic
+    from desire_tui.help.page_catalogue import Topic
 
 DOCS = Path(__file__).parent
 EXAMPLES = DOCS.parent / "examples"

@@ -8,7 +8,53 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from desire_tui.engine import nodes as n
+from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
+from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
+from desire_tui.engine.nodes.declarations import Declare, Declared, DeclaredGroup, Function, Submodel
+from desire_tui.engine.nodes.display import Display, Plot, Request, Show
+from desire_tui.engine.nodes.expressions import (
+    Binary,
+    Call,
+    Element,
+    Logical,
+    Name,
+    Not,
+    Number,
+    Pair,
+    Relation,
+    RowOf,
+    Shifted,
+    Text,
+    Transposed,
+    Unary,
+)
+from desire_tui.engine.nodes.files import (
+    Connect,
+    Data,
+    Disconnect,
+    Dump,
+    Input,
+    Note,
+    Read,
+    Restore,
+    Write,
+    WriteItem,
+)
+from desire_tui.engine.nodes.program import Placed, Program, SegmentText
+from desire_tui.engine.nodes.segment import (
+    Delay,
+    Derivative,
+    FunctionTable,
+    Get,
+    Invoke,
+    Learn,
+    Sample,
+    Store,
+    Term,
+    TrackHold,
+    VectorDerivative,
+)
 from desire_tui.engine.source import Source
 
 PLAIN = ["x", "y", "xdot", "alpha_1", "A", "W2", "v$", "t", "TMAX", "d", "dt", "e1", "a_b"]
@@ -35,7 +81,7 @@ numbers = st.one_of(
     st.integers(0, 10**6).map(float),
     st.floats(0, allow_nan=False, allow_infinity=False),
     st.integers(-32768, -1).map(float),
-).map(n.Number)
+).map(Number)
 strings = st.text(st.characters(exclude_categories=("Cs", "Cc")), max_size=12).filter(
     lambda text: not ("'" in text and '"' in text)
 )
@@ -48,25 +94,23 @@ def _some(of, least=1, most=3):
 def _grown(inner):
     """Expressions one level above `inner`."""
     return st.one_of(
-        st.builds(n.Binary, st.sampled_from("+-*/^"), inner, inner),
-        st.builds(n.Unary, st.sampled_from("-+"), inner),
-        st.builds(n.Element, names, _some(inner)),
-        st.builds(n.Call, plain_names, _some(inner, least=0)),
-        st.builds(n.Shifted, names, inner),
-        st.builds(n.Pair, inner, inner),
+        st.builds(Binary, st.sampled_from("+-*/^"), inner, inner),
+        st.builds(Unary, st.sampled_from("-+"), inner),
+        st.builds(Element, names, _some(inner)),
+        st.builds(Call, plain_names, _some(inner, least=0)),
+        st.builds(Shifted, names, inner),
+        st.builds(Pair, inner, inner),
     )
 
 
-leaves = st.one_of(names.map(n.Name), numbers, names.map(n.Transposed), names.map(n.RowOf))
+leaves = st.one_of(names.map(Name), numbers, names.map(Transposed), names.map(RowOf))
 expressions = st.recursive(leaves, _grown, max_leaves=12)
-targets = st.one_of(names.map(n.Name), st.builds(n.Element, names, _some(expressions)))
-relations = st.builds(
-    n.Relation, st.sampled_from(["=", "<", ">", "<=", ">=", "<>"]), expressions, expressions
-)
+targets = st.one_of(names.map(Name), st.builds(Element, names, _some(expressions)))
+relations = st.builds(Relation, st.sampled_from(["=", "<", ">", "<=", ">=", "<>"]), expressions, expressions)
 conditions = st.recursive(
     relations,
     lambda inner: st.one_of(
-        st.builds(n.Logical, st.sampled_from(["and", "or"]), inner, inner), st.builds(n.Not, inner)
+        st.builds(Logical, st.sampled_from(["and", "or"]), inner, inner), st.builds(Not, inner)
     ),
     max_leaves=5,
 )
@@ -81,9 +125,9 @@ def items(draw, least=0):
     made = []
     for i in range(count):
         separators = [",", ";"] if i < count - 1 else ["", ",", ";"]
-        value = draw(st.one_of(expressions, strings.map(n.Text)))
-        form = draw(st.sampled_from(["", "$", "%", "%%"])) if not isinstance(value, n.Text) else ""
-        made.append(n.WriteItem(value, form, draw(st.sampled_from(separators))))
+        value = draw(st.one_of(expressions, strings.map(Text)))
+        form = draw(st.sampled_from(["", "$", "%", "%%"])) if not isinstance(value, Text) else ""
+        made.append(WriteItem(value, form, draw(st.sampled_from(separators))))
     return tuple(made)
 
 
@@ -91,57 +135,57 @@ def items(draw, least=0):
 def declarations(draw):
     kind = draw(st.sampled_from(["ARRAY", "STATE", "INTEGER", "COMPLEX"]))
     dimensions = _some(expressions, least=1 if kind == "ARRAY" else 0)
-    part = st.builds(n.Declared, names, dimensions)
-    alone = st.builds(n.DeclaredGroup, st.tuples(part), st.none())
-    joined = st.builds(n.DeclaredGroup, _some(part), names)
-    return n.Declare(kind, draw(_some(alone | joined)))
+    part = st.builds(Declared, names, dimensions)
+    alone = st.builds(DeclaredGroup, st.tuples(part), st.none())
+    joined = st.builds(DeclaredGroup, _some(part), names)
+    return Declare(kind, draw(_some(alone | joined)))
 
 
 @st.composite
 def displays(draw):
     mode = draw(st.sampled_from("012ABCFNQRWY"))
     count = {"C": 1, "N": 1, "W": 2}.get(mode, 0)
-    return n.Display(mode, tuple(draw(expressions) for _ in range(count)))
+    return Display(mode, tuple(draw(expressions) for _ in range(count)))
 
 
 @st.composite
 def transforms(draw):
     kind = draw(st.sampled_from("FIRC"))
-    return n.Fft(kind, tuple(draw(expressions) for _ in range(5 if kind == "R" else 3)))
+    return Fft(kind, tuple(draw(expressions) for _ in range(5 if kind == "R" else 3)))
 
 
 @st.composite
 def matrices(draw):
     lower, upper = draw(st.one_of(st.just((None, None)), st.tuples(expressions, expressions)))
     value = draw(
-        st.one_of(expressions, st.builds(n.Call, st.sampled_from(["$In", "$Tr"]), st.tuples(expressions)))
+        st.one_of(expressions, st.builds(Call, st.sampled_from(["$In", "$Tr"]), st.tuples(expressions)))
     )
-    return n.MatrixAssign(draw(names), value, draw(st.booleans()), draw(st.none() | names), lower, upper)
+    return MatrixAssign(draw(names), value, draw(st.booleans()), draw(st.none() | names), lower, upper)
 
 
 @st.composite
 def vectors(draw):
     delta = draw(st.booleans())
     largest = not delta and draw(st.booleans())
-    return n.VectorAssign(draw(names), draw(expressions), delta, largest, draw(st.none() | names))
+    return VectorAssign(draw(names), draw(expressions), delta, largest, draw(st.none() | names))
 
 
 @st.composite
 def learners(draw):
     kind = draw(st.sampled_from(["CLEARN", "PLEARN", "INTP"]))
-    criterion = draw(st.one_of(numbers, names.map(n.Name))) if kind == "CLEARN" else None
+    criterion = draw(st.one_of(numbers, names.map(Name))) if kind == "CLEARN" else None
     conscience = kind == "CLEARN" and draw(st.booleans())
-    return n.Learn(kind, draw(names), draw(names), draw(names), draw(expressions), criterion, conscience)
+    return Learn(kind, draw(names), draw(names), draw(names), draw(expressions), criterion, conscience)
 
 
 @st.composite
 def tables(draw):
     if draw(st.booleans()):
-        call = n.Call("func1", (draw(expressions), n.Name(draw(names))))
+        call = Call("func1", (draw(expressions), Name(draw(names))))
     else:
         x, y, X, Y = (draw(expressions) for _ in range(4))
-        call = n.Call("func2", (x, y, n.Name(draw(names)), X, Y))
-    return n.FunctionTable(draw(targets), call)
+        call = Call("func2", (x, y, Name(draw(names)), X, Y))
+    return FunctionTable(draw(targets), call)
 
 
 SIMPLE = [
@@ -164,75 +208,75 @@ SIMPLE = [
 ]
 
 script_statements = st.one_of(
-    st.builds(n.If, conditions, st.none()),
-    st.builds(n.For, targets, expressions, expressions, maybe),
-    st.builds(n.While, conditions),
-    st.builds(n.Until, conditions),
-    st.builds(n.Simple, st.sampled_from(SIMPLE)),
+    st.builds(If, conditions, st.none()),
+    st.builds(For, targets, expressions, expressions, maybe),
+    st.builds(While, conditions),
+    st.builds(Until, conditions),
+    st.builds(Simple, st.sampled_from(SIMPLE)),
     st.builds(
-        n.FileCommand,
+        FileCommand,
         st.sampled_from(["keep", "keep+", "load", "snapshot", "notebook", "help", "sh", "compare"]),
         st.none() | strings.filter(bool),
     ),
-    st.builds(n.Label, names),
-    st.builds(n.GoTo, st.one_of(names, st.integers(0, 9999).map(str))),
-    st.builds(n.Procedure, names, _some(names, least=0), _some(names, least=0)),
-    st.builds(n.CallProcedure, names, _some(expressions, least=0), _some(expressions, least=0)),
-    st.builds(n.Submodel, names, _some(names, least=0)),
-    st.builds(n.Function, names, _some(names, least=0), expressions),
+    st.builds(Label, names),
+    st.builds(GoTo, st.one_of(names, st.integers(0, 9999).map(str))),
+    st.builds(Procedure, names, _some(names, least=0), _some(names, least=0)),
+    st.builds(CallProcedure, names, _some(expressions, least=0), _some(expressions, least=0)),
+    st.builds(Submodel, names, _some(names, least=0)),
+    st.builds(Function, names, _some(names, least=0), expressions),
     declarations(),
-    st.builds(n.Data, _some(expressions)),
-    st.builds(n.Read, all_targets),
-    st.builds(n.Restore, st.none() | names | st.integers(0, 9999).map(str)),
-    st.builds(n.Input, maybe, all_targets),
-    st.builds(lambda c, raw, i: n.Write(c, raw and c is not None, i), maybe, st.booleans(), items()),
-    st.builds(n.Connect, strings.map(n.Text), st.sampled_from(["input", "output"]), expressions),
-    st.builds(n.Disconnect, _some(expressions)),
-    st.one_of(st.builds(n.Dump, maybe, st.just("all")), st.just(n.Dump(None, "run"))),
-    st.builds(n.Note, items()),
-    st.builds(n.Irule, maybe),
-    st.builds(n.Seed, expressions),
-    st.builds(lambda label, reset, star: n.Drun(None if star else label, reset, star), st.none() | names,
+    st.builds(Data, _some(expressions)),
+    st.builds(Read, all_targets),
+    st.builds(Restore, st.none() | names | st.integers(0, 9999).map(str)),
+    st.builds(Input, maybe, all_targets),
+    st.builds(lambda c, raw, i: Write(c, raw and c is not None, i), maybe, st.booleans(), items()),
+    st.builds(Connect, strings.map(Text), st.sampled_from(["input", "output"]), expressions),
+    st.builds(Disconnect, _some(expressions)),
+    st.one_of(st.builds(Dump, maybe, st.just("all")), st.just(Dump(None, "run"))),
+    st.builds(Note, items()),
+    st.builds(Irule, maybe),
+    st.builds(Seed, expressions),
+    st.builds(lambda label, reset, star: Drun(None if star else label, reset, star), st.none() | names,
               st.booleans(), st.booleans()),
     transforms(),
     displays(),
-    st.builds(n.Plot, _some(expressions)),
-    st.builds(n.Show, names, maybe),
+    st.builds(Plot, _some(expressions)),
+    st.builds(Show, names, maybe),
 )  # fmt: skip
 shared_statements = st.one_of(
-    st.builds(n.Assign, targets, expressions),
+    st.builds(Assign, targets, expressions),
     matrices(),
     vectors(),
-    st.builds(n.Dot, targets, expressions, st.booleans()),
+    st.builds(Dot, targets, expressions, st.booleans()),
 )
 dynamic_statements = st.one_of(
-    st.builds(n.If, st.none(), expressions),
-    st.builds(n.Bare, st.builds(n.Call, plain_names, _some(expressions, least=0))),
-    st.builds(n.Invoke, names, _some(expressions, least=0)),
-    st.builds(n.Derivative, targets, expressions),
-    st.builds(n.VectorDerivative, names, expressions),
-    st.builds(n.Store, names, targets),
-    st.builds(n.Get, targets, names),
-    st.builds(n.Delay, targets, names, expressions, expressions, st.booleans()),
-    st.builds(n.TrackHold, targets, targets, expressions, expressions),
+    st.builds(If, st.none(), expressions),
+    st.builds(Bare, st.builds(Call, plain_names, _some(expressions, least=0))),
+    st.builds(Invoke, names, _some(expressions, least=0)),
+    st.builds(Derivative, targets, expressions),
+    st.builds(VectorDerivative, names, expressions),
+    st.builds(Store, names, targets),
+    st.builds(Get, targets, names),
+    st.builds(Delay, targets, names, expressions, expressions, st.booleans()),
+    st.builds(TrackHold, targets, targets, expressions, expressions),
     tables(),
-    st.builds(n.Term, expressions),
-    st.builds(n.Sample, expressions),
+    st.builds(Term, expressions),
+    st.builds(Sample, expressions),
     st.builds(
-        n.Request, st.sampled_from(["dispt", "dispxy", "DISPXY", "stash", "recover"]), st.none(), all_targets
+        Request, st.sampled_from(["dispt", "dispxy", "DISPXY", "stash", "recover"]), st.none(), all_targets
     ),
-    st.builds(n.Request, st.just("type"), maybe, all_targets),
+    st.builds(Request, st.just("type"), maybe, all_targets),
     learners(),
 )
 statements = st.one_of(script_statements, shared_statements, dynamic_statements)
 
 
 def _placed(of):
-    return st.lists(of.map(lambda node: n.Placed(node, 0)), max_size=6).map(tuple)
+    return st.lists(of.map(lambda node: Placed(node, 0)), max_size=6).map(tuple)
 
 
 _bodies = _placed(
-    st.one_of(dynamic_statements, shared_statements).filter(lambda node: not isinstance(node, n.Simple))
+    st.one_of(dynamic_statements, shared_statements).filter(lambda node: not isinstance(node, Simple))
 )
 
 
@@ -241,10 +285,10 @@ def programs(draw):
     """A program of any statements: it parses back to itself, but its blocks need not match."""
     script = draw(_placed(st.one_of(script_statements, shared_statements)))
     segments = [
-        n.SegmentText(label, draw(_bodies), draw(_bodies), 0)
+        SegmentText(label, draw(_bodies), draw(_bodies), 0)
         for label in draw(st.sampled_from([[], [None], [None, "second"], [None, "second", "third"]]))
     ]
-    return n.Program(Source(""), script, tuple(segments))
+    return Program(Source(""), script, tuple(segments))
 
 
 PIECES = """x = 3 + * ( ) [ ] { } , ; | ^ / - -- <= <> > < if then else proceed for to step next while end until repeat and

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.editor.live_check import CHECKED_MAX
-from desire_tui.engine.session import State
+from desire_tui.engine.session.status import State
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:

@@ -34,7 +34,7 @@ def source_named(name: str) -> Source:
 
 def check_files(names: Sequence[str]) -> int:
     """Report the problems of programs on standard error; 1 if any is an error or cannot be read."""
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.session.session import Session
 
     session, status = Session(), DONE
     for name in names:

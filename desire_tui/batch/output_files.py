@@ -12,9 +12,9 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.results import Result
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.session.session import Session
 
 STANDARD_OUTPUT = "-"
 _PLOT_ROWS = 24

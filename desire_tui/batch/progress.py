@@ -5,10 +5,10 @@ from __future__ import annotations
 from time import monotonic
 from typing import IO, TYPE_CHECKING
 
-from desire_tui.engine.session import State
+from desire_tui.engine.session.status import State
 
 if TYPE_CHECKING:
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.session.session import Session
 
 _SHOW_AFTER_SECONDS = 0.5
 _BAR = 20

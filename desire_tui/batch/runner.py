@@ -11,7 +11,8 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.session import Permissions, Session
+from desire_tui.engine.session.permissions import Permissions
+from desire_tui.engine.session.session import Session
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -125,7 +126,7 @@ class Work:
             return
         from desire_tui.engine.session.overrides import problems_of
         from desire_tui.engine.structure.structure import structure
-        from desire_tui.engine.syntax import parse
+        from desire_tui.engine.syntax.parse import parse
 
         program = parse(self._source)
         problems = problems_of(program, structure(program), self._orders.settings)

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.runtime.run_record import RunRecord
-    from desire_tui.engine.session import PermissionRequest, StoppedAt
+    from desire_tui.engine.session.listener import StoppedAt
+    from desire_tui.engine.session.permissions import PermissionRequest
 
 
 class EngineMessage(Message):

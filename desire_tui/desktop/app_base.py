@@ -11,7 +11,7 @@ from textual.app import App
 from desire_tui.common import paths
 from desire_tui.desktop import key_ordering
 from desire_tui.editor.editor_pane import EditorPane
-from desire_tui.engine.session import State
+from desire_tui.engine.session.status import State
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.graph_pane import GraphPane
 from desire_tui.panes.help_pane import HelpPane
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from desire_tui.common.layout_rules import Pane
     from desire_tui.desktop.engine_thread import EngineThread
     from desire_tui.desktop.main_screen import MainScreen
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.session.session import Session
     from desire_tui.panes.side_pane import Side
 
 

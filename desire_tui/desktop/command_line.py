@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.actions import Controller
 from desire_tui.commands import REFERENCE_WORDS, Command, parse_line
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.session import State
+from desire_tui.engine.session.status import State
 from desire_tui.panes.value_summary import value_text
 
 if TYPE_CHECKING:

@@ -15,16 +15,17 @@ from desire_tui.commands import BY_WORD
 from desire_tui.common import messages
 from desire_tui.desktop import launch
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.session import Listener, PermissionRequest, StoppedAt
+from desire_tui.engine.session.listener import Listener, StoppedAt
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.graph import Graph
-    from desire_tui.engine.nodes import Program
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.nodes.program import Program
     from desire_tui.engine.runtime.run_record import RunRecord
-    from desire_tui.engine.session import Permissions, Session
+    from desire_tui.engine.session.permissions import PermissionRequest, Permissions
+    from desire_tui.engine.session.session import Session
     from desire_tui.engine.source import Source
 
     Post = Callable[[messages.EngineMessage], object]
@@ -196,7 +197,7 @@ class EngineThread:
 
     def _work(self) -> None:
         try:
-            from desire_tui.engine.session import Session
+            from desire_tui.engine.session.session import Session
 
             self._session = Session(self._listener, permissions=self._permissions)
         except Exception as error:  # noqa: BLE001 - an installation that lacks a part: the screen's thread ends the app
@@ -240,7 +241,7 @@ def warm_up() -> None:
     from desire_tui.engine.outputs.braille_canvas import Canvas
     from desire_tui.engine.outputs.incremental_drawing import Painter
     from desire_tui.engine.outputs.text_frame import text_frame
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.session.session import Session
     from desire_tui.engine.source import Source
 
     session = Session(Listener())

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.session import Listener
+from desire_tui.engine.session.listener import Listener
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.graph import Graph
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.session.session import Session
     from desire_tui.help.example_catalogue import Example
 
 LIMIT_S = 4.0
@@ -114,7 +114,7 @@ class Previewer:
     def _made(self, example: Example) -> Preview:
         from desire_tui.engine.diagnostics import DesireError
         from desire_tui.engine.interpreter.host import Interrupted
-        from desire_tui.engine.session import Session
+        from desire_tui.engine.session.session import Session
 
         audience = _Audience(example.answers)
         with tempfile.TemporaryDirectory(prefix="desire-preview-", ignore_cleanup_errors=True) as folder:

@@ -110,8 +110,8 @@ def _words(*, commands: bool) -> dict[str, str]:
     The command line's own words too where they may stand.
     """
     from desire_tui.engine.library import LIBRARY
-    from desire_tui.engine.syntax import highlight
-    from desire_tui.help import topics
+    from desire_tui.engine.syntax.highlighting import highlight
+    from desire_tui.help.page_catalogue import topics
 
     table = {name: f"({entry.parameters})  {entry.help}" for name, entry in LIBRARY.items()}
     for page in topics().values():

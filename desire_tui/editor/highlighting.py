@@ -50,7 +50,7 @@ class LineHighlights(dict[int, "list[Range]"]):
         if not self.are_on() or not isinstance(self.document, Lines):
             return ""
         try:
-            from desire_tui.engine.syntax import before
+            from desire_tui.engine.syntax.highlighting import before
 
             return before(self.document.lines, row)
         except Exception:  # noqa: BLE001 - colours are an ornament, as below
@@ -71,7 +71,7 @@ class LineHighlights(dict[int, "list[Range]"]):
 @lru_cache(maxsize=4096)
 def _colours(before: str, line: str) -> tuple[Range, ...]:
     try:
-        from desire_tui.engine.syntax import highlight
+        from desire_tui.engine.syntax.highlighting import highlight
 
         skipped = len(before)
         return tuple(

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.nodes import Binary
+from desire_tui.engine.nodes.expressions import Binary
 
 if TYPE_CHECKING:
-    from desire_tui.engine.nodes import Expr, Node
+    from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.record import Node
 
 OPERATORS = frozenset("+-*/&")
 """Operations that group from the left."""

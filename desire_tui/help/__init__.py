@@ -3,10 +3,3 @@
 The pages are plain Markdown, built from tables: `pages/*.toml` (statements, commands, variables), the
 function library, and the error wordings. The help pane, F1, completion and `docs/` all read them here.
 """
-
-from __future__ import annotations
-
-from desire_tui.help.help_search import search
-from desire_tui.help.page_catalogue import Kind, Topic, find, topics
-
-__all__ = ["Kind", "Topic", "find", "search", "topics"]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.graph.model import Graph
     from desire_tui.panes.zoom_window import Window
 
 

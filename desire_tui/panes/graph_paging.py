@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.graph.model import Graph
 
 OVERLAYS_MAX = 12
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from textual.app import ComposeResult
 
-    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.braille_canvas import Canvas
     from desire_tui.engine.outputs.incremental_drawing import Painter
     from desire_tui.engine.outputs.text_frame import TextFrame

@@ -28,14 +28,14 @@ WHITE_STYLE = Style(color="#202020", bgcolor="#ffffff")
 @lru_cache(maxsize=256)
 def curve_style(color: int, *, white: bool) -> Style:
     """Return the style of a curve's colour number on a black or white background."""
-    from desire_tui.engine.graph import curve_rgb
+    from desire_tui.engine.graph.colors import curve_rgb
 
     return Style(color=Color.from_rgb(*curve_rgb(color, white=white)))
 
 
 def net_style(color: int, *, white: bool) -> Style:
     """Return the style of the net: one of the paper's own colour is not seen."""
-    from desire_tui.engine.graph import rgb
+    from desire_tui.engine.graph.colors import rgb
 
     return Style(color=Color.from_rgb(*rgb(color, white=white)))
 

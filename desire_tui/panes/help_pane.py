@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from textual.app import ComposeResult
 
-    from desire_tui.help import Topic
+    from desire_tui.help.page_catalogue import Topic
 
 HITS_MAX = 200
 WELCOME = """\
@@ -112,10 +112,10 @@ class HelpPane(Vertical):
 
     def show_topic(self, word: str) -> None:
         """Show a page; without one, the search for the word."""
-        from desire_tui import help as pages
+        from desire_tui.help.page_catalogue import find
 
         field = self.query_one("#help-search", Input)
-        page = pages.find(word) if word else None
+        page = find(word) if word else None
         if word == "keys":
             self._show_page(self.keys_page(), "keys", ("settings",))
         elif page is not None:
@@ -168,7 +168,7 @@ class HelpPane(Vertical):
 
     @on(Input.Changed, "#help-search")
     def _search(self, event: Input.Changed) -> None:
-        from desire_tui import help as pages
+        from desire_tui.help.help_search import search
 
         event.stop()
         hits = self.query_one(OptionList)
@@ -177,7 +177,7 @@ class HelpPane(Vertical):
             self.query_one(VerticalScroll).display = True
             return
         hits.clear_options()
-        for page in pages.search(event.value)[:HITS_MAX]:
+        for page in search(event.value)[:HITS_MAX]:
             hits.add_option(
                 Option(
                     Text.assemble((f"{page.name:<16} ", "bold"), page.summary, no_wrap=True),

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from textual.timer import Timer
 
     from desire_tui.app import DesireApp
-    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.graph.model import Graph
 
 RESIZED_S = 0.2
 CELLS_MAX = 290

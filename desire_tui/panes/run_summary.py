@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.session import State, Status
+from desire_tui.engine.session.status import State, Status
 
 if TYPE_CHECKING:
     from desire_tui.engine.runtime.run_record import RunRecord

@@ -11,7 +11,7 @@ from textual.reactive import reactive
 from textual.strip import Strip
 from textual.widget import Widget
 
-from desire_tui.engine.session import State
+from desire_tui.engine.session.status import State
 from desire_tui.panes.run_summary import run_text
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from textual import events
 
-    from desire_tui.engine.session import Status
+    from desire_tui.engine.session.status import Status
 
 KEYS_KEPT, KEYS_PART = 32, 0.45
 """Cells, or part of the row, that the keys keep beside the run."""

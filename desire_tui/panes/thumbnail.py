@@ -12,7 +12,7 @@ from textual.widget import Widget
 from desire_tui.panes.graph_tiles import NO_COLOR, WHITE_STYLE, curve_style, net_style
 
 if TYPE_CHECKING:
-    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.graph.model import Graph
 
 
 class Thumbnail(Widget):

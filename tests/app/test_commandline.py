@@ -11,7 +11,7 @@ from desire_tui.app import DesireApp
 from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
 from desire_tui.editor.buffer import free_label
 from desire_tui.engine.runtime.run_record import RunRecord
-from desire_tui.engine.session import State, Status
+from desire_tui.engine.session.status import State, Status
 from desire_tui.panes.pending_lines import HeldLines
 from desire_tui.panes.run_summary import bar, run_text
 from desire_tui.panes.status_bar import StatusBar

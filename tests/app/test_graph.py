@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from desire_tui.engine.graph import rgb
+from desire_tui.engine.graph.colors import rgb
 from desire_tui.engine.outputs import braille_canvas as engine_canvas
 from desire_tui.panes import graph_tiles
 from desire_tui.panes.zoom_window import Window

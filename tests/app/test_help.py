@@ -95,7 +95,7 @@ async def test_the_first_page_leads_on_and_digits_typed_in_the_search_stay_there
 
 
 async def test_every_page_is_shown(program):
-    from desire_tui.help import topics
+    from desire_tui.help.page_catalogue import topics
 
     async with desktop(program(OSCILLATOR), size=(140, 44)) as desk:
         await desk.do("help.word", "DT")

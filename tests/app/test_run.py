@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from desire_tui.engine.session import State
+from desire_tui.engine.session.status import State
 
 from .conftest import LONG, OSCILLATOR, desktop
 

@@ -7,7 +7,8 @@ import io
 import pytest
 
 from desire_tui.batch import progress
-from desire_tui.engine.session import Listener, Session
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 from desire_tui.panes.run_summary import run_text
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from desire_tui.engine.check.checker import check
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax.parse import parse
 from tests.lowering.programs import source
 
 SCRIPT = """

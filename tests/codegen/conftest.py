@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen import NativeBackend
 from desire_tui.engine.codegen.jit import background, native_model
-from desire_tui.engine.reference import ReferenceBackend
+from desire_tui.engine.codegen.jit.backend import NativeBackend
+from desire_tui.engine.reference.backend import ReferenceBackend
 from desire_tui.engine.runtime.run_memory import Ended, RunMemory
-from desire_tui.engine.session import Session
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 from desire_tui.engine.values import DT, T
 

@@ -6,7 +6,7 @@ from desire_tui.engine.codegen.scalar import rerolling
 from desire_tui.engine.codegen.scalar.rerolling import Rolled, roll
 from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.values import Values
 from tests.codegen.conftest import run
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen import NativeBackend
+from desire_tui.engine.codegen.jit.backend import NativeBackend
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.values import ERRMAX, T, Values
 from tests.codegen.conftest import advance_to_end, improve, memory_for, run
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from desire_tui.engine.graph import GraphBook
-from desire_tui.engine.lowered import SampleColumn, SampleRequest, Where
+from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
+from desire_tui.engine.lowered.statements import Where
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.source import Span
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.engine.graph import curve_rgb, rgb
+from desire_tui.engine.graph.colors import curve_rgb, rgb
 
 
 def luminance(color: tuple[int, int, int]) -> float:

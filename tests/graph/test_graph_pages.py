@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from desire_tui.engine.graph import BLACK, WHITE, DisplaySettings, GraphBook, rgb
-from desire_tui.engine.lowered import SampleColumn, SampleRequest
+from desire_tui.engine.graph.colors import BLACK, WHITE, rgb
+from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.graph.settings import DisplaySettings
+from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
 from tests.graph.graphing import PLACE, displayed, page_of, record_of
 
 T = np.linspace(2.0, 5.0, 4)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.graph import GraphBook, rgb
+from desire_tui.engine.graph.colors import rgb
+from desire_tui.engine.graph.pages import GraphBook
 from desire_tui.engine.outputs.picture_file import write_picture
 from tests.graph.graphing import displayed, page_of, record_of
 

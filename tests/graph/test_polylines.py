@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from desire_tui.engine.graph import clip_polyline, thin_columns
+from desire_tui.engine.graph.polylines import clip_polyline, thin_columns
 
 COORDINATES = st.floats(-3, 4, allow_nan=False) | st.sampled_from(
     [float("nan"), float("inf"), -float("inf"), 0.0, 1.0, 1e300]

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from desire_tui.engine.graph import GraphBook
+from desire_tui.engine.graph.pages import GraphBook
 from desire_tui.engine.outputs.braille_canvas import NO_COLOR, TILE_COLUMNS, Canvas
 from desire_tui.engine.outputs.incremental_drawing import Painter
 from desire_tui.engine.outputs.text_frame import text_frame, tick_label

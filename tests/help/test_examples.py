@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.help import topics
+from desire_tui.help.page_catalogue import topics
 from tests.programs.execution import execute
 
 

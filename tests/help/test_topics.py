@@ -7,9 +7,14 @@ from typing import get_args, get_type_hints
 import pytest
 
 from desire_tui.commands import COMMANDS
-from desire_tui.engine import nodes
 from desire_tui.engine.diagnostics.wording import all_wordings
-from desire_tui.help import find, search, topics
+from desire_tui.engine.nodes import expressions
+from desire_tui.engine.nodes.commands import FileCommand, Word
+from desire_tui.engine.nodes.declarations import Declare
+from desire_tui.engine.nodes.display import Request
+from desire_tui.engine.nodes.segment import Learn
+from desire_tui.help.help_search import search
+from desire_tui.help.page_catalogue import find, topics
 
 ALIASES = {"zz": "erun", "rld": "reload", "quit": "bye", "old": "load", "MACRO": "SUBMODEL", "dimension": "ARRAY",
            "LEARN": "DELTA", "VECTOR": "Vector", "Delta": "Vectr delta", "else": "if", "until": "repeat"}  # fmt: skip
@@ -17,11 +22,11 @@ ALIASES = {"zz": "erun", "rld": "reload", "quit": "bye", "old": "load", "MACRO":
 
 def keywords() -> list[str]:
     """Every word that the syntax tree knows as the beginning of a statement."""
-    words = list(get_args(nodes.Word)) + list(
-        get_args(get_type_hints(nodes.FileCommand, localns=vars(nodes))["word"])
+    words = list(get_args(Word)) + list(
+        get_args(get_type_hints(FileCommand, localns=vars(expressions))["word"])
     )
-    for cls in (nodes.Declare, nodes.Request, nodes.Learn):
-        words += get_args(get_type_hints(cls, localns=vars(nodes))["kind"])
+    for cls in (Declare, Request, Learn):
+        words += get_args(get_type_hints(cls, localns=vars(expressions))["kind"])
     return sorted(set(words) - {"compare"})
 
 

@@ -14,8 +14,9 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.integration import TABLEAUS
-from desire_tui.engine.session import Listener, Session
+from desire_tui.engine.integration.tableaus import TABLEAUS
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 EXPLICIT, VARIABLE, STIFF = (1, 2, 3, 5), (4, 7, 8), tuple(range(9, 17))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.session import Listener, Session
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 RULES = range(9, 17)

@@ -20,7 +20,8 @@ from desire_tui.engine.integration.sundials import library
 from desire_tui.engine.integration.sundials.linear import Linear
 from desire_tui.engine.integration.sundials.signatures import JacobianFunction, RhsFunction, WeightFunction
 from desire_tui.engine.integration.sundials.solver import Callbacks, Solver
-from desire_tui.engine.session import Listener, Session
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 TOLERANCE = 1e-6

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.engine.integration import TABLEAUS
+from desire_tui.engine.integration.tableaus import TABLEAUS
 from tests.integration.eight_problems import ERMAX, RULES, kepler, limit, problems, solve
 
 PROBLEMS = problems()

@@ -7,7 +7,8 @@ from math import cos, exp, sin, sqrt
 import numpy as np
 import pytest
 
-from desire_tui.engine.session import Listener, Session
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 from tests.integration.stiff_programs import RULES, failure, numbers, run
 

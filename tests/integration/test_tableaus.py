@@ -8,7 +8,7 @@ from math import log2
 import numpy as np
 import pytest
 
-from desire_tui.engine.integration import TABLEAUS
+from desire_tui.engine.integration.tableaus import TABLEAUS
 
 RULES = sorted(TABLEAUS)
 

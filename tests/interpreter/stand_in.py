@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.interpreter import Interpreter, Interrupted
+from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.interpreter.interpreter import Interpreter
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import structure
-from desire_tui.engine.syntax import parse, parse_command
+from desire_tui.engine.syntax.parse import parse, parse_command
 from desire_tui.engine.values import Kind, Values
 
 

@@ -9,7 +9,8 @@ from threading import Event
 import numpy as np
 import pytest
 
-from desire_tui.engine.interpreter import Interrupted, array_expressions, interruptible
+from desire_tui.engine.interpreter import array_expressions, interruptible
+from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.interpreter.interruptible import LONG_WORK, patiently
 from tests.interpreter.stand_in import World, run
 

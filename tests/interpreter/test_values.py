@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 
-from desire_tui.engine.interpreter import names
+from desire_tui.engine.interpreter.quantity_rows import names
 from desire_tui.engine.values import SCALAR_SLOTS, Kind, Values
 from tests.interpreter.stand_in import World
 

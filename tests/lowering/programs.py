@@ -5,7 +5,7 @@ from __future__ import annotations
 from desire_tui.engine.check.state_order import state_order
 from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.values import Values
 
 

@@ -6,9 +6,10 @@ import pytest
 
 from desire_tui.engine.check.state_order import state_order
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.lowered import Const, Deriv, DerivVec, Guard, Load, MatVec, Op, Outer, Set, SetVec, Vec
+from desire_tui.engine.lowered.expressions import Const, Load, MatVec, Op, Outer, Vec
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec
 from desire_tui.engine.lowering.persistence import walk
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax.parse import parse
 from tests.lowering.programs import segment, source
 
 

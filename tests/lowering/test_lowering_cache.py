@@ -11,7 +11,7 @@ from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.lowering import lowering_cache
 from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.values import Values
 from tests.lowering.programs import segment
 

@@ -9,13 +9,15 @@ import pytest
 
 from desire_tui.engine.check.checker import check
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, render
-from desire_tui.engine.interpreter import Interpreter
+from desire_tui.engine.interpreter.interpreter import Interpreter
 from desire_tui.engine.lowering import submodels
 from desire_tui.engine.runtime.run_faults import fault
 from desire_tui.engine.runtime.run_memory import Ended
-from desire_tui.engine.session import Listener, Permissions, Session
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.permissions import Permissions
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse
+from desire_tui.engine.syntax.parse import parse
 
 
 def problem_of(session: Session, *lines: str) -> Diagnostic:

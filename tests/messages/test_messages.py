@@ -71,7 +71,7 @@ def by_place(problems: list[Diagnostic]) -> list[Diagnostic]:
 
 def messages_of_parse(parts: dict[str, str], source: Source, folder: Path) -> list[Diagnostic]:
     from desire_tui.engine.structure.structure import structure
-    from desire_tui.engine.syntax import parse
+    from desire_tui.engine.syntax.parse import parse
 
     del parts, folder
     program = parse(source)
@@ -79,14 +79,15 @@ def messages_of_parse(parts: dict[str, str], source: Source, folder: Path) -> li
 
 
 def messages_of_check(parts: dict[str, str], source: Source, folder: Path) -> list[Diagnostic]:
-    from desire_tui.engine.session import Session
+    from desire_tui.engine.session.session import Session
 
     del parts
     return by_place(list(Session(folder=folder).check(source)))
 
 
 def messages_of_run(parts: dict[str, str], source: Source, folder: Path) -> list[Diagnostic]:
-    from desire_tui.engine.session import Listener, Session
+    from desire_tui.engine.session.listener import Listener
+    from desire_tui.engine.session.session import Session
 
     answers = iter(parts.get("input", "").splitlines())
     shown: list[Diagnostic] = []

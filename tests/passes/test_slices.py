@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from desire_tui.engine.lowered import Deriv, Guard, Set
+from desire_tui.engine.lowered.statements import Deriv, Guard, Set
 from desire_tui.engine.lowering.persistence import walk
 from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
 from tests.lowering.programs import segment

@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse
-from desire_tui.help import topics
+from desire_tui.engine.syntax.parse import parse
+from desire_tui.help.page_catalogue import topics
 from tests.programs.expectations import read_expectations
 from tests.programs.features import DYNAMIC, FUNCTIONS, SCRIPT, features
 
 if TYPE_CHECKING:
-    from desire_tui.help import Topic
+    from desire_tui.help.page_catalogue import Topic
 
 ROOT = Path(__file__).parents[2]
 INTRODUCTION = """\

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.session import Listener, Session
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:

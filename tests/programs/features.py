@@ -4,13 +4,46 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes as n
 from desire_tui.engine.library import LIBRARY
+from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.commands import Drun, Fft, Irule, Seed, Simple
+from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
+from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
+from desire_tui.engine.nodes.display import Display, Plot, Request, Show
+from desire_tui.engine.nodes.expressions import (
+    Binary,
+    Call,
+    Element,
+    Expr,
+    Logical,
+    Name,
+    Not,
+    Number,
+    Pair,
+    RowOf,
+    Shifted,
+    Transposed,
+)
+from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
+from desire_tui.engine.nodes.record import Node
+from desire_tui.engine.nodes.segment import (
+    Delay,
+    Derivative,
+    FunctionTable,
+    Get,
+    Invoke,
+    Learn,
+    Sample,
+    Store,
+    Term,
+    TrackHold,
+    VectorDerivative,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.nodes.program import Placed, Program
 
 SCRIPT = (
     "x = e", "A[i] = e", "if … then … proceed", "else", "and", "or", "not",
@@ -37,11 +70,11 @@ DYNAMIC = (
 FUNCTIONS = tuple(f"{name}()" for name in LIBRARY)
 
 _ONE = {
-    n.Until: "until", n.While: "while", n.Label: "label", n.Procedure: "PROCEDURE", n.CallProcedure: "call",
-    n.Submodel: "SUBMODEL", n.Function: "FUNCTION", n.Data: "data", n.Read: "read", n.Disconnect: "disconnect",
-    n.Note: "note", n.Seed: "SEED", n.Show: "SHOW", n.Pair: "[a, b]", n.Store: "store", n.Get: "get",
-    n.TrackHold: "trkhld", n.Invoke: "invoke", n.Term: "term", n.Sample: "SAMPLE", n.RowOf: "P#", n.Shifted: "x{k}",
-    n.VectorDerivative: "Vectr d/dt", n.Not: "not", n.Transposed: "A%",
+    Until: "until", While: "while", Label: "label", Procedure: "PROCEDURE", CallProcedure: "call",
+    Submodel: "SUBMODEL", Function: "FUNCTION", Data: "data", Read: "read", Disconnect: "disconnect",
+    Note: "note", Seed: "SEED", Show: "SHOW", Pair: "[a, b]", Store: "store", Get: "get",
+    TrackHold: "trkhld", Invoke: "invoke", Term: "term", Sample: "SAMPLE", RowOf: "P#", Shifted: "x{k}",
+    VectorDerivative: "Vectr d/dt", Not: "not", Transposed: "A%",
 }  # fmt: skip
 """Nodes whose class says it all."""
 
@@ -55,12 +88,12 @@ def features(program: Program) -> tuple[set[str], set[str]]:
         dynamic |= {name for placed in statements for name in _of(placed)}
         if segment.jacobian:
             dynamic.add("JACOBIAN")
-        if not any(isinstance(s.node, n.Derivative | n.VectorDerivative) for s in statements):
+        if not any(isinstance(s.node, Derivative | VectorDerivative) for s in statements):
             dynamic.add("rule 0")
-        elif not any(isinstance(s.node, n.Irule) for s in program.script):
+        elif not any(isinstance(s.node, Irule) for s in program.script):
             dynamic.add("rule 1")
     dynamic |= {f"rule {int(s.node.rule.value)}" for s in program.script
-                if isinstance(s.node, n.Irule) and isinstance(s.node.rule, n.Number)}  # fmt: skip
+                if isinstance(s.node, Irule) and isinstance(s.node.rule, Number)}  # fmt: skip
     return script, dynamic
 
 
@@ -76,75 +109,75 @@ def _walk(part: object) -> Iterator[object]:
     if isinstance(part, tuple):
         for item in part:
             yield from _walk(item)
-    elif isinstance(part, n.Node):
+    elif isinstance(part, Node):
         for name in type(part).__match_args__:
             yield from _walk(getattr(part, name))
 
 
 def _names(part: object) -> Iterator[str]:
     match part:
-        case n.Simple(word=word):
+        case Simple(word=word):
             yield word
-        case n.Call(name=name):
+        case Call(name=name):
             yield f"{name}()" if name in LIBRARY else name
-        case n.Assign(target=target):
-            yield ("A[i] = e", "y[i] = e")[0] if isinstance(target, n.Element) else "x = e"
-            yield "y[i] = e" if isinstance(target, n.Element) else "y = e"
-        case n.If(condition=condition):
+        case Assign(target=target):
+            yield ("A[i] = e", "y[i] = e")[0] if isinstance(target, Element) else "x = e"
+            yield "y[i] = e" if isinstance(target, Element) else "y = e"
+        case If(condition=condition):
             yield "if e" if condition is None else "if … then … proceed"
-        case n.Logical(op=op):
+        case Logical(op=op):
             yield op
-        case n.For(by=by):
+        case For(by=by):
             yield "for … next"
             if by is not None:
                 yield "for … step"
-        case n.GoTo(target=target):
+        case GoTo(target=target):
             yield "go to number" if target.isdigit() else "go to NAME"
-        case n.Declare(kind=kind, groups=groups):
+        case Declare(kind=kind, groups=groups):
             yield kind
             if any(len(group.parts) > 1 for group in groups):
                 yield "ARRAY a + b"
             if any(len(group.parts) == 1 and group.whole for group in groups):
                 yield "ARRAY W = v"
-        case n.Restore(target=target):
+        case Restore(target=target):
             yield "restore" if target is None else "restore place"
-        case n.Input(channel=channel):
+        case Input(channel=channel):
             yield "input" if channel is None else "input #n"
-        case n.Write():
+        case Write():
             yield from _write_forms(part)
-        case n.Connect(mode=mode):
+        case Connect(mode=mode):
             yield f"connect {mode}"
-        case n.Dump():
+        case Dump():
             yield "dump" if part.channel is None else "dump #n"
-        case n.Irule(rule=rule):
+        case Irule(rule=rule):
             yield "irule" if rule is None else "irule n"
-        case n.Drun():
+        case Drun():
             yield "drunr" if part.reset else "drun *" if part.star else "drun NAME" if part.label else "drun"
-        case n.Fft(kind=kind):
+        case Fft(kind=kind):
             yield f"FFT {kind}"
-        case n.Display(mode=mode):
+        case Display(mode=mode):
             yield f"display {mode}"
-        case n.Plot(args=args):
+        case Plot(args=args):
             yield "plot x, y" if len(args) > 1 else "plot z"
-        case n.Binary(op="&"):
+        case Binary(op="&"):
             yield "u & v"
-        case n.Derivative(target=target):
-            yield "d/dt x[i]" if isinstance(target, n.Element) else "d/dt x"
-        case n.Delay(per_step=per_step):
+        case Derivative(target=target):
+            yield "d/dt x[i]" if isinstance(target, Element) else "d/dt x"
+        case Delay(per_step=per_step):
             yield "tdelay" if per_step else "delay"
-        case n.FunctionTable(call=call):
+        case FunctionTable(call=call):
             yield "func" if call.name == "func1" else "func2"
-        case n.Bare(value=n.Call()):
+        case Bare(value=Call()):
             yield "submodel call"
-        case n.Request(kind=kind, channel=channel):
+        case Request(kind=kind, channel=channel):
             yield kind if channel is None else f"{kind} #n"
-        case n.Learn(kind=kind):
+        case Learn(kind=kind):
             yield kind
         case _:
             yield from _vector_forms(part)
 
 
-def _write_forms(part: n.Write) -> Iterator[str]:
+def _write_forms(part: Write) -> Iterator[str]:
     if part.channel is not None:
         yield "write ##n" if part.raw else "write #n"
     elif not part.items:
@@ -160,31 +193,31 @@ def _write_forms(part: n.Write) -> Iterator[str]:
 
 def _vector_forms(part: object) -> Iterator[str]:
     match part:
-        case n.VectorAssign():
+        case VectorAssign():
             forms = (part.delta, "Vector delta"), (part.largest, "Vector ^"), (part.mask, "Vector [m]")
             yield from (name for used, name in forms if used)
             yield "Vector"
             yield from _products(part.value)
-        case n.MatrixAssign():
+        case MatrixAssign():
             yield "DELTA" if part.delta else "MATRIX"
             yield from (
                 name for used, name in ((part.mask, "MATRIX [M]"), (part.lower, "MATRIX ; bounds")) if used
             )
-            if isinstance(part.value, n.Number):
+            if isinstance(part.value, Number):
                 yield "MATRIX = number"
-        case n.Dot(average=average, value=value):
+        case Dot(average=average, value=value):
             yield "AVG" if average else "DOT"
             if any(
-                isinstance(p, n.Binary) and isinstance(p.left, n.Binary) and p.op == p.left.op == "*"
+                isinstance(p, Binary) and isinstance(p.left, Binary) and p.op == p.left.op == "*"
                 for p in _walk(value)
             ):
                 yield "u*A*v"
 
 
-def _products(value: n.Expr) -> Iterator[str]:
+def _products(value: Expr) -> Iterator[str]:
     for part in _walk(value):
-        if isinstance(part, n.Binary) and part.op == "*":
-            if isinstance(part.left, n.Transposed):
+        if isinstance(part, Binary) and part.op == "*":
+            if isinstance(part.left, Transposed):
                 yield "A% * x"
-            elif isinstance(part.left, n.Name) and isinstance(part.right, n.Name):
+            elif isinstance(part.left, Name) and isinstance(part.right, Name):
                 yield "A*x"

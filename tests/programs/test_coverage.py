@@ -6,7 +6,15 @@ from typing import get_args, get_type_hints
 
 import pytest
 
-from desire_tui.engine import nodes
+from desire_tui.engine.nodes.all_nodes import NODE_CLASSES
+from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Simple
+from desire_tui.engine.nodes.control import For, GoTo, If
+from desire_tui.engine.nodes.declarations import Declare
+from desire_tui.engine.nodes.display import Display, Plot, Request
+from desire_tui.engine.nodes.files import Connect, Dump, Input, Restore, Write
+from desire_tui.engine.nodes.record import Statement
+from desire_tui.engine.nodes.segment import Delay, Derivative, FunctionTable, Learn
 from tests.programs.coverage import command_tests, users
 from tests.programs.features import _ONE, DYNAMIC, FUNCTIONS, SCRIPT
 
@@ -38,17 +46,15 @@ def test_command_has_a_test(word, files):
 
 def test_the_table_has_every_statement():
     """A new class of node or keyword must get a row."""
-    statements = {
-        cls for cls in vars(nodes).values() if isinstance(cls, type) and issubclass(cls, nodes.Statement)
-    }
+    statements = {cls for cls in NODE_CLASSES.values() if issubclass(cls, Statement)}
     with_rows = set(_ONE) | {
-        nodes.Statement, nodes.Simple, nodes.Assign, nodes.If, nodes.For, nodes.GoTo, nodes.Declare, nodes.Restore,
-        nodes.Input, nodes.Write, nodes.Connect, nodes.Dump, nodes.Irule, nodes.Drun, nodes.Fft, nodes.Display, nodes.Plot,
-        nodes.Derivative, nodes.Delay, nodes.FunctionTable, nodes.Bare, nodes.Request, nodes.Learn, nodes.VectorAssign,
-        nodes.MatrixAssign, nodes.Dot, nodes.FileCommand,
+        Statement, Simple, Assign, If, For, GoTo, Declare, Restore,
+        Input, Write, Connect, Dump, Irule, Drun, Fft, Display, Plot,
+        Derivative, Delay, FunctionTable, Bare, Request, Learn, VectorAssign,
+        MatrixAssign, Dot, FileCommand,
     }  # fmt: skip
     assert {cls.__name__ for cls in statements} == {
-        cls.__name__ for cls in with_rows if issubclass(cls, nodes.Statement)
+        cls.__name__ for cls in with_rows if issubclass(cls, Statement)
     }
-    codes = set(get_args(get_type_hints(nodes.Display, localns=vars(nodes))["mode"]))
+    codes = set(get_args(get_type_hints(Display, localns=NODE_CLASSES)["mode"]))
     assert {row.split()[1] for row in SCRIPT if row.startswith("display ")} == codes

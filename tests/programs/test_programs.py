@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from desire_tui.engine.session import Session
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 from tests.programs.expectations import read_expectations
 from tests.programs.runner import faults_of_program

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from desire_tui.engine.session import Session
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 

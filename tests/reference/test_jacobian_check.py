@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.engine.session import Session
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 LOTKA = """{script}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.session import Session
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 from tests.reference.runs import array, run
 

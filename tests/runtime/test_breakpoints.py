@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 
-from desire_tui.engine.session import Session
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 from tests.runtime import running
 from tests.runtime.running import Kept, value

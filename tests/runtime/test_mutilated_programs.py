@@ -10,7 +10,7 @@ from threading import Timer
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, render_all
-from desire_tui.engine.session import Session
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 TEXTS = [path.read_text("utf-8") for path in sorted((Path(__file__).parents[1] / "programs").glob("*/*.src"))]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.session import Permissions, Session
+from desire_tui.engine.session.permissions import Permissions
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 from tests.runtime import running
 from tests.runtime.running import Kept

@@ -12,7 +12,10 @@ from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.session import Listener, Permissions, Session, notebook_markdown
+from desire_tui.engine.session import notebook_markdown
+from desire_tui.engine.session.listener import Listener
+from desire_tui.engine.session.permissions import Permissions
+from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 DECAY = """\

@@ -6,7 +6,7 @@ import pytest
 
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import script_structure, structure
-from desire_tui.engine.syntax import parse, parse_command
+from desire_tui.engine.syntax.parse import parse, parse_command
 
 
 def of(text: str):

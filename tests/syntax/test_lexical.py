@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.engine.nodes import Assign, Binary, Name, Number, Text
+from desire_tui.engine.nodes.assignments import Assign
+from desire_tui.engine.nodes.expressions import Binary, Name, Number, Text
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import before, format_statement, highlight, parse, parse_command
+from desire_tui.engine.syntax.format.statements import format_statement
+from desire_tui.engine.syntax.highlighting import before, highlight
+from desire_tui.engine.syntax.parse import parse, parse_command
 
 JOINED = {
     "x = a + _\n3": ["x = a + 3"],

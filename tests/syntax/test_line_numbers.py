@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse
 from desire_tui.engine.syntax.line_numbers import with_numbers
+from desire_tui.engine.syntax.parse import parse
 
 
 def statements(text):

@@ -10,9 +10,11 @@ from time import process_time
 import pytest
 
 from desire_tui.engine.left_chains import chain
-from desire_tui.engine.nodes import Assign, Binary
+from desire_tui.engine.nodes.assignments import Assign
+from desire_tui.engine.nodes.expressions import Binary
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import format_statement, parse
+from desire_tui.engine.syntax.format.statements import format_statement
+from desire_tui.engine.syntax.parse import parse
 from tests.programs.execution import execute
 from tests.programs.expectations import read_expectations
 from tests.programs.runner import faults_of_program

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import parse, shapes
+from desire_tui.engine.syntax import shapes
 from desire_tui.engine.syntax.automaton import derive
-from desire_tui.engine.syntax.parse import forget_lines
+from desire_tui.engine.syntax.parse import forget_lines, parse
 
 
 @pytest.fixture

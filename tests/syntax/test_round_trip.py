@@ -8,11 +8,15 @@ import re
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from desire_tui.engine import nodes as n
 from desire_tui.engine.diagnostics import render_all
+from desire_tui.engine.nodes.expressions import Binary, Expr, Number, Unary
+from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import structure
-from desire_tui.engine.syntax import format_program, format_statement, highlight, parse, parse_command
+from desire_tui.engine.syntax.format.program import format_program
+from desire_tui.engine.syntax.format.statements import format_statement
+from desire_tui.engine.syntax.highlighting import highlight
+from desire_tui.engine.syntax.parse import parse, parse_command
 from desire_tui.engine.syntax.shapes import forget
 from tests.strategies import broken_texts, programs, statements
 
@@ -77,7 +81,7 @@ def test_the_generated_function_agrees_with_the_grammar(text) -> None:
 
 
 def _places(part: object) -> object:
-    if isinstance(part, n.Node):
+    if isinstance(part, Node):
         return (type(part).__name__, [_places(getattr(part, name)) for name in part.__slots__])
     return [_places(item) for item in part] if isinstance(part, tuple) else part
 
@@ -117,12 +121,12 @@ def test_operators_bind_as_in_python(text) -> None:
     assert _value(placed[0].node.value) == wanted
 
 
-def _value(node: n.Expr) -> float:
+def _value(node: Expr) -> float:
     match node:
-        case n.Number(value):
+        case Number(value):
             return value
-        case n.Unary(op, operand):
+        case Unary(op, operand):
             return -_value(operand) if op == "-" else _value(operand)
-        case n.Binary(op, left, right):
+        case Binary(op, left, right):
             return OPERATIONS[op](_value(left), _value(right))
     raise TypeError(node)

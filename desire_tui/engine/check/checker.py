@@ -15,7 +15,7 @@ from desire_tui.engine.structure.structure import structure as find_structure
 
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.nodes import Program
+    from desire_tui.engine.nodes.program import Program
 
 _WORD = re.compile(r"[A-Za-z][\w$]*")
 

@@ -10,17 +10,25 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes
 from desire_tui.engine.left_chains import chain
 from desire_tui.engine.library import power
 from desire_tui.engine.lowering.scope import SYSTEM_SLOTS, UNKNOWN, StaticScope
-from desire_tui.engine.nodes import Binary, Declare, Name, Number, Unary
+from desire_tui.engine.nodes.assignments import Assign, Bare, Dot
+from desire_tui.engine.nodes.commands import Drun, Simple
+from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, Procedure
+from desire_tui.engine.nodes.declarations import Declare
+from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
+from desire_tui.engine.nodes.files import Input, Read
+from desire_tui.engine.nodes.segment import Delay, Derivative, FunctionTable, Get, Invoke, TrackHold
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.nodes import Declared, DeclaredGroup, Expr, Placed, Program, SegmentText
+    from desire_tui.engine.nodes.declarations import Declared, DeclaredGroup
+    from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.program import Placed, Program, SegmentText
+    from desire_tui.engine.nodes.record import Statement
     from desire_tui.engine.structure.structure import Structure
 
 _KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
@@ -47,8 +55,7 @@ class DeclaredNames:
         self._before: dict[str | None, set[str]] = {}
         self._walk(program.script)
         jumps = any(
-            isinstance(p.node, nodes.GoTo)
-            or (isinstance(p.node, nodes.Simple) and p.node.word in {"STOP", "go"})
+            isinstance(p.node, GoTo) or (isinstance(p.node, Simple) and p.node.word in {"STOP", "go"})
             for p in program.script
         )
         if jumps:
@@ -83,7 +90,7 @@ class DeclaredNames:
             node = placed.node
             if id(placed) in self._body_lines:
                 continue
-            if isinstance(node, nodes.Drun):
+            if isinstance(node, Drun):
                 self._before.setdefault(node.label, set(self._seen.scalars))
             elif isinstance(node, Declare):
                 for group in node.groups:
@@ -129,17 +136,17 @@ class DeclaredNames:
         return int(value) if value is not None and 1 <= value < 1e12 else UNKNOWN
 
 
-def _assigned_by(node: nodes.Statement) -> tuple[str, ...]:
+def _assigned_by(node: Statement) -> tuple[str, ...]:
     """Names that a script statement could give a value."""
-    if isinstance(node, nodes.Assign | nodes.Dot):
+    if isinstance(node, Assign | Dot):
         return (node.target.name,)
-    if isinstance(node, nodes.For):
+    if isinstance(node, For):
         return (node.variable.name,)
-    if isinstance(node, nodes.Read | nodes.Input):
+    if isinstance(node, Read | Input):
         return tuple(t.name for t in node.targets)
-    if isinstance(node, nodes.CallProcedure):
+    if isinstance(node, CallProcedure):
         return tuple(r.name for r in node.references if isinstance(r, Name))
-    if isinstance(node, nodes.Procedure):
+    if isinstance(node, Procedure):
         return (*node.values, *node.references)
     return ()
 
@@ -156,21 +163,21 @@ def _assigned_in_segments(program: Program, structure: Structure) -> dict[str | 
         names = found.setdefault(segment.label, set())
         for placed in segment.body:
             names.update(_assigned_in_segment(placed.node))
-            if isinstance(placed.node, nodes.Bare | nodes.Invoke):
+            if isinstance(placed.node, Bare | Invoke):
                 names |= bodies
     return found
 
 
-def _assigned_in_segment(node: nodes.Statement) -> Iterable[str]:
+def _assigned_in_segment(node: Statement) -> Iterable[str]:
     """Names that a segment's statement could give a value."""
-    if isinstance(node, nodes.Assign | nodes.Dot | nodes.Derivative | nodes.FunctionTable):
+    if isinstance(node, Assign | Dot | Derivative | FunctionTable):
         return (node.target.name,)
-    if isinstance(node, nodes.Get | nodes.Delay):
+    if isinstance(node, Get | Delay):
         return (node.variable.name,)
-    if isinstance(node, nodes.TrackHold):
+    if isinstance(node, TrackHold):
         return (node.held.name, node.tracked.name)
-    if isinstance(node, nodes.Bare | nodes.Invoke):
-        call = node if isinstance(node, nodes.Invoke) else node.value
+    if isinstance(node, Bare | Invoke):
+        call = node if isinstance(node, Invoke) else node.value
         return [a.name for a in getattr(call, "args", ()) if isinstance(a, Name)]
     return ()
 
@@ -188,7 +195,7 @@ def _constants(script: Iterable[Placed]) -> dict[str, float]:
                 values.pop(name, None)
                 continue
             value = None
-            if isinstance(node, nodes.Assign) and isinstance(node.target, Name):
+            if isinstance(node, Assign) and isinstance(node.target, Name):
                 value = _evaluate(node.value, values)
             if value is None:
                 often.add(name)

@@ -6,13 +6,15 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.gc_pause import undisturbed_allocation
-from desire_tui.engine.nodes import Bare, Call, Derivative, Invoke, Name
+from desire_tui.engine.nodes.assignments import Bare
+from desire_tui.engine.nodes.expressions import Call, Name
+from desire_tui.engine.nodes.segment import Derivative, Invoke
 from desire_tui.engine.structure.structure import structure as find_structure
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.nodes.program import Placed, Program
 
 
 @undisturbed_allocation

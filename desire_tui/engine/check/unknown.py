@@ -7,25 +7,44 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes
 from desire_tui.engine.diagnostics import Diagnostic, closest
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.nodes import Call, Element, Name, Node
+from desire_tui.engine.nodes.commands import Drun, FileCommand, Simple
+from desire_tui.engine.nodes.control import GoTo, Label, Procedure
+from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
+from desire_tui.engine.nodes.display import Display, Request
+from desire_tui.engine.nodes.expressions import Call, Element, Name
+from desire_tui.engine.nodes.files import Restore
+from desire_tui.engine.nodes.record import Node
+from desire_tui.engine.nodes.segment import (
+    Delay,
+    Derivative,
+    FunctionTable,
+    Get,
+    Invoke,
+    Learn,
+    Sample,
+    Store,
+    Term,
+    TrackHold,
+    VectorDerivative,
+)
 from desire_tui.engine.values import SYSTEM_VARIABLES
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from desire_tui.engine.nodes import Placed, Program, Statement
+    from desire_tui.engine.nodes.program import Placed, Program
+    from desire_tui.engine.nodes.record import Statement
     from desire_tui.engine.structure.structure import Structure
 
 _NAMES_ARE_NOT_READ = (
-    nodes.Declare, nodes.Label, nodes.GoTo, nodes.Drun, nodes.Restore, nodes.FileCommand, nodes.Submodel,
-    nodes.Procedure, nodes.Display, nodes.Simple,
+    Declare, Label, GoTo, Drun, Restore, FileCommand, Submodel,
+    Procedure, Display, Simple,
 )  # fmt: skip
 _SEGMENT_ONLY = (
-    nodes.Derivative, nodes.VectorDerivative, nodes.Store, nodes.Get, nodes.Delay, nodes.TrackHold,
-    nodes.FunctionTable, nodes.Term, nodes.Sample, nodes.Request, nodes.Learn, nodes.Invoke,
+    Derivative, VectorDerivative, Store, Get, Delay, TrackHold,
+    FunctionTable, Term, Sample, Request, Learn, Invoke,
 )  # fmt: skip
 _SEGMENT_WORDS = frozenset({"OUT", "step", "JACOBIAN"})
 _SCRIPT_CONSTANTS = frozenset({"j", "PI"})
@@ -70,7 +89,7 @@ def unknown_names(
 
 def may_be_stopped(program: Program) -> bool:
     """Whether a script stops for commands."""
-    return any(isinstance(p.node, nodes.Simple) and p.node.word in {"STOP", "go"} for p in program.script)
+    return any(isinstance(p.node, Simple) and p.node.word in {"STOP", "go"} for p in program.script)
 
 
 def misplaced(program: Program, structure: Structure) -> list[Diagnostic]:
@@ -82,7 +101,7 @@ def misplaced(program: Program, structure: Structure) -> list[Diagnostic]:
         if id(placed) not in in_bodies
         and (
             isinstance(placed.node, _SEGMENT_ONLY)
-            or (isinstance(placed.node, nodes.Simple) and placed.node.word in _SEGMENT_WORDS)
+            or (isinstance(placed.node, Simple) and placed.node.word in _SEGMENT_WORDS)
         )
     ]
 
@@ -101,7 +120,7 @@ def parts_read(statement: Statement) -> Iterator[Name | Element | Call]:
 
     Targets are among them, which does no harm: they are assigned.
     """
-    dummies = statement.dummies if isinstance(statement, nodes.Function) else ()
+    dummies = statement.dummies if isinstance(statement, Function) else ()
     rest: list[object] = [statement]
     while rest:
         part = rest.pop()

@@ -7,15 +7,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes as n
 from desire_tui.engine.check.unknown import may_be_stopped, parts_read
 from desire_tui.engine.diagnostics import Diagnostic, closest
 from desire_tui.engine.library import LIBRARY
+from desire_tui.engine.nodes.commands import Drun
+from desire_tui.engine.nodes.control import CallProcedure
+from desire_tui.engine.nodes.declarations import Function
+from desire_tui.engine.nodes.expressions import Call
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from desire_tui.engine.nodes import Call, CallProcedure, Drun, Placed, Program
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.structure.structure import Structure
 
 
@@ -28,12 +31,12 @@ def unfit_uses(program: Program, structure: Structure) -> list[Diagnostic]:
         if id(placed) in in_bodies:
             continue
         node = placed.node
-        if isinstance(node, n.CallProcedure):
+        if isinstance(node, CallProcedure):
             problems.extend(_call(program, structure, placed, node))
-        elif isinstance(node, n.Drun):
+        elif isinstance(node, Drun):
             problems.extend(_drun(program, placed, node))
         if not stopped:
-            calls = (part for part in parts_read(node) if isinstance(part, n.Call))
+            calls = (part for part in parts_read(node) if isinstance(part, Call))
             problems.extend(p for call in calls if (p := _function(program, structure, placed, call)))
     return problems
 
@@ -70,7 +73,7 @@ def _function(program: Program, structure: Structure, placed: Placed, call: Call
     given = len(call.args)
     own, entry = structure.functions.get(call.name), LIBRARY.get(call.name)
     if own is not None:
-        dummies = own.node.dummies if isinstance(own.node, n.Function) else ()
+        dummies = own.node.dummies if isinstance(own.node, Function) else ()
         if given == len(dummies):
             return None
         facts: dict[str, object] = {"name": call.name, "given": given, "needed": len(dummies), "where": ""}

@@ -20,11 +20,3 @@ Loops that others drive (rules 9 … 16) take the passes as C functions:
 with the names `derivative`, `step`, `full`, `tail`, or any others with statements of their own (tangents,
 JACOBIAN).
 """
-
-from __future__ import annotations
-
-from desire_tui.engine.codegen.jit.backend import NativeBackend
-from desire_tui.engine.codegen.jit.native_model import passes_of
-from desire_tui.engine.codegen.jit.pass_functions import PassFunctions
-
-__all__ = ["NativeBackend", "PassFunctions", "passes_of"]

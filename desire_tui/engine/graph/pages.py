@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Picture, SampleRequest
+    from desire_tui.engine.lowered.segment import Picture, SampleRequest
     from desire_tui.engine.runtime.run_record import RunRecord
 
 PAGES_MAX = 32

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
 
     Array = NDArray[np.float64]
 

@@ -21,7 +21,7 @@ from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.interruptible import patiently
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.library import LIBRARY, integer_power, power
-from desire_tui.engine.nodes import Binary, Call, Name, Shifted, Transposed, Unary
+from desire_tui.engine.nodes.expressions import Binary, Call, Name, Shifted, Transposed, Unary
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes import Expr, Node
+    from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.record import Node
     from desire_tui.engine.values import Quantity
 
     Evaluator = Callable[[], Any]

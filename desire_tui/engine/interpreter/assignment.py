@@ -10,7 +10,9 @@ from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.expression_translation import literal
 from desire_tui.engine.interpreter.name_resolution import Reference
 from desire_tui.engine.interpreter.python_ast import at
-from desire_tui.engine.nodes import Assign, Name, Node
+from desire_tui.engine.nodes.assignments import Assign
+from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
 
 if TYPE_CHECKING:
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes import Expr, Target
+    from desire_tui.engine.nodes.expressions import Expr, Target
 
 
 def assign(site: Site) -> Operation:

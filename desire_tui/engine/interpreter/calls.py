@@ -11,7 +11,7 @@ from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.python_ast import Typed, at
 from desire_tui.engine.library import LIBRARY, LibraryFunction
-from desire_tui.engine.nodes import Name
+from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.compile_python import PythonCompiler
     from desire_tui.engine.interpreter.expression_translation import Translator
     from desire_tui.engine.interpreter.user_functions import UserFunctions
-    from desire_tui.engine.nodes import Call, Expr
+    from desire_tui.engine.nodes.expressions import Call, Expr
     from desire_tui.engine.values import Quantity
 
 

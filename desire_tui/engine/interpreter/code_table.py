@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.expression_translation import Translator
     from desire_tui.engine.interpreter.name_resolution import NameScope
-    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
     from desire_tui.engine.structure.structure import Structure
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import ast
     from collections.abc import Callable
 
-    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
     from desire_tui.engine.values import Values
 

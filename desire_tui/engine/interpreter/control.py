@@ -10,7 +10,8 @@ from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.interpreter.run_count import ROUNDING
 from desire_tui.engine.library import rounded
-from desire_tui.engine.nodes import For, GoTo, If, Name, Until, While
+from desire_tui.engine.nodes.control import For, GoTo, If, Until, While
+from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:

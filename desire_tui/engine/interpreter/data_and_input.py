@@ -12,7 +12,8 @@ from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
 from desire_tui.engine.interpreter.entries import Entries
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.expression_translation import literal
-from desire_tui.engine.nodes import Data, Input, Name, Read, Restore
+from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.files import Data, Input, Read, Restore
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.machine import ScriptMachine
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes import Target
+    from desire_tui.engine.nodes.expressions import Target
 
     Store = Callable[[complex], None]
 

@@ -6,7 +6,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.nodes import Declare, Declared
+from desire_tui.engine.nodes.declarations import Declare, Declared
 from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity
 
 if TYPE_CHECKING:
@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes import DeclaredGroup, Node
+    from desire_tui.engine.nodes.declarations import DeclaredGroup
+    from desire_tui.engine.nodes.record import Node
 
 _KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
 

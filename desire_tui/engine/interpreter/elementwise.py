@@ -16,7 +16,8 @@ from desire_tui.engine.interpreter.expression_translation import Translator, lit
 from desire_tui.engine.interpreter.name_resolution import Local, Meaning
 from desire_tui.engine.interpreter.user_functions import is_used_as_array
 from desire_tui.engine.left_chains import OPERATORS, chain
-from desire_tui.engine.nodes import Binary, Call, Element, Function, Name, RowOf, Shifted, Transposed, Unary
+from desire_tui.engine.nodes.declarations import Function
+from desire_tui.engine.nodes.expressions import Binary, Call, Element, Name, RowOf, Shifted, Transposed, Unary
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.array_expressions import ArrayExpressions, Evaluator
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.expressions import Expr
 
     Shape = tuple[int, ...]
 

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault, explain
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.nodes import Bare, Placed
+from desire_tui.engine.nodes.assignments import Bare
 from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.nodes.program import Placed
 
 _SEPARATOR = re.compile(r"[,;\t]")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
@@ -78,7 +79,7 @@ class Entries:
         return value
 
     def _evaluate(self, text: str) -> complex:
-        from desire_tui.engine.syntax import parse_command
+        from desire_tui.engine.syntax.parse import parse_command
 
         source = Source(text, f"<{self._origin}>")
         statements, problems = parse_command(source)

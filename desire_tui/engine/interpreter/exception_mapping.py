@@ -1,7 +1,8 @@
 """From a Python exception inside generated code to the user's message and the exact place in the source.
 
 Generated code carries the offsets of the nodes it was made from as its column numbers (see
-`expression_translation`), so the traceback itself says which part of a statement failed: that costs nothing while nothing fails.
+`expression_translation`), so the traceback itself says which part of a statement failed: that costs nothing
+while nothing fails.
 """
 
 from __future__ import annotations
@@ -10,13 +11,14 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.nodes import Binary, Call, Name, Node
+from desire_tui.engine.nodes.expressions import Binary, Call, Name
+from desire_tui.engine.nodes.record import Node
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import CodeType, TracebackType
 
-    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
 
 MARK = "<desire "

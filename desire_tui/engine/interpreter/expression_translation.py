@@ -17,7 +17,7 @@ from desire_tui.engine.interpreter.name_resolution import Local, NameScope, Refe
 from desire_tui.engine.interpreter.python_ast import Typed, at
 from desire_tui.engine.interpreter.subscripts import element_slot
 from desire_tui.engine.left_chains import LONG, PIECE, chain, is_long
-from desire_tui.engine.nodes import (
+from desire_tui.engine.nodes.expressions import (
     Binary,
     Call,
     Element,
@@ -34,7 +34,8 @@ from desire_tui.engine.values import Kind, Quantity
 if TYPE_CHECKING:
     from desire_tui.engine.interpreter.compile_python import PythonCompiler
     from desire_tui.engine.interpreter.user_functions import UserFunctions
-    from desire_tui.engine.nodes import Condition, Expr, Node
+    from desire_tui.engine.nodes.expressions import Condition, Expr
+    from desire_tui.engine.nodes.record import Node
 
 _ARITHMETIC: dict[str, ast.operator] = {"+": py.ADD, "-": py.SUBTRACT, "*": py.MULTIPLY, "/": py.DIVIDE}
 _RELATIONS: dict[str, ast.cmpop] = {

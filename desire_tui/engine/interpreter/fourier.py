@@ -9,7 +9,7 @@ import numpy as np
 
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.interruptible import patiently
-from desire_tui.engine.nodes import Fft
+from desire_tui.engine.nodes.commands import Fft
 
 if TYPE_CHECKING:
     from collections.abc import Callable

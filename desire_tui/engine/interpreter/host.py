@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from desire_tui.engine.diagnostics import DesireError
-    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.values import Quantity
 
 

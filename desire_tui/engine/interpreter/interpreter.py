@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from desire_tui.engine.interpreter.host import Host
-    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.values import Values
 
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.channels import Channels
     from desire_tui.engine.interpreter.data_and_input import DataList
     from desire_tui.engine.interpreter.host import Host
-    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.source import Source
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values

@@ -10,16 +10,8 @@ from desire_tui.engine.interpreter.array_expressions import ArrayExpressions, co
 from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.left_chains import chain
-from desire_tui.engine.nodes import (
-    Dot,
-    Expr,
-    MatrixAssign,
-    Name,
-    Number,
-    Transposed,
-    Unary,
-    VectorAssign,
-)
+from desire_tui.engine.nodes.assignments import Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.expressions import Expr, Name, Number, Transposed, Unary
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

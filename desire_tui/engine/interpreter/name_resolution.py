@@ -13,7 +13,8 @@ from desire_tui.engine.values import PI, Kind, Quantity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from desire_tui.engine.nodes import Element, Name, Placed
+    from desire_tui.engine.nodes.expressions import Element, Name
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.values import Values
 
 

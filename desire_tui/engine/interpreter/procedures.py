@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.name_resolution import Meaning, Reference
-from desire_tui.engine.nodes import CallProcedure, Element, Name
+from desire_tui.engine.nodes.control import CallProcedure
+from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.values import SCALAR_SLOTS, Kind, Quantity
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation, ScriptCode
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.structure.structure import ProcedureText
 
 Box = list[int]

@@ -9,7 +9,7 @@ import ast
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
-    from desire_tui.engine.nodes import Node
+    from desire_tui.engine.nodes.record import Node
     from desire_tui.engine.values import Kind
 
 Expression = TypeVar("Expression", bound=ast.expr)

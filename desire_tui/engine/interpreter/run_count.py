@@ -10,24 +10,16 @@ from functools import cached_property
 from math import floor
 from typing import TYPE_CHECKING, NamedTuple
 
-from desire_tui.engine.nodes import (
-    Assign,
-    Binary,
-    CallProcedure,
-    Drun,
-    For,
-    GoTo,
-    Name,
-    Number,
-    Procedure,
-    Unary,
-)
+from desire_tui.engine.nodes.assignments import Assign
+from desire_tui.engine.nodes.commands import Drun
+from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, Procedure
+from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from desire_tui.engine.interpreter.code_table import ScriptCode, StatementList
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.expressions import Expr
 
 ROUNDING = 1e-9
 """Added to the number of steps, so that `0 to 1 step 0.1` makes eleven passes."""

@@ -12,7 +12,7 @@ from desire_tui.engine.interpreter.expression_translation import literal, scalar
 from desire_tui.engine.interpreter.name_resolution import Reference
 from desire_tui.engine.interpreter.python_ast import at
 from desire_tui.engine.interpreter.subscripts import element_slot
-from desire_tui.engine.nodes import Element, Name
+from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
 
 if TYPE_CHECKING:
@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation, ScriptCode
     from desire_tui.engine.interpreter.machine import ScriptMachine
-    from desire_tui.engine.nodes import Expr, Node, Placed, Statement, Target
+    from desire_tui.engine.nodes.expressions import Expr, Target
+    from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.nodes.record import Node, Statement
     from desire_tui.engine.values import Quantity
 
 

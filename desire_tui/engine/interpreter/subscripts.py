@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.python_ast import at
-from desire_tui.engine.nodes import Number
+from desire_tui.engine.nodes.expressions import Number
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     import ast
 
     from desire_tui.engine.interpreter.expression_translation import Translator
-    from desire_tui.engine.nodes import Element, Expr
+    from desire_tui.engine.nodes.expressions import Element, Expr
     from desire_tui.engine.values import Quantity
 
 

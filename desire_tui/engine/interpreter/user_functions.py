@@ -13,7 +13,8 @@ from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.name_resolution import Local, Meaning, NameScope
 from desire_tui.engine.interpreter.python_ast import Typed, at
 from desire_tui.engine.left_chains import chain
-from desire_tui.engine.nodes import Binary, Call, Element, Function, Name, Pair, Unary
+from desire_tui.engine.nodes.declarations import Function
+from desire_tui.engine.nodes.expressions import Binary, Call, Element, Name, Pair, Unary
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -22,7 +23,8 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.compile_python import PythonCompiler
     from desire_tui.engine.interpreter.expression_translation import Translator
-    from desire_tui.engine.nodes import Expr, Placed
+    from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
 
 

@@ -14,7 +14,8 @@ from desire_tui.engine.interpreter.number_text import (
     scalar_text,
 )
 from desire_tui.engine.interpreter.quantity_rows import value_text
-from desire_tui.engine.nodes import Dump, Name, Note, Text, Write
+from desire_tui.engine.nodes.expressions import Name, Text
+from desire_tui.engine.nodes.files import Dump, Note, Write
 from desire_tui.engine.values import Quantity
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes import WriteItem
+    from desire_tui.engine.nodes.files import WriteItem
     from desire_tui.engine.values import Values
 
     Piece = Callable[[], Iterator[str]]

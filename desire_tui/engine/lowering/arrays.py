@@ -5,22 +5,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.left_chains import chain
-from desire_tui.engine.lowered import DotTerm, SetDot, SetMat, SetVec, Vec
+from desire_tui.engine.lowered.expressions import Vec
+from desire_tui.engine.lowered.statements import DotTerm, SetDot, SetMat, SetVec
 from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.products import array, matrix_vector, nonconformable, note_read, unsigned
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.lowering.targets import mark_array, mark_set, matrix, scalar_slot, vector
-from desire_tui.engine.nodes import Binary, Name, Number, Unary
+from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
 
 if TYPE_CHECKING:
-    from desire_tui.engine import nodes
     from desire_tui.engine.lowering.builder import SegmentBuilder
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.assignments import Dot, MatrixAssign, VectorAssign
+    from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.record import Node
+    from desire_tui.engine.nodes.segment import VectorDerivative
     from desire_tui.engine.values import Quantity
 
 
-def vector_assign(builder: SegmentBuilder, node: nodes.VectorAssign) -> None:
+def vector_assign(builder: SegmentBuilder, node: VectorAssign) -> None:
     """`Vector y = v`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
     context = builder.context
     quantity = _target(context, node)
@@ -40,7 +43,7 @@ def vector_assign(builder: SegmentBuilder, node: nodes.VectorAssign) -> None:
     mark_array(context, quantity.slot, count)
 
 
-def vector_derivative(builder: SegmentBuilder, node: nodes.VectorDerivative) -> None:
+def vector_derivative(builder: SegmentBuilder, node: VectorDerivative) -> None:
     """`Vectr d/dt x = v`. Error 101 for a second one."""
     context = builder.context
     quantity = _target(context, node)
@@ -56,7 +59,7 @@ def vector_derivative(builder: SegmentBuilder, node: nodes.VectorDerivative) -> 
     builder.derivative(quantity.slot, count, value, context.where(node), array=True)
 
 
-def _target(context: LoweringContext, node: nodes.VectorAssign | nodes.VectorDerivative) -> Quantity | None:
+def _target(context: LoweringContext, node: VectorAssign | VectorDerivative) -> Quantity | None:
     """Return the vector that a statement assigns; None: there is none, its right side has been checked."""
     quantity = vector(context, node, node.name)
     if quantity is None:
@@ -64,7 +67,7 @@ def _target(context: LoweringContext, node: nodes.VectorAssign | nodes.VectorDer
     return quantity
 
 
-def matrix_assign(builder: SegmentBuilder, node: nodes.MatrixAssign) -> None:
+def matrix_assign(builder: SegmentBuilder, node: MatrixAssign) -> None:
     """`MATRIX W = [M] sum; min, max` and `DELTA W = …`."""
     context = builder.context
     quantity = matrix(context, node, node.name)
@@ -89,7 +92,7 @@ def matrix_assign(builder: SegmentBuilder, node: nodes.MatrixAssign) -> None:
     mark_array(context, quantity.slot, size)
 
 
-def dot(builder: SegmentBuilder, node: nodes.Dot) -> None:
+def dot(builder: SegmentBuilder, node: Dot) -> None:
     """`DOT s = u*v + u*1 + u*A*v`, `AVG s = …`: operands are names."""
     context = builder.context
     slot = scalar_slot(context, node.target)
@@ -169,7 +172,7 @@ def _dot_term(builder: SegmentBuilder, sign: float, node: Expr) -> DotTerm | Non
     return DotTerm(sign, left, Vec(v.slot, count))
 
 
-def _mask(builder: SegmentBuilder, node: nodes.Node, name: str | None, extent: tuple[int, ...]) -> int | None:
+def _mask(builder: SegmentBuilder, node: Node, name: str | None, extent: tuple[int, ...]) -> int | None:
     """Return the slot of a mask array of the right shape. Error 74."""
     if name is None:
         return None

@@ -6,10 +6,13 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetVec, Terminate, Vec
+from desire_tui.engine.lowered.expressions import Load, Vec
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec, Terminate
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Action, Picture, SampleColumn, SampleRequest, Value, Where
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.segment import Picture, SampleColumn, SampleRequest
+    from desire_tui.engine.lowered.statements import Action, Where
     from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.lowering.persistence import Snapshot
     from desire_tui.engine.lowering.states import StateTable

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.lowered import Op, Table1, Table2
 from desire_tui.engine.lowered.effects import DRAWS, operands
+from desire_tui.engine.lowered.expressions import Op, Table1, Table2
 from desire_tui.engine.lowering import expressions
 from desire_tui.engine.lowering.lowering_context import (
     BAD,
@@ -17,14 +17,14 @@ from desire_tui.engine.lowering.lowering_context import (
     ExpansionFrame,
 )
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
-from desire_tui.engine.nodes import Call, Name
+from desire_tui.engine.nodes.expressions import Call, Name
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.expressions import Extent
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.expressions import Expr
 
 LEVELS_MOST = 200
 """Levels of an expression with its FUNCTIONs expanded; later stages follow them recursively."""

@@ -9,11 +9,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.left_chains import LONG
-from desire_tui.engine.lowered import Const, Load, Op
+from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowering import calls, long_chains, products
 from desire_tui.engine.lowering.lowering_context import BAD
 from desire_tui.engine.lowering.subscripts import element
-from desire_tui.engine.nodes import (
+from desire_tui.engine.nodes.expressions import (
     Binary,
     Call,
     Element,
@@ -26,9 +26,9 @@ from desire_tui.engine.nodes import (
 )
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.expressions import Expr
 
 Extent = tuple[int, ...]
 SCALAR: Extent = ()

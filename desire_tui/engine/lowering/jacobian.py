@@ -5,17 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.lowered import Jacobian, JacobianEntry
+from desire_tui.engine.lowered.segment import Jacobian, JacobianEntry
 from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.lowering.statements import assign
 from desire_tui.engine.lowering.subscripts import constant
-from desire_tui.engine.nodes import Assign, Element
+from desire_tui.engine.nodes.assignments import Assign
+from desire_tui.engine.nodes.expressions import Element
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowering.builder import SegmentBuilder
     from desire_tui.engine.lowering.submodels import Line
     from desire_tui.engine.values import Values

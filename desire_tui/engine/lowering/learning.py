@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import Const, LearningStep
+from desire_tui.engine.lowered.expressions import Const
+from desire_tui.engine.lowered.statements import LearningStep
 from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.products import array, nonconformable
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.lowering.targets import mark_array
-from desire_tui.engine.nodes import Name
+from desire_tui.engine.nodes.expressions import Name
 
 if TYPE_CHECKING:
-    from desire_tui.engine import nodes
     from desire_tui.engine.lowering.builder import SegmentBuilder
+    from desire_tui.engine.nodes.segment import Learn
     from desire_tui.engine.values import Quantity
 
 
-def learn(builder: SegmentBuilder, node: nodes.Learn) -> None:
+def learn(builder: SegmentBuilder, node: Learn) -> None:
     """`CLEARN v = W(x) lrate, crit[#]`, `PLEARN y = W*x; lrate`, `INTP v = W*x; thresh`.
 
     W is rows × cols, the output has `rows` elements, the input `cols`. Errors 70, 74, 75, 218.
@@ -53,7 +54,7 @@ def learn(builder: SegmentBuilder, node: nodes.Learn) -> None:
     mark_array(context, out.slot, out.shape[0])
 
 
-def _ranked(builder: SegmentBuilder, node: nodes.Learn, name: str, rank: int) -> Quantity | None:
+def _ranked(builder: SegmentBuilder, node: Learn, name: str, rank: int) -> Quantity | None:
     place = Name(name, node.start, node.end)
     quantity = array(builder.context, place)
     if quantity is not None and len(quantity.shape) != rank:

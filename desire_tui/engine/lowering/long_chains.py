@@ -10,18 +10,19 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.left_chains import PIECE, chain, is_long
-from desire_tui.engine.lowered import Const, Load, Op, Set, SetMat, SetVec, Vec
 from desire_tui.engine.lowered.effects import draws
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Vec
+from desire_tui.engine.lowered.statements import Set, SetMat, SetVec
 from desire_tui.engine.lowering import expressions, products
 from desire_tui.engine.lowering.calls import LEVELS_MOST, levels_of
 from desire_tui.engine.lowering.lowering_context import BAD
 from desire_tui.engine.lowering.scope import UNKNOWN
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.expressions import Extent
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Binary, Expr
+    from desire_tui.engine.nodes.expressions import Binary, Expr
 
 
 def lower_long(context: LoweringContext, node: Binary, extent: Extent) -> Value:

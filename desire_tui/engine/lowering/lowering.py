@@ -9,14 +9,14 @@ from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.lowering.lowering_context import FunctionText
 from desire_tui.engine.lowering.scope import LiveScope
 from desire_tui.engine.lowering.segments import lower_segment
-from desire_tui.engine.nodes import Function
+from desire_tui.engine.nodes.declarations import Function
 from desire_tui.engine.structure.structure import structure as find_structure
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.nodes import Program
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.nodes.program import Program
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
 

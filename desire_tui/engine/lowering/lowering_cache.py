@@ -13,9 +13,9 @@ from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.scope import LiveScope
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.expressions import Expr
 
 KEPT_MOST = 100_000
 """Expressions kept before the store is emptied."""

@@ -7,18 +7,22 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.diagnostics import Diagnostic, closest
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.lowered import Const, Load, Where
+from desire_tui.engine.lowered.expressions import Const, Load
+from desire_tui.engine.lowered.statements import Where
 from desire_tui.engine.lowering.persistence import Flow
-from desire_tui.engine.nodes import Name
+from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.source import Source, Span
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from desire_tui.engine.lowered import Action, Value
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.lowering.scope import SegmentScope
-    from desire_tui.engine.nodes import Expr, Function, Node
+    from desire_tui.engine.nodes.declarations import Function
+    from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.record import Node
 
 BAD = Const(0.0)
 """Stands for an expression that has been complained about."""

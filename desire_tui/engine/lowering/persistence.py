@@ -11,12 +11,13 @@ from bisect import bisect_left
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import Guard, Load, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered.statements import Guard, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.lowering.scope import SYSTEM_SLOTS
 from desire_tui.engine.passes.intervals import Intervals
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.expressions import Load
+    from desire_tui.engine.lowered.statements import Action
 
 Assignment = Set | SetVec | SetMat | SetDot
 Snapshot = tuple[dict[str, "Load"], set[int], Intervals]

@@ -12,23 +12,23 @@ from typing import TYPE_CHECKING, Literal
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.left_chains import PIECE, is_long
 from desire_tui.engine.library import rounded
-from desire_tui.engine.lowered import MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
+from desire_tui.engine.lowered.expressions import MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowering import expressions
 from desire_tui.engine.lowering.lowering_context import BAD
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.lowering.subscripts import constant
-from desire_tui.engine.nodes import Binary, Name, Transposed, Unary
-from desire_tui.engine.nodes import RowOf as RowOfNode
-from desire_tui.engine.nodes import Shifted as ShiftedNode
+from desire_tui.engine.nodes.expressions import Binary, Name, Transposed, Unary
+from desire_tui.engine.nodes.expressions import RowOf as RowOfNode
+from desire_tui.engine.nodes.expressions import Shifted as ShiftedNode
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.expressions import Extent
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.expressions import Expr
 
 _OPERATIONS = {"*": "mul", "/": "div"}
 

@@ -5,21 +5,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.lowered import Picture, SampleColumn, SampleRequest
+from desire_tui.engine.lowered.segment import Picture, SampleColumn, SampleRequest
 from desire_tui.engine.lowering.scope import UNKNOWN, size_of
 from desire_tui.engine.lowering.subscripts import constant, element, whole
-from desire_tui.engine.nodes import Element
+from desire_tui.engine.nodes.expressions import Element
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from desire_tui.engine import nodes
     from desire_tui.engine.lowering.builder import SegmentBuilder
-    from desire_tui.engine.nodes import Target
+    from desire_tui.engine.nodes.display import Request, Show
+    from desire_tui.engine.nodes.expressions import Target
 
 _DISPLAYS = frozenset({"dispt", "dispxy", "DISPXY"})
 
 
-def request(builder: SegmentBuilder, node: nodes.Request) -> None:
+def request(builder: SegmentBuilder, node: Request) -> None:
     """`dispt dispxy DISPXY type stash recover`. Errors 8, 14, 200, 69."""
     context = builder.context
     family = "display" if node.kind in _DISPLAYS else node.kind
@@ -68,7 +68,7 @@ def column(builder: SegmentBuilder, item: Target) -> SampleColumn | None:
     return SampleColumn(name, quantity.slot, context.where(item))
 
 
-def show(builder: SegmentBuilder, node: nodes.Show) -> None:
+def show(builder: SegmentBuilder, node: Show) -> None:
     """`SHOW A, ncol`. Error 112."""
     context = builder.context
     quantity = context.quantity(node.name)

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine import nodes
-from desire_tui.engine.lowered import Load, Segment, StateRange
+from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.lowered.segment import Segment, StateRange
 from desire_tui.engine.lowering import arrays, learning, requests, statements, targets
 from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
@@ -18,7 +18,23 @@ from desire_tui.engine.lowering.lowering_context import LoweringContext
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.lowering.states import StateTable
 from desire_tui.engine.lowering.submodels import expand
-from desire_tui.engine.nodes import Derivative, Element, Name, VectorDerivative
+from desire_tui.engine.nodes.assignments import Assign, Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.commands import Simple
+from desire_tui.engine.nodes.control import If
+from desire_tui.engine.nodes.display import Request, Show
+from desire_tui.engine.nodes.expressions import Element, Name
+from desire_tui.engine.nodes.segment import (
+    Delay,
+    Derivative,
+    FunctionTable,
+    Get,
+    Learn,
+    Sample,
+    Store,
+    Term,
+    TrackHold,
+    VectorDerivative,
+)
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
@@ -28,41 +44,42 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowering.lowering_context import FunctionText
     from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.lowering.submodels import Line
-    from desire_tui.engine.nodes import SegmentText, Target
+    from desire_tui.engine.nodes.expressions import Target
+    from desire_tui.engine.nodes.program import SegmentText
     from desire_tui.engine.source import Source
     from desire_tui.engine.structure.structure import SubmodelText
 
 _HANDLERS: dict[type, Callable[[SegmentBuilder, Any], None]] = {
-    nodes.Assign: statements.assign,
-    nodes.Derivative: statements.derivative,
-    nodes.VectorDerivative: arrays.vector_derivative,
-    nodes.VectorAssign: arrays.vector_assign,
-    nodes.MatrixAssign: arrays.matrix_assign,
-    nodes.Dot: arrays.dot,
-    nodes.Store: statements.store,
-    nodes.Get: statements.get,
-    nodes.Delay: statements.delay,
-    nodes.TrackHold: statements.track_hold,
-    nodes.FunctionTable: statements.table,
-    nodes.Term: statements.term,
-    nodes.If: statements.condition,
-    nodes.Simple: statements.simple,
-    nodes.Sample: statements.sample,
-    nodes.Request: requests.request,
-    nodes.Show: requests.show,
-    nodes.Learn: learning.learn,
+    Assign: statements.assign,
+    Derivative: statements.derivative,
+    VectorDerivative: arrays.vector_derivative,
+    VectorAssign: arrays.vector_assign,
+    MatrixAssign: arrays.matrix_assign,
+    Dot: arrays.dot,
+    Store: statements.store,
+    Get: statements.get,
+    Delay: statements.delay,
+    TrackHold: statements.track_hold,
+    FunctionTable: statements.table,
+    Term: statements.term,
+    If: statements.condition,
+    Simple: statements.simple,
+    Sample: statements.sample,
+    Request: requests.request,
+    Show: requests.show,
+    Learn: learning.learn,
 }
 
 _SCALAR_TARGETS: dict[type, Callable[[Any], tuple[Target, ...]]] = {
-    nodes.Assign: lambda n: (n.target,),
-    nodes.Dot: lambda n: (n.target,),
-    nodes.Get: lambda n: (n.variable,),
-    nodes.Delay: lambda n: (n.variable,),
-    nodes.TrackHold: lambda n: (n.held, n.tracked),
-    nodes.FunctionTable: lambda n: (n.target,),
-    nodes.Request: lambda n: n.items if n.kind == "recover" else (),
+    Assign: lambda n: (n.target,),
+    Dot: lambda n: (n.target,),
+    Get: lambda n: (n.variable,),
+    Delay: lambda n: (n.variable,),
+    TrackHold: lambda n: (n.held, n.tracked),
+    FunctionTable: lambda n: (n.target,),
+    Request: lambda n: n.items if n.kind == "recover" else (),
 }
-_ARRAY_TARGETS = (nodes.VectorAssign, nodes.MatrixAssign, nodes.Store, nodes.Learn, nodes.Delay)
+_ARRAY_TARGETS = (VectorAssign, MatrixAssign, Store, Learn, Delay)
 
 
 def lower_segment(
@@ -186,7 +203,7 @@ def _ready_from_start(builder: SegmentBuilder, lines: Sequence[Line]) -> None:
             ready[state.name] = Load(state.slot)
             builder.names[state.slot] = state.name
     for node, frame in lines:
-        if isinstance(node, nodes.Request) and node.kind == "recover":
+        if isinstance(node, Request) and node.kind == "recover":
             context.enter(frame)
             for item in node.items:
                 targets.mark_held(context, item)

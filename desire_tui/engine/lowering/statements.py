@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import (
+from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.lowered.statements import (
     DelayLine,
     GetHistory,
-    Load,
     Set,
     StoreHistory,
     Terminate,
@@ -20,15 +20,28 @@ from desire_tui.engine.lowering.products import array
 from desire_tui.engine.lowering.scope import UNKNOWN, size_of
 from desire_tui.engine.lowering.subscripts import constant
 from desire_tui.engine.lowering.targets import mark_held, mark_set, scalar_slot
-from desire_tui.engine.nodes import Element, Name
+from desire_tui.engine.nodes.expressions import Element, Name
 
 if TYPE_CHECKING:
-    from desire_tui.engine import nodes
     from desire_tui.engine.lowering.builder import SegmentBuilder
+    from desire_tui.engine.nodes.assignments import Assign
+    from desire_tui.engine.nodes.commands import Simple
+    from desire_tui.engine.nodes.control import If
+    from desire_tui.engine.nodes.record import Node
+    from desire_tui.engine.nodes.segment import (
+        Delay,
+        Derivative,
+        FunctionTable,
+        Get,
+        Sample,
+        Store,
+        Term,
+        TrackHold,
+    )
     from desire_tui.engine.values import Quantity
 
 
-def assign(builder: SegmentBuilder, node: nodes.Assign) -> None:
+def assign(builder: SegmentBuilder, node: Assign) -> None:
     """`y = e`: defined variable or difference equation."""
     context = builder.context
     target = node.target
@@ -43,7 +56,7 @@ def assign(builder: SegmentBuilder, node: nodes.Assign) -> None:
         mark_set(context, target, slot)
 
 
-def derivative(builder: SegmentBuilder, node: nodes.Derivative) -> None:
+def derivative(builder: SegmentBuilder, node: Derivative) -> None:
     """`d/dt x = e`, `d/dt x[i] = e`. Error 101 for a second one."""
     context = builder.context
     slot = scalar_slot(context, node.target)
@@ -61,14 +74,14 @@ def derivative(builder: SegmentBuilder, node: nodes.Derivative) -> None:
     builder.derivative(slot, 1, value, where or context.where(node))
 
 
-def term(builder: SegmentBuilder, node: nodes.Term) -> None:
+def term(builder: SegmentBuilder, node: Term) -> None:
     """`term e`."""
     context = builder.context
     builder.body.append(Terminate(lower(context, node.value), builder.terms, context.where(node)))
     builder.terms += 1
 
 
-def condition(builder: SegmentBuilder, node: nodes.If) -> None:
+def condition(builder: SegmentBuilder, node: If) -> None:
     """`if e`; a script's `if C then` is error 219."""
     context = builder.context
     if node.value is None:
@@ -78,7 +91,7 @@ def condition(builder: SegmentBuilder, node: nodes.If) -> None:
     builder.open("if", context.where(node), value)
 
 
-def simple(builder: SegmentBuilder, node: nodes.Simple) -> None:
+def simple(builder: SegmentBuilder, node: Simple) -> None:
     """`OUT`, `step`, `else`, `end if`; anything else is error 219."""
     context = builder.context
     if node.word == "OUT":
@@ -95,7 +108,7 @@ def simple(builder: SegmentBuilder, node: nodes.Simple) -> None:
         context.report("illegal-in-dynamic", node, word=node.word)
 
 
-def sample(builder: SegmentBuilder, node: nodes.Sample) -> None:
+def sample(builder: SegmentBuilder, node: Sample) -> None:
     """`SAMPLE m`: m is fixed now and truncated. Error 8 for a second one, 44 for m < 1."""
     context = builder.context
     if "SAMPLE" in builder.once_only:
@@ -111,7 +124,7 @@ def sample(builder: SegmentBuilder, node: nodes.Sample) -> None:
     builder.open("sample", context.where(node), every=whole)
 
 
-def store(builder: SegmentBuilder, node: nodes.Store) -> None:
+def store(builder: SegmentBuilder, node: Store) -> None:
     """`store X = x`."""
     context = builder.context
     quantity = history(builder, node, node.array)
@@ -124,7 +137,7 @@ def store(builder: SegmentBuilder, node: nodes.Store) -> None:
         )
 
 
-def get(builder: SegmentBuilder, node: nodes.Get) -> None:
+def get(builder: SegmentBuilder, node: Get) -> None:
     """`get x = X`."""
     context = builder.context
     quantity = history(builder, node, node.array)
@@ -135,7 +148,7 @@ def get(builder: SegmentBuilder, node: nodes.Get) -> None:
         mark_held(context, node.variable)
 
 
-def delay(builder: SegmentBuilder, node: nodes.Delay) -> None:
+def delay(builder: SegmentBuilder, node: Delay) -> None:
     """`tdelay y = D(x, tau` and `delay y = D(x, tau`."""
     context = builder.context
     buffer = history(builder, node, node.buffer)
@@ -158,7 +171,7 @@ def delay(builder: SegmentBuilder, node: nodes.Delay) -> None:
         mark_held(context, node.variable)
 
 
-def track_hold(builder: SegmentBuilder, node: nodes.TrackHold) -> None:
+def track_hold(builder: SegmentBuilder, node: TrackHold) -> None:
     """`trkhld y, y0 = p, x`: both keep their values from pass to pass, 0 at first."""
     context = builder.context
     control, value = lower(context, node.control), lower(context, node.value)
@@ -169,7 +182,7 @@ def track_hold(builder: SegmentBuilder, node: nodes.TrackHold) -> None:
         mark_held(context, node.tracked)
 
 
-def table(builder: SegmentBuilder, node: nodes.FunctionTable) -> None:
+def table(builder: SegmentBuilder, node: FunctionTable) -> None:
     """`func y = F(x`, `func2 f = F(x, y; X, Y`."""
     context = builder.context
     slot = scalar_slot(context, node.target)
@@ -181,7 +194,7 @@ def table(builder: SegmentBuilder, node: nodes.FunctionTable) -> None:
         mark_set(context, node.target, slot)
 
 
-def history(builder: SegmentBuilder, node: nodes.Node, name: str) -> Quantity | None:
+def history(builder: SegmentBuilder, node: Node, name: str) -> Quantity | None:
     """Return the one-dimensional array of `store`, `get` or a delay. Errors 19, 75."""
     context = builder.context
     place = Name(name, node.start, node.end)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import StateRange
+from desire_tui.engine.lowered.segment import StateRange
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

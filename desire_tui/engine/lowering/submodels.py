@@ -7,13 +7,17 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, ExpansionFrame
-from desire_tui.engine.nodes import Bare, Call, Invoke, Name
+from desire_tui.engine.nodes.assignments import Bare
+from desire_tui.engine.nodes.expressions import Call, Name
+from desire_tui.engine.nodes.segment import Invoke
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Expr, Placed, Statement
+    from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.nodes.record import Statement
     from desire_tui.engine.structure.structure import SubmodelText
 
 LINES_MOST = 1_000_000

@@ -14,14 +14,14 @@ from desire_tui.engine.left_chains import chain
 from desire_tui.engine.library import LIBRARY, power
 from desire_tui.engine.lowering.lowering_context import Argument, ExpansionFrame
 from desire_tui.engine.lowering.scope import UNKNOWN
-from desire_tui.engine.nodes import Binary, Call, Element, Name, Number, Unary
+from desire_tui.engine.nodes.expressions import Binary, Call, Element, Name, Number, Unary
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Expr
+    from desire_tui.engine.nodes.expressions import Expr
 
 _OPERATIONS: dict[str, Callable[[float, float], float]] = {
     "+": add, "-": sub, "*": mul, "/": truediv, "^": power,

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import Load
+from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowering.products import array
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.lowering.subscripts import element
-from desire_tui.engine.nodes import Element, Name
+from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.nodes import Node, Target
+    from desire_tui.engine.nodes.expressions import Target
+    from desire_tui.engine.nodes.record import Node
     from desire_tui.engine.values import Quantity
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.graph import GraphBook
+    from desire_tui.engine.graph.pages import GraphBook
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.values import Values
 

@@ -7,9 +7,9 @@ the same passes.
 
 from __future__ import annotations
 
-from desire_tui.engine.lowered import Action, Guard, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.lowered.effects import draws as count_draws
 from desire_tui.engine.lowered.effects import expressions, reads, writes
+from desire_tui.engine.lowered.statements import Action, Guard, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.passes.intervals import Intervals
 from desire_tui.engine.values import SCALAR_SLOTS
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 from math import log as natural_log
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import Const, Op
+from desire_tui.engine.lowered.expressions import Const, Op
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
 
     Tangent = Value | None
     Slope = Callable[[Sequence[Value], Sequence[Tangent]], Tangent]

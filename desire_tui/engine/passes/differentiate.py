@@ -12,26 +12,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import (
+from desire_tui.engine.lowered.expressions import (
     Const,
-    Deriv,
-    DerivVec,
-    DotTerm,
-    Guard,
     Load,
     MatVec,
     Op,
     Outer,
     PatternRow,
-    Set,
-    SetDot,
-    SetMat,
-    SetVec,
     ShiftedVec,
     Table1,
     Table2,
     Vec,
-)  # fmt: skip
+)
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, DotTerm, Guard, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.passes.dead_code import draws, needed
 from desire_tui.engine.passes.derivative_rules import SLOPES, ZERO, op, plus
 from desire_tui.engine.passes.slices import derivative_slice
@@ -40,7 +33,9 @@ from desire_tui.engine.passes.tangents import NotDifferentiable, Tangents
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from desire_tui.engine.lowered import Action, Segment, Value
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
 
 _NUDGE = Const(1e-6)
 """Relative distance over which a table's slope is taken: exact inside an interval, where it is linear."""

@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import (
+from desire_tui.engine.lowered.effects import reads, writes
+from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
     DerivVec,
@@ -25,13 +26,12 @@ from desire_tui.engine.lowered import (
     StoreHistory,
     Terminate,
 )
-from desire_tui.engine.lowered.effects import reads, writes
 from desire_tui.engine.passes.dead_code import SlotSet, draws, with_bodies
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
 
 Actions = tuple["Action", ...]
 

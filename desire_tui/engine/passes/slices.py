@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import (
+from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
     DerivVec,
@@ -24,7 +24,8 @@ from desire_tui.engine.passes.final_sample import computes, early, tail
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.lowered import Action, Segment
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
 
 Actions = tuple["Action", ...]
 

@@ -13,23 +13,19 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from desire_tui.engine.lowered import (
-    Deriv,
-    DerivVec,
-    Guard,
+from desire_tui.engine.lowered.effects import memory, reads, writes
+from desire_tui.engine.lowered.expressions import (
     Load,
     MatVec,
     Op,
     Outer,
     PatternRow,
-    Set,
-    SetVec,
     ShiftedVec,
     Table1,
     Table2,
     Vec,
 )
-from desire_tui.engine.lowered.effects import memory, reads, writes
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec
 from desire_tui.engine.passes.slices import derivative_slice
 
 if TYPE_CHECKING:
@@ -37,7 +33,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Action, Segment, Value
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
 
     Entries = tuple[NDArray[np.int32], NDArray[np.int32]]
 

@@ -5,13 +5,16 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import Guard, Table1, Vec
 from desire_tui.engine.lowered.effects import reads, writes
+from desire_tui.engine.lowered.expressions import Table1, Vec
+from desire_tui.engine.lowered.statements import Guard
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from desire_tui.engine.lowered import Action, StateRange, Table2
+    from desire_tui.engine.lowered.expressions import Table2
+    from desire_tui.engine.lowered.segment import StateRange
+    from desire_tui.engine.lowered.statements import Action
 
 
 class NotDifferentiable(Exception):  # noqa: N818 - the caller's cue to take differences, no error

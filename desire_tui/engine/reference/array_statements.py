@@ -11,7 +11,7 @@ from desire_tui.engine.reference.expressions import ExpressionClosures
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.lowered import SetDot, SetMat, SetVec
+    from desire_tui.engine.lowered.statements import SetDot, SetMat, SetVec
     from desire_tui.engine.reference.statements import StatementClosures
 
     Run = Callable[[], None]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.integration import TABLEAUS
+from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.reference.model import ReferenceModel
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.values import Values
 

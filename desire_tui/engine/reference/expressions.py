@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from desire_tui.engine.library import func1, func2
-from desire_tui.engine.lowered import (
+from desire_tui.engine.lowered.effects import operands
+from desire_tui.engine.lowered.expressions import (
     Const,
     Load,
     MatVec,
@@ -19,8 +20,7 @@ from desire_tui.engine.lowered import (
     Table1,
     Table2,
     Vec,
-)  # fmt: skip
-from desire_tui.engine.lowered.effects import operands
+)
 from desire_tui.engine.reference.numbers import ARRAYS, scalar_function, whole_power
 from desire_tui.engine.reference.random import ElementDraws, Sequence, normal
 from desire_tui.engine.values import IROW
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.values import Values
 
     Array = NDArray[np.float64]

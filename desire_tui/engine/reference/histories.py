@@ -5,12 +5,12 @@ from __future__ import annotations
 import ctypes
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine.lowered import DelayLine, StoreHistory, UpdateTrackHold
+from desire_tui.engine.lowered.statements import DelayLine, StoreHistory, UpdateTrackHold
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.lowered import GetHistory
+    from desire_tui.engine.lowered.statements import GetHistory
     from desire_tui.engine.reference.statements import StatementClosures
     from desire_tui.engine.runtime.run_memory import RunMemory
 

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Segment, Where
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Where
     from desire_tui.engine.values import Values
 
     Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import LearningStep
+    from desire_tui.engine.lowered.statements import LearningStep
 
     Array = NDArray[np.float64]
 

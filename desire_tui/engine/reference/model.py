@@ -21,7 +21,7 @@ from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.tableaus import Tableau
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.reference.statements import Run
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values

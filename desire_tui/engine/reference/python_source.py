@@ -9,14 +9,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.library import LIBRARY, func1
-from desire_tui.engine.lowered import Const, Deriv, Guard, Load, Op, Set, Table1, Terminate
 from desire_tui.engine.lowered.effects import operands
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
+from desire_tui.engine.lowered.statements import Deriv, Guard, Set, Terminate
 from desire_tui.engine.reference.numbers import power, whole_power
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from desire_tui.engine.lowered import Action, Value
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.reference.statements import StatementClosures
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2)}

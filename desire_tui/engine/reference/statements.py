@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from desire_tui.engine.lowered import (
+from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
     DerivVec,
@@ -20,7 +20,7 @@ from desire_tui.engine.lowered import (
     StoreHistory,
     Terminate,
     UpdateTrackHold,
-)  # fmt: skip
+)
 from desire_tui.engine.reference.array_statements import dot, matrix, vector
 from desire_tui.engine.reference.expressions import ExpressionClosures
 from desire_tui.engine.reference.histories import history, sampled
@@ -32,7 +32,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Action, Value
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 

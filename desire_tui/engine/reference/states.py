@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.integration.tableaus import Row, Tableau
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.values import Values
 
     Array = NDArray[np.float64]

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.integration import TABLEAUS
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.bdf.solver import OwnSolver
 from desire_tui.engine.integration.callbacks import PythonCallbacks
@@ -24,6 +23,7 @@ from desire_tui.engine.integration.problem import (
 )
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
+from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.lowering.jacobian import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.integration.plan import SolverPlan
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 

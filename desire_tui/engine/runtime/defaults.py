@@ -24,7 +24,7 @@ from desire_tui.engine.values import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.source import Source, Span
 from desire_tui.engine.values import Values
 

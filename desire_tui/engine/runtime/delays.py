@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.library import LIBRARY, func1
-from desire_tui.engine.lowered import Const, DelayLine, Guard, Load, Op, Set, Table1
 from desire_tui.engine.lowered.effects import walk
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
+from desire_tui.engine.lowered.statements import DelayLine, Guard, Set
 from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP
 from desire_tui.engine.runtime.run_faults import actions
 from desire_tui.engine.values import DT
@@ -17,7 +18,9 @@ from desire_tui.engine.values import DT
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from desire_tui.engine.lowered import Action, Segment, Value
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.values import Values
 

@@ -12,7 +12,7 @@ from desire_tui.engine.values import DT, T
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.values import Values
 
 

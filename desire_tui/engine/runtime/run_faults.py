@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.lowered import Deriv, DerivVec, Guard, Load, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.runtime.plan import DUMMY
 from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.values import DT, ERRMAX, T
@@ -18,7 +19,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Action, Segment, Where
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action, Where
     from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values

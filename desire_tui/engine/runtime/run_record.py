@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import SampleColumn, SampleRequest
+    from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
 
 EndedWord = Literal["running", "tmax", "term", "stopped", "failed"]
 

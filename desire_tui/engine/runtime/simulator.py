@@ -20,7 +20,7 @@ from desire_tui.engine.values import DT, T
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.history import Positions
     from desire_tui.engine.runtime.pause_and_stop import Control

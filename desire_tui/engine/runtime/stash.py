@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.lowered import GetHistory
+from desire_tui.engine.lowered.statements import GetHistory
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import SampleColumn, Segment
+    from desire_tui.engine.lowered.segment import SampleColumn, Segment
     from desire_tui.engine.values import Values
 
 

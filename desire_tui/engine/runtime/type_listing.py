@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered import SampleRequest
+    from desire_tui.engine.lowered.segment import SampleRequest
 
 
 def header(request: SampleRequest) -> str:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.lowered import SampleColumn, Where
+from desire_tui.engine.lowered.segment import SampleColumn
+from desire_tui.engine.lowered.statements import Where
 from desire_tui.engine.passes.slices import full_pass, is_pure
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.session.differences import needs_steps_of, table
@@ -16,7 +17,7 @@ from desire_tui.engine.source import Span
 from desire_tui.engine.values import DT, ERMAX
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.session.script_host import ScriptHost
     from desire_tui.engine.session.session import Session
     from desire_tui.engine.session.workspace import Workspace

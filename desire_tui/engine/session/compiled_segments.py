@@ -12,8 +12,8 @@ from desire_tui.engine.runtime.stash import read_stash, with_recovery
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.nodes import Program
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.nodes.program import Program
     from desire_tui.engine.runtime.backend import Backend, Model
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
@@ -23,12 +23,12 @@ def make_backend(name: str) -> Backend:
     """Return the back end; the reference one where there is no LLVM."""
     if name == "native":
         try:
-            from desire_tui.engine.codegen import NativeBackend
+            from desire_tui.engine.codegen.jit.backend import NativeBackend
 
             return NativeBackend()
         except ImportError:
             pass  # no llvmlite on this machine: slower, the same numbers
-    from desire_tui.engine.reference import ReferenceBackend
+    from desire_tui.engine.reference.backend import ReferenceBackend
 
     return ReferenceBackend()
 

@@ -18,7 +18,7 @@ from desire_tui.engine.interpreter.host import Interrupted
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Quantity, Values
 
@@ -37,7 +37,7 @@ def wrong_jacobians(program: Program) -> tuple[Diagnostic, ...]:
     if not labels:
         return ()
     from desire_tui.engine.check.state_order import state_order
-    from desire_tui.engine.interpreter import Interpreter
+    from desire_tui.engine.interpreter.interpreter import Interpreter
     from desire_tui.engine.structure.structure import structure
     from desire_tui.engine.values import Values
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.nodes import Dump, Write
+from desire_tui.engine.nodes.files import Dump, Write
 from desire_tui.engine.session.dry_run import DryHost
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
-    from desire_tui.engine.nodes import Program
+    from desire_tui.engine.nodes.program import Program
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
 
@@ -28,8 +28,8 @@ def glance(text: str, program: Program, structure: Structure, values: Values) ->
 
     Any thread. DesireError: its mistakes.
     """
-    from desire_tui.engine.interpreter import Interpreter
-    from desire_tui.engine.syntax import parse_command
+    from desire_tui.engine.interpreter.interpreter import Interpreter
+    from desire_tui.engine.syntax.parse import parse_command
 
     source = Source(text, "<command>")
     statements, problems = parse_command(source)

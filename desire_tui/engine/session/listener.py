@@ -9,8 +9,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.graph import Graph
-    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.permissions import PermissionRequest
     from desire_tui.engine.source import Source

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
-    from desire_tui.engine.graph import Graph
+    from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.source import Source
 

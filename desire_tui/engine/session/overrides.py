@@ -11,14 +11,19 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes
 from desire_tui.engine.diagnostics import Diagnostic, closest
-from desire_tui.engine.nodes import Assign, Element, Name, Number, Placed
+from desire_tui.engine.nodes.assignments import Assign, Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.control import CallProcedure
+from desire_tui.engine.nodes.declarations import Declare
+from desire_tui.engine.nodes.expressions import Element, Name, Number
+from desire_tui.engine.nodes.files import Input, Read
+from desire_tui.engine.nodes.program import Placed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from desire_tui.engine.nodes import Program, Statement
+    from desire_tui.engine.nodes.program import Program
+    from desire_tui.engine.nodes.record import Statement
     from desire_tui.engine.structure.structure import Structure
 
 _FORM = re.compile(r"\s*([A-Za-z][\w$]*)\s*(?:\[\s*(\d+(?:\s*,\s*\d+)*)\s*\])?\s*", re.ASCII)
@@ -36,9 +41,7 @@ def parts(setting: str) -> tuple[str, tuple[int, ...]]:
 
 def initial(program: Program, overrides: Mapping[str, float]) -> dict[str, float]:
     """Return the scalars that have a value before the script begins: all that it does not declare."""
-    declared = {
-        name for p in program.script if isinstance(p.node, nodes.Declare) for name in _written(p.node)
-    }
+    declared = {name for p in program.script if isinstance(p.node, Declare) for name in _written(p.node)}
     return {name: value for name, value in _scalars(overrides).items() if name not in declared}
 
 
@@ -131,7 +134,7 @@ class _Changer:
     def _only_asks_for(self, node: Statement, names: list[str]) -> bool:
         """Whether an `input` asks for nothing but what is set anyway."""
         return (
-            isinstance(node, nodes.Input)
+            isinstance(node, Input)
             and node.channel is None
             and all(isinstance(t, Name) and t.name in self._scalars and t.name in names for t in node.targets)
         )
@@ -146,18 +149,18 @@ def _assignment(node: Statement, name: str, subscripts: tuple[int, ...], value: 
 
 
 def _written(node: Statement) -> Iterator[str]:
-    if isinstance(node, nodes.Declare):
+    if isinstance(node, Declare):
         for group in node.groups:
             yield from (part.name for part in group.parts)
             if group.whole is not None:
                 yield group.whole
-    elif isinstance(node, Assign | nodes.Dot):
+    elif isinstance(node, Assign | Dot):
         yield node.target.name
-    elif isinstance(node, nodes.Read | nodes.Input):
+    elif isinstance(node, Read | Input):
         yield from (target.name for target in node.targets)
-    elif isinstance(node, nodes.MatrixAssign | nodes.VectorAssign):
+    elif isinstance(node, MatrixAssign | VectorAssign):
         yield node.name
-    elif isinstance(node, nodes.CallProcedure):
+    elif isinstance(node, CallProcedure):
         yield from (r.name for r in node.references if isinstance(r, Name | Element))
 
 
@@ -165,7 +168,7 @@ def _overlays(program: Program) -> dict[str, list[str]]:
     """Return for each name of an overlay all names that share its memory."""
     found: dict[str, list[str]] = {}
     for placed in program.script:
-        if isinstance(placed.node, nodes.Declare):
+        if isinstance(placed.node, Declare):
             for group in placed.node.groups:
                 if group.whole is not None:
                     names = [group.whole, *(part.name for part in group.parts)]

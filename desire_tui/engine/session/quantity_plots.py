@@ -13,7 +13,7 @@ from desire_tui.engine.session.comparison import Variation, run_again
 from desire_tui.engine.session.overrides import parts
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.session.script_host import ScriptHost
     from desire_tui.engine.session.session import Session
     from desire_tui.engine.session.workspace import Workspace

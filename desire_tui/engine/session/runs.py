@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.graph import GraphBook
-    from desire_tui.engine.lowered import Segment
-    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.graph.pages import GraphBook
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.session.listener import Listener

@@ -15,8 +15,8 @@ from desire_tui.engine.values import SCALE
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from desire_tui.engine.interpreter import Interpreter
-    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.interpreter.interpreter import Interpreter
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.session.listener import Listener
     from desire_tui.engine.session.script_host import ScriptHost
@@ -107,9 +107,9 @@ class ScriptRunner:
 
     def _ready(self) -> Interpreter:
         if self._interpreter is None:
-            from desire_tui.engine.interpreter import Interpreter
+            from desire_tui.engine.interpreter.interpreter import Interpreter
             from desire_tui.engine.structure.structure import structure
-            from desire_tui.engine.syntax import parse
+            from desire_tui.engine.syntax.parse import parse
 
             program = self._desk.program or parse(Source("", "<none>"))
             script = self._desk.structure or structure(program)

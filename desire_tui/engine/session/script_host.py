@@ -17,8 +17,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from desire_tui.engine.diagnostics import DesireError
-    from desire_tui.engine.graph import Graph, GraphBook
-    from desire_tui.engine.nodes import Placed
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.graph.pages import GraphBook
+    from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.listener import Listener

@@ -6,7 +6,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.graph import GraphBook
+from desire_tui.engine.graph.pages import GraphBook
 from desire_tui.engine.runtime.pause_and_stop import Control
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.notebook import Notebook
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
-    from desire_tui.engine.graph import Graph
-    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.listener import StoppedAt
     from desire_tui.engine.session.quantity_plots import Charted
@@ -142,7 +142,7 @@ class Session:
         A script that stopped at STOP cannot go on afterwards (error 43), unless the text is the same.
         """
         from desire_tui.engine.structure.structure import structure
-        from desire_tui.engine.syntax import parse
+        from desire_tui.engine.syntax.parse import parse
 
         began = perf_counter()
         program = parse(source)
@@ -194,7 +194,7 @@ class Session:
     @staticmethod
     def script_lines(source: Source) -> frozenset[int]:
         """Return the lines (from 1) of a text in which a statement of the script begins."""
-        from desire_tui.engine.syntax import parse
+        from desire_tui.engine.syntax.parse import parse
 
         return frozenset(source.position(placed.at).row for placed in parse(source).script)
 
@@ -228,7 +228,7 @@ class Session:
 
     def execute(self, text: str) -> None:
         """Carry out one command line; an empty line does nothing."""
-        from desire_tui.engine.syntax import parse_command
+        from desire_tui.engine.syntax.parse import parse_command
 
         source = Source(text, "<command>")
         statements, problems = parse_command(source)

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.nodes import Dump, FileCommand, Simple
+from desire_tui.engine.nodes.commands import FileCommand, Simple
+from desire_tui.engine.nodes.files import Dump
 from desire_tui.engine.session.comparison import Variation, compare_runs
 from desire_tui.engine.session.report import run_report
 from desire_tui.engine.session.status import State
@@ -14,7 +15,8 @@ from desire_tui.engine.session.status import State
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from desire_tui.engine.nodes import Placed, Statement
+    from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.nodes.record import Statement
     from desire_tui.engine.session.listener import Listener
     from desire_tui.engine.session.script_host import ScriptHost
     from desire_tui.engine.session.session import Session
@@ -104,7 +106,7 @@ class SessionCommands:
 
     def help_page(self, topic: str) -> str:
         """Return a help page; DesireError 403 where there is none."""
-        from desire_tui.help import find, topics
+        from desire_tui.help.page_catalogue import find, topics
 
         if not topic.strip():
             return "Help about: " + ", ".join(

@@ -23,7 +23,7 @@ class StaticChecker:
         """Return the problems in the order of their places; `quick`: without comparing JACOBIAN segments."""
         from desire_tui.engine.check.checker import check
         from desire_tui.engine.session.dry_run import wrong_jacobians
-        from desire_tui.engine.syntax import parse
+        from desire_tui.engine.syntax.parse import parse
 
         known, whole, problems = self._last
         if known == source and (whole or quick):

@@ -9,7 +9,7 @@ from desire_tui.engine.runtime import type_listing
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.lowered import SampleRequest
+    from desire_tui.engine.lowered.segment import SampleRequest
     from desire_tui.engine.runtime.run_record import RunRecord
 
 

@@ -11,7 +11,7 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.values import Values
 
 if TYPE_CHECKING:
-    from desire_tui.engine.nodes import Placed, Program
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.session.notebook import Notebook
     from desire_tui.engine.session.permissions import Permissions
     from desire_tui.engine.structure.structure import Structure

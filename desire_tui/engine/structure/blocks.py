@@ -5,16 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes as n
 from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.nodes.assignments import Assign, Bare
+from desire_tui.engine.nodes.commands import Simple
+from desire_tui.engine.nodes.control import For, If, Label, Procedure, Until, While
+from desire_tui.engine.nodes.declarations import Function, Submodel
+from desire_tui.engine.nodes.expressions import Call
+from desire_tui.engine.nodes.files import Data
 from desire_tui.engine.structure.outline import ProcedureText, Structure, SubmodelText
 from desire_tui.engine.values import SYSTEM_VARIABLES
 
 if TYPE_CHECKING:
+    from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.nodes.record import Node
     from desire_tui.engine.source import Source
 
-CLOSERS: dict[type[n.Node], str] = {
-    n.If: "proceed", n.For: "next", n.While: "end while", n.Procedure: "end", n.Submodel: "end",
+CLOSERS: dict[type[Node], str] = {
+    If: "proceed", For: "next", While: "end while", Procedure: "end", Submodel: "end",
 }  # fmt: skip
 """The word that closes a block, by the class of its opener (`repeat`, a plain word, is closed by `until`)."""
 
@@ -35,7 +42,7 @@ class _Open:
 class BlockSurvey:
     """One walk through a script: finds partners, labels, definitions, and what is wrong with them."""
 
-    def __init__(self, script: tuple[n.Placed, ...], source: Source, broken: bool) -> None:
+    def __init__(self, script: tuple[Placed, ...], source: Source, broken: bool) -> None:
         self.statements, self.source, self.broken = script, source, broken
         self.found = Structure()
         self.problems: list[Diagnostic] = []
@@ -48,7 +55,7 @@ class BlockSurvey:
         self.problems.sort(key=lambda p: p.span or (0, 0))
         return replace(self.found, problems=tuple(self.problems))
 
-    def report(self, key: str, placed: n.Placed, *related: Diagnostic, **facts: object) -> None:
+    def report(self, key: str, placed: Placed, *related: Diagnostic, **facts: object) -> None:
         """Note a problem with a statement."""
         self.problems.append(Diagnostic(key, placed.span(), facts, self.source, related=related))
 
@@ -67,32 +74,32 @@ class BlockSurvey:
                 found.numbers.setdefault(placed.number, place)
             node = placed.node
             match node:
-                case n.Assign():
+                case Assign():
                     pass
-                case n.Bare(n.Call(name)) if not self._in_submodel():
+                case Bare(Call(name)) if not self._in_submodel():
                     self.report("call-missing", placed, name=name)
-                case n.If():
+                case If():
                     self._if(place, placed, node)
-                case n.For() | n.While():
+                case For() | While():
                     self.opens(place, CLOSERS[type(node)])
-                case n.Procedure() | n.Submodel():
+                case Procedure() | Submodel():
                     self._definition(place, placed, node.name)
-                case n.Function(name):
+                case Function(name):
                     self._not_in_definition(placed, name)
                     self._new_name(place, placed, name)
                     found.functions.setdefault(name, placed)
-                case n.Until():
+                case Until():
                     self.closes(place, placed, "until")
-                case n.Label(name):
+                case Label(name):
                     self._label(place, placed, name)
-                case n.Data():
+                case Data():
                     found.data.append(place)
-                case n.Simple(word):
+                case Simple(word):
                     self._word(place, placed, word)
         for block in reversed(self.open):
             self._unclosed(block)
 
-    def _word(self, place: int, placed: n.Placed, word: str) -> None:
+    def _word(self, place: int, placed: Placed, word: str) -> None:
         if word == "repeat":
             self.opens(place, "until")
         elif word == "else":
@@ -108,14 +115,14 @@ class BlockSurvey:
                 self.report("end-if-in-script", placed)
 
     def _in_submodel(self) -> bool:
-        return any(isinstance(self.statements[block.place].node, n.Submodel) for block in self.open)
+        return any(isinstance(self.statements[block.place].node, Submodel) for block in self.open)
 
     def opens(self, place: int, closer: str) -> None:
         """Begin a block."""
         self.parents[place] = self.found.inside[place]
         self.open.append(_Open(place, closer))
 
-    def closes(self, place: int, placed: n.Placed, word: str) -> None:
+    def closes(self, place: int, placed: Placed, word: str) -> None:
         """End the innermost block that `word` can end; blocks left open inside are reported."""
         at = next((i for i in reversed(range(len(self.open))) if self.open[i].closer == word), None)
         if at is None:
@@ -133,29 +140,29 @@ class BlockSurvey:
             partner[block.place], partner[block.middle] = block.middle, place
         partner[place] = block.place
         opener = self.statements[block.place]
-        if isinstance(opener.node, n.Procedure):
+        if isinstance(opener.node, Procedure):
             text = ProcedureText(opener.node, opener, block.place, place)
             self.found.procedures.setdefault(opener.node.name, text)
-        elif isinstance(opener.node, n.Submodel):
+        elif isinstance(opener.node, Submodel):
             self._submodel(opener, opener.node, block.place, place)
 
     def _unclosed(self, block: _Open) -> None:
         """Report an open block, unless it is one that may stay open: `if` in a submodel rules its rest."""
         opener = self.statements[block.place]
-        if self.broken or (isinstance(opener.node, n.If) and opener.node.condition is None):
+        if self.broken or (isinstance(opener.node, If) and opener.node.condition is None):
             return
         key = "unclosed-definition" if block.closer == "end" else "unclosed-block"
         word = self.source.text[opener.at : opener.at + 30].split()[0]
         self.report(key, opener, word=word, closer=block.closer)
 
-    def _if(self, place: int, placed: n.Placed, node: n.If) -> None:
+    def _if(self, place: int, placed: Placed, node: If) -> None:
         if node.condition is None and not self._in_submodel():
             self.report("if-without-then", placed)
         elif node.condition is not None and self._in_submodel():
             self.report("then-in-segment", placed)
         self.opens(place, "proceed")
 
-    def _else(self, place: int, placed: n.Placed) -> None:
+    def _else(self, place: int, placed: Placed) -> None:
         if not self.open or self.open[-1].closer != "proceed":
             if not self.broken:
                 self.report("stray-else", placed, word="else")
@@ -168,14 +175,14 @@ class BlockSurvey:
         self.parents[place] = self.parents[block.place]
         self.found.partner[block.place] = place
 
-    def _exit(self, place: int, placed: n.Placed) -> None:
+    def _exit(self, place: int, placed: Placed) -> None:
         for block in reversed(self.open):
             if block.closer != "proceed":
                 self.found.exits[place] = block.place  # its closer, once it is known: see `jumps`
                 return
         self.report("exit-nowhere", placed)
 
-    def _definition(self, place: int, placed: n.Placed, name: str) -> None:
+    def _definition(self, place: int, placed: Placed, name: str) -> None:
         if self.open:
             self.report(
                 "nested-definition", placed, self.also("block-begins", self.open[-1].place), name=name
@@ -183,18 +190,18 @@ class BlockSurvey:
         self._new_name(place, placed, name)
         self.opens(place, "end")
 
-    def _not_in_definition(self, placed: n.Placed, name: str) -> None:
+    def _not_in_definition(self, placed: Placed, name: str) -> None:
         """Report a FUNCTION in a PROCEDURE or SUBMODEL, whose dummies it could not see."""
         for block in self.open:
-            if isinstance(self.statements[block.place].node, n.Procedure | n.Submodel):
+            if isinstance(self.statements[block.place].node, Procedure | Submodel):
                 self.report("nested-definition", placed, self.also("block-begins", block.place), name=name)
 
-    def _new_name(self, place: int, placed: n.Placed, name: str) -> None:
+    def _new_name(self, place: int, placed: Placed, name: str) -> None:
         node = placed.node
-        if isinstance(node, n.Procedure):
+        if isinstance(node, Procedure):
             dummies = [*node.values, *node.references]
         else:
-            assert isinstance(node, n.Function | n.Submodel)
+            assert isinstance(node, Function | Submodel)
             dummies = list(node.dummies)
         twice = next((d for d in dummies if dummies.count(d) > 1), None)
         if twice is not None:
@@ -205,11 +212,11 @@ class BlockSurvey:
         if first != place:
             self.report("defined-twice", placed, self.also("first-definition", first), name=name)
 
-    def _submodel(self, opener: n.Placed, node: n.Submodel, opens: int, closes: int) -> None:
+    def _submodel(self, opener: Placed, node: Submodel, opens: int, closes: int) -> None:
         body = self.statements[opens + 1 : closes]
         self.found.submodels.setdefault(node.name, SubmodelText(node.name, node.dummies, body, opener))
 
-    def _label(self, place: int, placed: n.Placed, name: str) -> None:
+    def _label(self, place: int, placed: Placed, name: str) -> None:
         if name in self.found.labels:
             self.report("label-twice", placed, self.also("first-label", self.found.labels[name]), name=name)
         self.found.labels.setdefault(name, place)

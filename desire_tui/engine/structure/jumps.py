@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes as n
 from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.nodes.commands import Simple
+from desire_tui.engine.nodes.control import GoTo, If, Label, Procedure
+from desire_tui.engine.nodes.declarations import Submodel
+from desire_tui.engine.nodes.files import Restore
+from desire_tui.engine.nodes.program import Placed, SegmentText
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,24 +22,24 @@ def check_jumps(survey: BlockSurvey, segments: set[str | None] | None) -> None:
     found = survey.found
     for place, opener in found.exits.items():
         assert opener is not None
-        is_loop = not isinstance(survey.statements[opener].node, (n.Procedure, n.Submodel))
+        is_loop = not isinstance(survey.statements[opener].node, (Procedure, Submodel))
         found.exits[place] = found.partner.get(opener) if is_loop else None
     if segments is None:
         return  # a command line may name what the program has
     for place, placed in enumerate(survey.statements):
         node = placed.node
-        if isinstance(node, n.GoTo):
+        if isinstance(node, GoTo):
             _jump(survey, place, placed, node.target, segments)
-        elif isinstance(node, n.Restore) and node.target and found.place(node.target) is None:
+        elif isinstance(node, Restore) and node.target and found.place(node.target) is None:
             _unknown(survey, placed, node.target)
 
 
-def _unknown(survey: BlockSurvey, placed: n.Placed, target: str) -> None:
+def _unknown(survey: BlockSurvey, placed: Placed, target: str) -> None:
     known = map(str, survey.found.numbers) if target.isdigit() else survey.found.labels
     survey.report("no-such-label", placed, name=target, close=closest(target, known))
 
 
-def _jump(survey: BlockSurvey, place: int, placed: n.Placed, target: str, segments: set[str | None]) -> None:
+def _jump(survey: BlockSurvey, place: int, placed: Placed, target: str, segments: set[str | None]) -> None:
     to = survey.found.place(target)
     if to is None:
         if target in segments:
@@ -48,7 +52,7 @@ def _jump(survey: BlockSurvey, place: int, placed: n.Placed, target: str, segmen
         survey.report("jump-inside", placed, survey.also("block-begins", block), name=target)
         return
     for definition in _around(survey, place) - _around(survey, to):
-        if isinstance(survey.statements[definition].node, n.Procedure):
+        if isinstance(survey.statements[definition].node, Procedure):
             survey.report("jump-out", placed, survey.also("block-begins", definition), name=target)
 
 
@@ -62,12 +66,12 @@ def _around(survey: BlockSurvey, place: int) -> set[int]:
     return around
 
 
-def match_segments(survey: BlockSurvey, segments: Sequence[n.SegmentText]) -> None:
+def match_segments(survey: BlockSurvey, segments: Sequence[SegmentText]) -> None:
     """Match `if`, `else`, `end if` in the segments; a label may name one segment only."""
-    seen: dict[str | None, n.SegmentText] = {}
+    seen: dict[str | None, SegmentText] = {}
     for segment in segments:
         if segment.label is not None and (segment.label in seen or segment.label in survey.found.labels):
-            start = n.Placed(n.Label(segment.label, 0, len("label ") + len(segment.label)), segment.at)
+            start = Placed(Label(segment.label, 0, len("label ") + len(segment.label)), segment.at)
             survey.report("label-twice", start, name=segment.label)
         seen.setdefault(segment.label, segment)
         partner = survey.found.segment_partner.setdefault(segment.label, {})
@@ -75,21 +79,21 @@ def match_segments(survey: BlockSurvey, segments: Sequence[n.SegmentText]) -> No
             _segment(survey, segment.body, partner)
 
 
-def _segment(survey: BlockSurvey, body: Sequence[n.Placed], partner: dict[int, int]) -> None:
+def _segment(survey: BlockSurvey, body: Sequence[Placed], partner: dict[int, int]) -> None:
     opened: list[int] = []
     for place, placed in enumerate(body):
         node = placed.node
-        if isinstance(node, n.If):
+        if isinstance(node, If):
             if node.condition is not None:
                 survey.report("then-in-segment", placed)
             opened.append(place)
-        elif isinstance(node, n.Simple) and node.word in ("else", "end if", "proceed"):
+        elif isinstance(node, Simple) and node.word in ("else", "end if", "proceed"):
             if not opened:
                 if not survey.broken:
                     survey.report("stray-else", placed, word=node.word)
                 continue
             last = opened.pop()
-            if node.word == "else" and isinstance(body[last].node, n.Simple):
+            if node.word == "else" and isinstance(body[last].node, Simple):
                 survey.report("second-else", placed)
             partner[last] = place
             if node.word == "else":

@@ -6,16 +6,17 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from desire_tui.engine import nodes as n
     from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.nodes.control import Procedure
+    from desire_tui.engine.nodes.program import Placed
 
 
 @dataclass(frozen=True, slots=True)
 class ProcedureText:
     """A PROCEDURE: its first line, and the places in the script of that line and of its `end`."""
 
-    node: n.Procedure
-    placed: n.Placed
+    node: Procedure
+    placed: Placed
     opens: int
     closes: int
 
@@ -26,8 +27,8 @@ class SubmodelText:
 
     name: str
     dummies: tuple[str, ...]
-    body: tuple[n.Placed, ...]
-    placed: n.Placed
+    body: tuple[Placed, ...]
+    placed: Placed
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,7 @@ class Structure:
     numbers: dict[int, int] = field(default_factory=dict)
     procedures: dict[str, ProcedureText] = field(default_factory=dict)
     submodels: dict[str, SubmodelText] = field(default_factory=dict)
-    functions: dict[str, n.Placed] = field(default_factory=dict)
+    functions: dict[str, Placed] = field(default_factory=dict)
     data: list[int] = field(default_factory=list)
     segment_partner: dict[str | None, dict[int, int]] = field(default_factory=dict)
     problems: tuple[Diagnostic, ...] = ()

@@ -14,7 +14,7 @@ from desire_tui.engine.structure.outline import ProcedureText, Structure, Submod
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine import nodes as n
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.source import Source
 
 _BLOCK_WORDS = frozenset(
@@ -22,7 +22,7 @@ _BLOCK_WORDS = frozenset(
 ) | {"end if", "end while"}
 
 
-def structure(program: n.Program) -> Structure:
+def structure(program: Program) -> Structure:
     """Find the structure of a program. Never raises: the problems are in the result."""
     # Where an opener or closer could not be parsed, its partner is not the user's second mistake.
     broken = any(p.facts.get(fact) in _BLOCK_WORDS for p in program.problems for fact in ("word", "close"))
@@ -34,7 +34,7 @@ def structure(program: n.Program) -> Structure:
     return survey.finished()
 
 
-def script_structure(script: Sequence[n.Placed], source: Source) -> Structure:
+def script_structure(script: Sequence[Placed], source: Source) -> Structure:
     """Return the structure of statements that stand alone, such as a command line."""
     survey = BlockSurvey(tuple(script), source, broken=False)
     survey.script()

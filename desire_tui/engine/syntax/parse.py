@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.gc_pause import undisturbed_allocation
-from desire_tui.engine.nodes import Bare, Call, Label, Name, Placed, Program, SegmentText, Simple
+from desire_tui.engine.nodes.assignments import Bare
+from desire_tui.engine.nodes.commands import Simple
+from desire_tui.engine.nodes.control import Label
+from desire_tui.engine.nodes.expressions import Call, Name
+from desire_tui.engine.nodes.program import Placed, Program, SegmentText
 from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
@@ -22,7 +26,7 @@ from desire_tui.engine.syntax.words import keyword_like
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from desire_tui.engine.nodes import Statement
+    from desire_tui.engine.nodes.record import Statement
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
     Item = tuple[Statement | TokenFault, int]

@@ -10,8 +10,10 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine import nodes
 from desire_tui.engine.left_chains import OPERATORS, chain
+from desire_tui.engine.nodes.all_nodes import NODE_CLASSES
+from desire_tui.engine.nodes.expressions import Binary
+from desire_tui.engine.nodes.record import Node, Statement
 from desire_tui.engine.syntax.automaton import derive
 from desire_tui.engine.syntax.build import NumberToken, Token
 from desire_tui.engine.syntax.literals import octal_value
@@ -22,25 +24,25 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
-    Maker = Callable[[StatementTokens], nodes.Statement]
+    Maker = Callable[[StatementTokens], Statement]
 
 SHAPES_MAX = 5_000
 SHARED_TOKENS_MAX = 300
 """Longer statements (mostly data lists) share no shape: they seldom look alike, and their text is kept."""
 _LETTERED = frozenset({"display", "FFT"})
 """Statements whose letter decides how many arguments they take: it is part of their shape."""
-_patterns: dict[tuple[str, ...], nodes.Statement] = {}
+_patterns: dict[tuple[str, ...], Statement] = {}
 _makers: dict[tuple[str, ...], Maker] = {}
-_NAMESPACE: dict[str, Any] = {**vars(nodes), "octal_value": octal_value}
+_NAMESPACE: dict[str, Any] = {**NODE_CLASSES, "octal_value": octal_value}
 
 
-def statement(chunk: StatementTokens) -> nodes.Statement:
+def statement(chunk: StatementTokens) -> Statement:
     """Return the statement of these tokens. Raises automaton.Unexpected or build.Misuse."""
     shape = tuple(chunk.kinds)
     if shape[0] in _LETTERED:
         shape = (*shape, *chunk.texts[1:2])
     if len(shape) > SHARED_TOKENS_MAX:
-        alone: nodes.Statement = _filled(derive(chunk.kinds, chunk.texts), chunk)
+        alone: Statement = _filled(derive(chunk.kinds, chunk.texts), chunk)
         return alone
     maker = _makers.get(shape)
     if maker is not None:
@@ -50,7 +52,7 @@ def statement(chunk: StatementTokens) -> nodes.Statement:
         if len(_patterns) > SHAPES_MAX:
             forget()
         pattern = _patterns[shape] = derive(chunk.kinds, chunk.texts)
-        node: nodes.Statement = _filled(pattern, chunk)
+        node: Statement = _filled(pattern, chunk)
         return node
     maker = _makers[shape] = _generate(pattern)
     return maker(chunk)
@@ -64,14 +66,14 @@ def forget() -> None:
 
 def _filled(part: Any, chunk: StatementTokens) -> Any:
     """Copy a pattern with this statement's texts and offsets: worth it for a shape that is seen only once."""
-    if isinstance(part, nodes.Binary) and part.op in OPERATORS:
+    if isinstance(part, Binary) and part.op in OPERATORS:
         first, steps = chain(part)
         made = _filled(first, chunk)
         for step in steps:
             right = _filled(step.right, chunk)
-            made = nodes.Binary(step.op, made, right, chunk.starts[step.start], chunk.ends[step.end])
+            made = Binary(step.op, made, right, chunk.starts[step.start], chunk.ends[step.end])
         return made
-    if isinstance(part, nodes.Node):
+    if isinstance(part, Node):
         record: Any = part
         values = [
             chunk.starts[part.start] if name == "start" else chunk.ends[part.end] if name == "end"
@@ -90,7 +92,7 @@ def _filled(part: Any, chunk: StatementTokens) -> Any:
     return part
 
 
-def _generate(pattern: nodes.Statement) -> Maker:
+def _generate(pattern: Statement) -> Maker:
     """Compile a function of a chunk that makes the pattern's nodes."""
     body = f"lambda v, s, e: {_code(pattern)}"
     try:
@@ -106,7 +108,7 @@ def _generate(pattern: nodes.Statement) -> Maker:
 
 def _code(part: Any) -> str:
     """Write the constructor call. Only class names, token numbers and this project's literals get into it."""
-    if isinstance(part, nodes.Node):
+    if isinstance(part, Node):
         record: Any = part
         values = [
             f"s[{part.start:d}]" if name == "start" else f"e[{part.end:d}]" if name == "end"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.lanes import Lanes
-    from desire_tui.engine.lowered import Table1, Table2
+    from desire_tui.engine.lowered.expressions import Table1, Table2
 
 _PLACE = """
 define internal i64 @table.place(ptr readonly %x, i64 %n, double %at) #2 {

@@ -15,7 +15,7 @@ from desire_tui.engine.codegen.loop.compiled_loops import array_loop
 from desire_tui.engine.gc_pause import undisturbed_allocation
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Segment
+    from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.values import Values
 

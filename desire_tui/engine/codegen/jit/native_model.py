@@ -11,7 +11,7 @@ from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.jit.piece_tables import PieceTables
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
 from desire_tui.engine.codegen.scalar.slot_usage import survey
-from desire_tui.engine.lowered import Deriv
+from desire_tui.engine.lowered.statements import Deriv
 from desire_tui.engine.passes.final_sample import holds_term
 from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
 from desire_tui.engine.runtime.run_faults import first_not_finite
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.jit.backend import NativeBackend
     from desire_tui.engine.codegen.jit.cache import Compiled
-    from desire_tui.engine.lowered import Action, Segment
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.values import Values
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.values import Values
 
 

@@ -14,12 +14,12 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector.vectors import ArrayStatements
-from desire_tui.engine.lowered import Guard
+from desire_tui.engine.lowered.statements import Guard
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
 
 STATEMENTS_MOST = 64
 _ROLLED_WEIGHT = 8  # a loop and its rest cost about as much to compile

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.cache import CodeCache
     from desire_tui.engine.codegen.jit.pass_pieces import Piece
     from desire_tui.engine.codegen.scalar.rerolling import Rolled
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
 
 
 class PieceTables:

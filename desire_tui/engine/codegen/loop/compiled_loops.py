@@ -12,10 +12,10 @@ from desire_tui.engine.codegen.jit.pass_pieces import Piece
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
 from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
 from desire_tui.engine.codegen.loop.run_loop import Driver
-from desire_tui.engine.integration import TABLEAUS
+from desire_tui.engine.integration.tableaus import TABLEAUS
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
 
 
 @functools.cache

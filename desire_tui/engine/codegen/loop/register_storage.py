@@ -15,7 +15,7 @@ from desire_tui.engine.values import DT, ERRMAX, T
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.integration.tableaus import Row
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
 
 
 class RegisterStorage:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.scalar import templates
-from desire_tui.engine.lowered import Set
+from desire_tui.engine.lowered.statements import Set
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.scalar.rerolling import Rolled

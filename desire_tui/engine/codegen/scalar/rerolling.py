@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.functions import OUTSIDE
 from desire_tui.engine.codegen.scalar.templates import NotPlainError, shape
-from desire_tui.engine.lowered import Deriv, Set
+from desire_tui.engine.lowered.statements import Deriv, Set
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.lowered import Action, Value
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.statements import Action
 
 _FEWEST = 16
 """Shorter runs are not worth a loop."""

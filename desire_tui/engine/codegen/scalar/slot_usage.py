@@ -5,23 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import (
+from desire_tui.engine.lowered.effects import OVER_ELEMENTS, expressions, memory, walk
+from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
     GetHistory,
     Guard,
-    Load,
     Set,
     StoreHistory,
     Terminate,
     UpdateTrackHold,
 )
-from desire_tui.engine.lowered.effects import OVER_ELEMENTS, expressions, memory, walk
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
 
 
 @dataclass(slots=True)

@@ -8,7 +8,7 @@ from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.work_memory import context_fields, memory_fields
 from desire_tui.engine.codegen.scalar import templates
 from desire_tui.engine.codegen.scalar.expressions import ScalarExpressions
-from desire_tui.engine.lowered import (
+from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
     GetHistory,
@@ -17,14 +17,14 @@ from desire_tui.engine.lowered import (
     StoreHistory,
     Terminate,
     UpdateTrackHold,
-)  # fmt: skip
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from desire_tui.engine.codegen.ir.cells import Cells
     from desire_tui.engine.codegen.ir.text import IrText
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
 
 
 class ScalarStatements:

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.functions import apply, power
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import IrText, literal
-from desire_tui.engine.lowered import Const, Load, Op
+from desire_tui.engine.lowered.expressions import Const, Load, Op
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from desire_tui.engine.codegen.ir.cells import Cells
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
 
 _PLAIN_NEVER = frozenset({"ran", "gauss"})
 _known: dict[tuple[object, ...], tuple[str, frozenset[str], str]] = {}

@@ -8,7 +8,7 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
 from desire_tui.engine.codegen.loop.compiled_loops import named
 from desire_tui.engine.codegen.loop.run_loop import Driver
-from desire_tui.engine.integration import TABLEAUS
+from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 
 if TYPE_CHECKING:

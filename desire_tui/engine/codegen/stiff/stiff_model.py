@@ -34,7 +34,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.backend import NativeBackend
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.integration.plan import SolverPlan
-    from desire_tui.engine.lowered import Action, Segment
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.values import Values
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir import random
 from desire_tui.engine.codegen.scalar.expressions import IrExpressions
-from desire_tui.engine.lowered import Const, MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowered.effects import DRAWS, OVER_ELEMENTS, operands, walk
+from desire_tui.engine.lowered.expressions import Const, MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.cells import Cells
     from desire_tui.engine.codegen.ir.lanes import Lanes
     from desire_tui.engine.codegen.vector.strips import Strip
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
 
 
 class Prepared:

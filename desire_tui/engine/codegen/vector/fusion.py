@@ -5,14 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered import DerivVec, SetVec, Vec
 from desire_tui.engine.lowered.effects import memory, walk
+from desire_tui.engine.lowered.expressions import Vec
+from desire_tui.engine.lowered.statements import DerivVec, SetVec
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from desire_tui.engine.codegen.scalar.rerolling import Rolled
-    from desire_tui.engine.lowered import Action, Value
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.statements import Action
 
 Range = tuple[int, int]
 _FUSED_MOST = 16

@@ -12,7 +12,7 @@ from desire_tui.engine.codegen.vector import products
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.vector.vectors import ArrayStatements
-    from desire_tui.engine.lowered import LearningStep
+    from desire_tui.engine.lowered.statements import LearningStep
 
 _INFINITY = float("inf")
 

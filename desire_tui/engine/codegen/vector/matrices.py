@@ -9,14 +9,14 @@ from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
 from desire_tui.engine.codegen.vector.fusion import Reach, needs_copy, value_reach
 from desire_tui.engine.codegen.vector.strips import Strip
-from desire_tui.engine.lowered import Outer
 from desire_tui.engine.lowered.effects import draws, walk
+from desire_tui.engine.lowered.expressions import Outer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.codegen.vector.operands import ArrayOperands
-    from desire_tui.engine.lowered import SetDot, SetMat
+    from desire_tui.engine.lowered.statements import SetDot, SetMat
 
 
 def write_matrix(statements: ArrayOperands, action: SetMat) -> None:

@@ -11,8 +11,8 @@ from desire_tui.engine.codegen.scalar.statements import ScalarStatements
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import Prepared, invariants, lane_states
 from desire_tui.engine.codegen.vector.strips import Strip
-from desire_tui.engine.lowered import MatVec, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowered.effects import walk
+from desire_tui.engine.lowered.expressions import MatVec, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.ir.cells import Cells
     from desire_tui.engine.codegen.ir.text import IrText
-    from desire_tui.engine.lowered import Value
+    from desire_tui.engine.lowered.expressions import Value
 
 
 class ArrayOperands(ScalarStatements):

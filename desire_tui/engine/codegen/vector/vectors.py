@@ -12,23 +12,15 @@ from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statemen
 from desire_tui.engine.codegen.vector.learning import write_learning
 from desire_tui.engine.codegen.vector.matrices import write_dot, write_matrix
 from desire_tui.engine.codegen.vector.operands import ArrayOperands
-from desire_tui.engine.lowered import (
-    Deriv,
-    DerivVec,
-    LearningStep,
-    Set,
-    SetDot,
-    SetMat,
-    SetVec,
-    ShiftedVec,
-)
 from desire_tui.engine.lowered.effects import OVER_ELEMENTS, draws, walk
+from desire_tui.engine.lowered.expressions import ShiftedVec
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, LearningStep, Set, SetDot, SetMat, SetVec
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from desire_tui.engine.codegen.vector.strips import Strip
-    from desire_tui.engine.lowered import Action
+    from desire_tui.engine.lowered.statements import Action
 
 
 class ArrayStatements(ArrayOperands):

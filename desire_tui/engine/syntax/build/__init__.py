@@ -15,7 +15,7 @@ from desire_tui.engine.syntax.build.script import ScriptProductions
 from desire_tui.engine.syntax.build.segment import Dynamic
 
 if TYPE_CHECKING:
-    from desire_tui.engine import nodes as n
+    from desire_tui.engine.nodes.record import Node
 
 
 class NodeBuilder(ExpressionProductions, ScriptProductions, Dynamic):
@@ -27,9 +27,9 @@ class NodeBuilder(ExpressionProductions, ScriptProductions, Dynamic):
         token.kind, token.number = kind, number
         return token
 
-    def make(self, method: str, kids: Kids, first: int, last: int) -> n.Node:
+    def make(self, method: str, kids: Kids, first: int, last: int) -> Node:
         """Make the node of a production; raises Misuse."""
-        return cast("n.Node", getattr(self, method)(kids, first, last))
+        return cast("Node", getattr(self, method)(kids, first, last))
 
 
 __all__ = ["Misuse", "NodeBuilder", "NumberToken", "Token", "Value"]

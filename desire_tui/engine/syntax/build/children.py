@@ -9,11 +9,30 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine import nodes as n
+from desire_tui.engine.nodes.expressions import (
+    Binary,
+    Call,
+    Element,
+    Expr,
+    Logical,
+    Name,
+    Not,
+    Number,
+    Pair,
+    Relation,
+    RowOf,
+    Shifted,
+    Text,
+    Transposed,
+    Unary,
+)
+from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.syntax.statement_tokens import NAME
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from desire_tui.engine.nodes.files import WriteItem
 
 
 class Token(str):
@@ -32,12 +51,12 @@ class NumberToken(float):
     number: int
 
 
-Value = n.Node | Token | list[Any]
+Value = Node | Token | list[Any]
 Kids = list[Any]
 _EXPRESSIONS = (
-    n.Number, n.Text, n.Name, n.Element, n.Call, n.Unary, n.Binary, n.Transposed, n.Shifted, n.RowOf, n.Pair,
+    Number, Text, Name, Element, Call, Unary, Binary, Transposed, Shifted, RowOf, Pair,
 )  # fmt: skip
-CONDITIONS = (n.Relation, n.Logical, n.Not)
+CONDITIONS = (Relation, Logical, Not)
 
 
 class Misuse(Exception):  # noqa: N818 - the user's, not the program's
@@ -85,7 +104,7 @@ def condition(node: Any) -> Any:
     return node
 
 
-def channel_of(kids: Kids) -> tuple[n.Expr | None, Kids]:
+def channel_of(kids: Kids) -> tuple[Expr | None, Kids]:
     """Take `# n ,` from the front of a statement's children."""
     if len(kids) > 1 and isinstance(kids[1], Token) and kids[1].kind in ("#", "##"):
         rest = kids[4:]  # the statement, `#`, n, and a separator
@@ -100,7 +119,7 @@ def mask_of(kids: Kids) -> tuple[str | None, Kids]:
     return None, kids
 
 
-def items_in(kids: Kids) -> tuple[n.WriteItem, ...]:
+def items_in(kids: Kids) -> tuple[WriteItem, ...]:
     """Give each item the separator behind it."""
     items: list[Any] = []
     for kid in kids:

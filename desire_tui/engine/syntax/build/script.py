@@ -4,9 +4,25 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine import nodes as n
+from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed
+from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
+from desire_tui.engine.nodes.declarations import Declare, Declared, DeclaredGroup, Function, Submodel
+from desire_tui.engine.nodes.display import Display, Plot, Show
+from desire_tui.engine.nodes.files import (
+    Connect,
+    Data,
+    Disconnect,
+    Dump,
+    Input,
+    Note,
+    Read,
+    Restore,
+    Write,
+    WriteItem,
+)
+from desire_tui.engine.nodes.segment import Invoke
 from desire_tui.engine.syntax.build.children import (
     CONDITIONS,
     Kids,
@@ -21,128 +37,131 @@ from desire_tui.engine.syntax.build.children import (
     plain,
 )
 
+if TYPE_CHECKING:
+    from desire_tui.engine.nodes.record import Node
+
 DIMENSIONS_MAX = 10
 
 
 class ScriptProductions:
     """Blocks, jumps, declarations, input and output, graphs."""
 
-    def if_then(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.If(condition(kids[1]), None, first, last)
+    def if_then(self, kids: Kids, first: int, last: int) -> Node:
+        return If(condition(kids[1]), None, first, last)
 
-    def if_positive(self, kids: Kids, first: int, last: int) -> n.Node:
+    def if_positive(self, kids: Kids, first: int, last: int) -> Node:
         if isinstance(kids[1], CONDITIONS):
             raise Misuse("then-missing", kids[1].start, kids[1].end)
-        return n.If(None, kids[1], first, last)
+        return If(None, kids[1], first, last)
 
-    def for_(self, kids: Kids, first: int, last: int) -> n.Node:
+    def for_(self, kids: Kids, first: int, last: int) -> Node:
         by = plain(kids[7]) if len(kids) > 6 else None
-        return n.For(kids[1], plain(kids[3]), plain(kids[5]), by, first, last)
+        return For(kids[1], plain(kids[3]), plain(kids[5]), by, first, last)
 
-    def while_(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.While(condition(kids[1]), first, last)
+    def while_(self, kids: Kids, first: int, last: int) -> Node:
+        return While(condition(kids[1]), first, last)
 
-    def until(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Until(condition(kids[1]), first, last)
+    def until(self, kids: Kids, first: int, last: int) -> Node:
+        return Until(condition(kids[1]), first, last)
 
-    def label(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Label(kids[1], first, last)
+    def label(self, kids: Kids, first: int, last: int) -> Node:
+        return Label(kids[1], first, last)
 
-    def go_to(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.GoTo(kids[1], first, last)
+    def go_to(self, kids: Kids, first: int, last: int) -> Node:
+        return GoTo(kids[1], first, last)
 
-    def restore(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Restore(kids[1] if len(kids) > 1 else None, first, last)
+    def restore(self, kids: Kids, first: int, last: int) -> Node:
+        return Restore(kids[1] if len(kids) > 1 else None, first, last)
 
-    def call_procedure(self, kids: Kids, first: int, last: int) -> n.Node:
+    def call_procedure(self, kids: Kids, first: int, last: int) -> Node:
         values, references = halves(kids[3:-1])
-        return n.CallProcedure(
+        return CallProcedure(
             kids[1], tuple(map(plain, nodes_in(values))), tuple(map(plain, nodes_in(references))), first, last
         )
 
-    def invoke(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Invoke(kids[1], tuple(map(plain, nodes_in(kids[3:-1]))), first, last)
+    def invoke(self, kids: Kids, first: int, last: int) -> Node:
+        return Invoke(kids[1], tuple(map(plain, nodes_in(kids[3:-1]))), first, last)
 
-    def drun(self, kids: Kids, first: int, last: int) -> n.Node:
+    def drun(self, kids: Kids, first: int, last: int) -> Node:
         star = len(kids) > 1 and kids[1].kind == "*"
         label = kids[1] if len(kids) > 1 and not star else None
-        return n.Drun(label, kids[0].kind == "drunr", star, first, last)
+        return Drun(label, kids[0].kind == "drunr", star, first, last)
 
-    def declare(self, kids: Kids, first: int, last: int) -> n.Node:
+    def declare(self, kids: Kids, first: int, last: int) -> Node:
         groups = nodes_in(kids)
         for part in (part for group in groups for part in group.parts):
             if kids[0].kind == "ARRAY" and not part.dimensions:
                 raise Misuse("dimensions-missing", part.start, part.end)
-        return n.Declare(kids[0].kind, groups, first, last)
+        return Declare(kids[0].kind, groups, first, last)
 
-    def declared_group(self, kids: Kids, first: int, last: int) -> n.Node:
+    def declared_group(self, kids: Kids, first: int, last: int) -> Node:
         whole = kids[-1] if isinstance(kids[-1], Token) else None
         if whole is None and len(nodes_in(kids)) > 1:
             raise Misuse("overlay-nameless", first, last)
-        return n.DeclaredGroup(nodes_in(kids), whole, first, last)
+        return DeclaredGroup(nodes_in(kids), whole, first, last)
 
-    def declared(self, kids: Kids, first: int, last: int) -> n.Node:
+    def declared(self, kids: Kids, first: int, last: int) -> Node:
         dimensions = tuple(map(plain, nodes_in(kids)))
         if len(dimensions) > DIMENSIONS_MAX:
             raise Misuse("dimensions-too-many", first, last, {"limit": DIMENSIONS_MAX})
-        return n.Declared(kids[0], dimensions, first, last)
+        return Declared(kids[0], dimensions, first, last)
 
-    def procedure(self, kids: Kids, first: int, last: int) -> n.Node:
+    def procedure(self, kids: Kids, first: int, last: int) -> Node:
         values, references = halves(kids[2:])
-        return n.Procedure(kids[1], names_in(values), names_in(references), first, last)
+        return Procedure(kids[1], names_in(values), names_in(references), first, last)
 
-    def submodel(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Submodel(kids[1], names_in(kids[2:]), first, last)
+    def submodel(self, kids: Kids, first: int, last: int) -> Node:
+        return Submodel(kids[1], names_in(kids[2:]), first, last)
 
-    def function(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Function(kids[1], names_in(kids[2:]), plain(kids[-1]), first, last)
+    def function(self, kids: Kids, first: int, last: int) -> Node:
+        return Function(kids[1], names_in(kids[2:]), plain(kids[-1]), first, last)
 
-    def data(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Data(tuple(map(plain, nodes_in(kids))), first, last)
+    def data(self, kids: Kids, first: int, last: int) -> Node:
+        return Data(tuple(map(plain, nodes_in(kids))), first, last)
 
-    def read(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Read(nodes_in(kids), first, last)
+    def read(self, kids: Kids, first: int, last: int) -> Node:
+        return Read(nodes_in(kids), first, last)
 
-    def input(self, kids: Kids, first: int, last: int) -> n.Node:
+    def input(self, kids: Kids, first: int, last: int) -> Node:
         channel, rest = channel_of(kids)
-        return n.Input(channel, nodes_in(rest), first, last)
+        return Input(channel, nodes_in(rest), first, last)
 
-    def write(self, kids: Kids, first: int, last: int) -> n.Node:
+    def write(self, kids: Kids, first: int, last: int) -> Node:
         channel, rest = channel_of(kids)
         raw = channel is not None and kids[1].kind == "##"
-        return n.Write(channel, raw, items_in(rest), first, last)
+        return Write(channel, raw, items_in(rest), first, last)
 
-    def note(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Note(items_in(kids[1:]), first, last)
+    def note(self, kids: Kids, first: int, last: int) -> Node:
+        return Note(items_in(kids[1:]), first, last)
 
-    def item(self, kids: Kids, first: int, last: int) -> n.Node:
+    def item(self, kids: Kids, first: int, last: int) -> Node:
         form: Any = kids[0].kind if len(kids) > 1 else ""
-        return n.WriteItem(plain(kids[-1]), form, "", first, last)
+        return WriteItem(plain(kids[-1]), form, "", first, last)
 
-    def connect(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Connect(kids[1], kids[3].kind, plain(kids[4]), first, last)
+    def connect(self, kids: Kids, first: int, last: int) -> Node:
+        return Connect(kids[1], kids[3].kind, plain(kids[4]), first, last)
 
-    def disconnect(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Disconnect(tuple(map(plain, nodes_in(kids))), first, last)
+    def disconnect(self, kids: Kids, first: int, last: int) -> Node:
+        return Disconnect(tuple(map(plain, nodes_in(kids))), first, last)
 
-    def dump(self, kids: Kids, first: int, last: int) -> n.Node:
+    def dump(self, kids: Kids, first: int, last: int) -> Node:
         if len(kids) > 1 and kids[1].kind == "run":
-            return n.Dump(None, "run", first, last)
-        return n.Dump(kids[2] if len(kids) > 2 else None, "all", first, last)
+            return Dump(None, "run", first, last)
+        return Dump(kids[2] if len(kids) > 2 else None, "all", first, last)
 
-    def irule(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Irule(plain(kids[1]) if len(kids) > 1 else None, first, last)
+    def irule(self, kids: Kids, first: int, last: int) -> Node:
+        return Irule(plain(kids[1]) if len(kids) > 1 else None, first, last)
 
-    def seed(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Seed(plain(kids[1]), first, last)
+    def seed(self, kids: Kids, first: int, last: int) -> Node:
+        return Seed(plain(kids[1]), first, last)
 
-    def fft(self, kids: Kids, first: int, last: int) -> n.Node:
+    def fft(self, kids: Kids, first: int, last: int) -> Node:
         args = tuple(map(plain, nodes_in(kids)))
         if len(args) != (5 if kids[1] == "R" else 3):
             raise Misuse("fft-form", first, last)
-        return n.Fft(kids[1], args, first, last)
+        return Fft(kids[1], args, first, last)
 
-    def display(self, kids: Kids, first: int, last: int) -> n.Node:
+    def display(self, kids: Kids, first: int, last: int) -> Node:
         mode, args = kids[1], tuple(map(plain, nodes_in(kids)))
         wanted = {"C": 1, "N": 1, "W": 2}.get(mode, 0)
         if len(args) != wanted:
@@ -152,16 +171,16 @@ class ScriptProductions:
                 last,
                 {"mode": str(mode), "wanted": ("no numbers", "one number", "two numbers")[wanted]},
             )
-        return n.Display(mode, args, first, last)
+        return Display(mode, args, first, last)
 
-    def plot(self, kids: Kids, first: int, last: int) -> n.Node:
+    def plot(self, kids: Kids, first: int, last: int) -> Node:
         args = tuple(map(plain, nodes_in(kids)))
         if len(args) > 3:
             raise Misuse("plot-form", first, last)
-        return n.Plot(args, first, last)
+        return Plot(args, first, last)
 
-    def show(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Show(kids[1], plain(kids[3]) if len(kids) > 3 else None, first, last)
+    def show(self, kids: Kids, first: int, last: int) -> Node:
+        return Show(kids[1], plain(kids[3]) if len(kids) > 3 else None, first, last)
 
-    def file_command(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.FileCommand(kids[0].kind, kids[1] if len(kids) > 1 else None, first, last)
+    def file_command(self, kids: Kids, first: int, last: int) -> Node:
+        return FileCommand(kids[0].kind, kids[1] if len(kids) > 1 else None, first, last)

@@ -4,79 +4,94 @@
 
 from __future__ import annotations
 
-from desire_tui.engine import nodes as n
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.nodes.assignments import Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.display import Request
+from desire_tui.engine.nodes.expressions import Call, Name, RowOf
+from desire_tui.engine.nodes.segment import (
+    Delay,
+    Derivative,
+    FunctionTable,
+    Get,
+    Learn,
+    Sample,
+    Store,
+    Term,
+    TrackHold,
+    VectorDerivative,
+)
 from desire_tui.engine.syntax.build.children import Kids, Token, channel_of, mask_of, nodes_in, plain
+
+if TYPE_CHECKING:
+    from desire_tui.engine.nodes.record import Node
 
 
 class Dynamic:
     """Vectors, matrices, derivatives, delays, requests, learning."""
 
-    def derivative(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Derivative(kids[1], plain(kids[3]), first, last)
+    def derivative(self, kids: Kids, first: int, last: int) -> Node:
+        return Derivative(kids[1], plain(kids[3]), first, last)
 
-    def vector_derivative(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.VectorDerivative(kids[2], plain(kids[4]), first, last)
+    def vector_derivative(self, kids: Kids, first: int, last: int) -> Node:
+        return VectorDerivative(kids[2], plain(kids[4]), first, last)
 
-    def vector(self, kids: Kids, first: int, last: int) -> n.Node:
+    def vector(self, kids: Kids, first: int, last: int) -> Node:
         delta = kids[0].kind == "Delta" or kids[1].kind == "delta"
         largest = not delta and kids[2].kind == "^"
         at = 2 if kids[1].kind == "delta" else 1
         mask, rest = mask_of(kids[kids.index("=") + 1 :])
-        return n.VectorAssign(kids[at], plain(rest[0]), delta, largest, mask, first, last)
+        return VectorAssign(kids[at], plain(rest[0]), delta, largest, mask, first, last)
 
-    def matrix(self, kids: Kids, first: int, last: int) -> n.Node:
+    def matrix(self, kids: Kids, first: int, last: int) -> Node:
         mask, rest = mask_of(kids[3:])
         lower, upper = (plain(rest[2]), plain(rest[4])) if len(rest) > 1 else (None, None)
-        return n.MatrixAssign(
-            kids[1], plain(rest[0]), kids[0].kind == "DELTA", mask, lower, upper, first, last
-        )
+        return MatrixAssign(kids[1], plain(rest[0]), kids[0].kind == "DELTA", mask, lower, upper, first, last)
 
-    def dot(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Dot(kids[1], plain(kids[3]), kids[0].kind == "AVG", first, last)
+    def dot(self, kids: Kids, first: int, last: int) -> Node:
+        return Dot(kids[1], plain(kids[3]), kids[0].kind == "AVG", first, last)
 
-    def store(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Store(kids[1], kids[3], first, last)
+    def store(self, kids: Kids, first: int, last: int) -> Node:
+        return Store(kids[1], kids[3], first, last)
 
-    def get(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Get(kids[1], kids[3], first, last)
+    def get(self, kids: Kids, first: int, last: int) -> Node:
+        return Get(kids[1], kids[3], first, last)
 
-    def delay(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Delay(
-            kids[1], kids[3], plain(kids[5]), plain(kids[7]), kids[0].kind == "tdelay", first, last
-        )
+    def delay(self, kids: Kids, first: int, last: int) -> Node:
+        return Delay(kids[1], kids[3], plain(kids[5]), plain(kids[7]), kids[0].kind == "tdelay", first, last)
 
-    def track_hold(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.TrackHold(kids[1], kids[3], plain(kids[5]), plain(kids[7]), first, last)
+    def track_hold(self, kids: Kids, first: int, last: int) -> Node:
+        return TrackHold(kids[1], kids[3], plain(kids[5]), plain(kids[7]), first, last)
 
-    def table(self, kids: Kids, first: int, last: int) -> n.Node:
+    def table(self, kids: Kids, first: int, last: int) -> Node:
         """`func y = F(x` means func1(x; F); `func2 f = F(x, y; X, Y` means func2(x, y; F, X, Y)."""
         array: Token = kids[3]
         arguments = list(map(plain, nodes_in(kids[5:])))
-        table = n.Name(array, array.number, array.number)
+        table = Name(array, array.number, array.number)
         if kids[0].kind == "func":
-            call = n.Call("func1", (*arguments, table), array.number, last)
+            call = Call("func1", (*arguments, table), array.number, last)
         else:
-            call = n.Call("func2", (*arguments[:2], table, *arguments[2:]), array.number, last)
-        return n.FunctionTable(kids[1], call, first, last)
+            call = Call("func2", (*arguments[:2], table, *arguments[2:]), array.number, last)
+        return FunctionTable(kids[1], call, first, last)
 
-    def term(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Term(plain(kids[1]), first, last)
+    def term(self, kids: Kids, first: int, last: int) -> Node:
+        return Term(plain(kids[1]), first, last)
 
-    def sample(self, kids: Kids, first: int, last: int) -> n.Node:
-        return n.Sample(plain(kids[1]), first, last)
+    def sample(self, kids: Kids, first: int, last: int) -> Node:
+        return Sample(plain(kids[1]), first, last)
 
-    def request(self, kids: Kids, first: int, last: int) -> n.Node:
+    def request(self, kids: Kids, first: int, last: int) -> Node:
         channel, rest = channel_of(kids)
-        return n.Request(kids[0].kind, channel, nodes_in(rest), first, last)
+        return Request(kids[0].kind, channel, nodes_in(rest), first, last)
 
-    def learn(self, kids: Kids, first: int, last: int) -> n.Node:
+    def learn(self, kids: Kids, first: int, last: int) -> Node:
         kind, output, weights, source = kids[0].kind, kids[1], kids[3], kids[5]
         if kind != "CLEARN":
-            return n.Learn(
+            return Learn(
                 kind, output, weights, source, plain(kids[7]), None, conscience=False, start=first, end=last
             )
         criterion = plain(kids[9])
         conscience = len(kids) > 10
-        if isinstance(criterion, n.RowOf):  # `crit#`: the mark of the conscience, not a row of a matrix
-            criterion, conscience = n.Name(criterion.name, criterion.start, criterion.start), True
-        return n.Learn(kind, output, weights, source, plain(kids[7]), criterion, conscience, first, last)
+        if isinstance(criterion, RowOf):  # `crit#`: the mark of the conscience, not a row of a matrix
+            criterion, conscience = Name(criterion.name, criterion.start, criterion.start), True
+        return Learn(kind, output, weights, source, plain(kids[7]), criterion, conscience, first, last)

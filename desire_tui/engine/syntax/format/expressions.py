@@ -4,55 +4,72 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes as n
 from desire_tui.engine.left_chains import chain
+from desire_tui.engine.nodes.expressions import (
+    Binary,
+    Call,
+    Element,
+    Logical,
+    Name,
+    Not,
+    Number,
+    Pair,
+    Relation,
+    RowOf,
+    Shifted,
+    Text,
+    Transposed,
+    Unary,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from desire_tui.engine.nodes.record import Node
 
 _BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "&": 2, "^": 4}
 _SIGN = 3
 _ATOM = 5
 
 
-def expression(node: n.Node, binds: int = 0) -> str:
+def expression(node: Node, binds: int = 0) -> str:
     """Return an expression, in parentheses where its operator binds less tightly than `binds`."""
     text, own = _bare_expr(node)
     return f"({text})" if own < binds else text
 
 
-def _bare_expr(node: n.Node) -> tuple[str, int]:
+def _bare_expr(node: Node) -> tuple[str, int]:
     match node:
-        case n.Number(value):
+        case Number(value):
             return format_number(value), _ATOM
-        case n.Text(value):
+        case Text(value):
             return quoted(value), _ATOM
-        case n.Name(name):
+        case Name(name):
             return name, _ATOM
-        case n.Element(name, subscripts):
+        case Element(name, subscripts):
             return f"{name}[{listed(subscripts)}]", _ATOM
-        case n.Call(name, args):
+        case Call(name, args):
             return f"{name}({listed(args)})", _ATOM
-        case n.Transposed(name):
+        case Transposed(name):
             return f"{name}%", _ATOM
-        case n.RowOf(name):
+        case RowOf(name):
             return f"{name}#", _ATOM
-        case n.Shifted(name, by):
+        case Shifted(name, by):
             return f"{name}{{{expression(by)}}}", _ATOM
-        case n.Pair(re, im):
+        case Pair(re, im):
             return f"[{expression(re)}, {expression(im)}]", _ATOM
-        case n.Unary(op, operand):
+        case Unary(op, operand):
             return f"{op}{_operand(op, expression(operand, _SIGN))}", _SIGN
-        case n.Binary("^", left, right):
+        case Binary("^", left, right):
             # A sign may follow `^` without parentheses, a sign before it belongs to the whole power.
             exponent = expression(right, _SIGN)
             return f"{expression(left, _ATOM)}^{exponent}", _BINDS["^"]
-        case n.Binary():
+        case Binary():
             return _chain(node)
     raise TypeError(node)
 
 
-def _chain(node: n.Binary) -> tuple[str, int]:
+def _chain(node: Binary) -> tuple[str, int]:
     """Write a sum or product; a sum on the left of `*` needs parentheses, the other way round it does not."""
     first, steps = chain(node)
     text, binds = _bare_expr(first)
@@ -72,16 +89,16 @@ def _operand(sign: str, text: str) -> str:
     return f" {text}" if sign == "-" and text.startswith("-") else text
 
 
-def condition(node: n.Node, binds: int = 0) -> str:
+def condition(node: Node, binds: int = 0) -> str:
     """Return a condition, in parentheses where its operator binds less tightly than `binds`."""
     match node:
-        case n.Relation(op, left, right):
+        case Relation(op, left, right):
             return f"{expression(left, 1)} {op} {expression(right, 1)}"
-        case n.Not(operand):
+        case Not(operand):
             inner = condition(operand, 3)
             # `not` is a word only before a name, a number or a parenthesis.
             return f"not {inner}" if inner.startswith("(") else f"not ({condition(operand)})"
-        case n.Logical(op, left, right):
+        case Logical(op, left, right):
             own = 2 if op == "and" else 1
             text = f"{condition(left, own)} {op} {condition(right, own + 1)}"
             return f"({text})" if own < binds else text
@@ -105,6 +122,6 @@ def quoted(text: str) -> str:
     return f'"{text}"' if "'" in text else f"'{text}'"
 
 
-def listed(items: Iterable[n.Node]) -> str:
+def listed(items: Iterable[Node]) -> str:
     """Return expressions between commas."""
     return ", ".join(map(expression, items))

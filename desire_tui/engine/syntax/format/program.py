@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine import nodes as n
+from desire_tui.engine.nodes.commands import Simple
+from desire_tui.engine.nodes.control import For, If, Procedure, Until, While
+from desire_tui.engine.nodes.declarations import Submodel
 from desire_tui.engine.syntax.format.statements import format_statement
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from desire_tui.engine.nodes.program import Placed, Program
+    from desire_tui.engine.nodes.record import Statement
+
 INDENT = "  "
 _CLOSING = frozenset({"else", "proceed", "next", "end while", "end", "end if"})
 
 
-def format_program(program: n.Program) -> str:
+def format_program(program: Program) -> str:
     """Return a program's canonical text: a statement a line, blocks indented. Comments are lost: no nodes."""
     lines: list[str] = []
     depth = 0
@@ -37,18 +42,18 @@ def format_program(program: n.Program) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def _repeats(script: Sequence[n.Placed], placed: n.Placed) -> bool:
+def _repeats(script: Sequence[Placed], placed: Placed) -> bool:
     """Whether an earlier statement of the same line has shown its number."""
     return next(other for other in script if other.number == placed.number) is not placed
 
 
-def _opens(node: n.Statement) -> bool:
-    if isinstance(node, (n.If, n.For, n.While, n.Procedure, n.Submodel)):
+def _opens(node: Statement) -> bool:
+    if isinstance(node, (If, For, While, Procedure, Submodel)):
         return True
-    return isinstance(node, n.Simple) and node.word in ("repeat", "else")
+    return isinstance(node, Simple) and node.word in ("repeat", "else")
 
 
-def _closes(node: n.Statement) -> bool:
-    if isinstance(node, n.Until):
+def _closes(node: Statement) -> bool:
+    if isinstance(node, Until):
         return True
-    return isinstance(node, n.Simple) and node.word in _CLOSING
+    return isinstance(node, Simple) and node.word in _CLOSING
