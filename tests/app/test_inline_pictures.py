@@ -207,7 +207,7 @@ async def test_the_picture_follows_size_and_page_and_can_be_saved(program, monke
         await desk.press("pageup")
         await desk.until(lambda: desk.app.graph.page is not before)
         await desk.press("s")
-        await desk.until(lambda: type(desk.app.screen).__name__ == "Line")
+        await desk.until(lambda: type(desk.app.screen).__name__ == "LineDialog")
         await desk.press("enter")
         await desk.until(lambda: list(tmp_path.glob("osc.png")))
 

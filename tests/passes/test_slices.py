@@ -65,10 +65,10 @@ def test_what_only_the_step_needs():
 def test_history_statements():
     body = "get u = U\nd/dt x = u\ntdelay y = D(x, 0.1\ndelay z = E(x, 0.1\nstore X = x"
     lowered, values = segment(body, U=(5,), X=(5,), D=(5,), E=(5,))
-    assert names(full_pass(lowered), values) == ["Get", "d0", "DelayLine", "DelayLine", "Store"]
+    assert names(full_pass(lowered), values) == ["GetHistory", "d0", "DelayLine", "DelayLine", "StoreHistory"]
     assert names(step_slice(lowered), values) == ["d0", "DelayLine"]
     assert names(derivative_slice(lowered), values) == ["d0"]
-    assert names(tail_pass(lowered), values) == ["Get", "DelayLine", "Store"]
+    assert names(tail_pass(lowered), values) == ["GetHistory", "DelayLine", "StoreHistory"]
 
 
 def test_vectors_are_sliced_too():

@@ -6,6 +6,7 @@ from typing import get_args, get_type_hints
 
 import pytest
 
+from desire_tui.engine.nodes import expressions
 from desire_tui.engine.nodes.all_nodes import NODE_CLASSES
 from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Simple
@@ -56,5 +57,5 @@ def test_the_table_has_every_statement():
     assert {cls.__name__ for cls in statements} == {
         cls.__name__ for cls in with_rows if issubclass(cls, Statement)
     }
-    codes = set(get_args(get_type_hints(Display, localns=NODE_CLASSES)["mode"]))
+    codes = set(get_args(get_type_hints(Display, localns=vars(expressions))["mode"]))
     assert {row.split()[1] for row in SCRIPT if row.startswith("display ")} == codes

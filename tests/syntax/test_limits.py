@@ -115,7 +115,7 @@ def test_tables_without_a_writable_cache(monkeypatch) -> None:
 def test_lark_is_not_imported_when_the_tables_are_stored() -> None:
     tables_module.tables()
     code = (
-        "import sys; from desire_tui.engine.source import Source; from desire_tui.engine.syntax import parse;"
+        "import sys; from desire_tui.engine.source import Source; from desire_tui.engine.syntax.parse import parse;"
         "parse(Source('x = 1')); print([m for m in ('lark', 'numpy', 'textual') if m in sys.modules])"
     )
     assert (
