@@ -19,14 +19,6 @@ from typing import TYPE_CHECKING, Literal
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-MULTIPLIER, INCREMENT, MODULUS_MASK = 0x5DEECE66D, 11, (1 << 48) - 1
-"""The 48-bit linear congruential sequence of `ran()`."""
-
-
-def seeded(n: float) -> int:
-    """Return the random state that `SEED n` sets; n is truncated."""
-    return ((int(n) << 16) + 0x330E) & MODULUS_MASK
-
 
 def _lim(x: float) -> float:
     return x if x > 0.0 else 0.0

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen.ir.random import jump
+from desire_tui.engine.random_sequence import jump
 from tests.codegen.conftest import run
 
 MODULUS = 1 << 48

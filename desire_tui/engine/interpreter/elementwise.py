@@ -18,6 +18,7 @@ from desire_tui.engine.interpreter.user_functions import is_used_as_array
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.nodes.declarations import Function
 from desire_tui.engine.nodes.expressions import Binary, Call, Element, Name, RowOf, Shifted, Transposed, Unary
+from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 
 ELEMENTS_AT_ONCE = 10_000
 """Elements that a function is applied to before the user is let in."""
-_RANDOM = frozenset({"ran", "gauss"})
 _TABLES = {"func1": 1, "func2": 2}
 """Table functions, with how many arguments are not tables."""
 
@@ -98,7 +98,7 @@ class ElementwiseExpressions:
                     body = placed.node.body if isinstance(placed.node, Function) else None
                     if body is not None and name not in within and self._special(body, (*within, name)):
                         return True
-                elif name in _RANDOM or (name in _TABLES and not within and self._shapes.of(node)):
+                elif name in DRAWS or (name in _TABLES and not within and self._shapes.of(node)):
                     return True
                 return any(self._special(arg, within) for arg in args)
             case Element(_, subscripts):

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.interpreter.code_table import Finished
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.library import seeded
 from desire_tui.engine.nodes.commands import Drun, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.display import Display, Plot, Show
 from desire_tui.engine.nodes.expressions import Name, Text
 from desire_tui.engine.nodes.files import Connect, Disconnect
+from desire_tui.engine.random_sequence import seeded
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:

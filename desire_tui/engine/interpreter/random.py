@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from math import cos, log, pi, sqrt
+from math import cos, log, sqrt
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.library import INCREMENT, MODULUS_MASK, MULTIPLIER
+from desire_tui.engine.random_sequence import INCREMENT, MASK, MULTIPLIER, RADIUS_FACTOR, SCALE, TWO_PI
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy as np
     from numpy.typing import NDArray
-
-_SCALE = 2.0**-48
 
 
 class Noise:
@@ -26,13 +24,13 @@ class Noise:
 def _drawers(state: memoryview[int]) -> tuple[Callable[[], float], Callable[[], float]]:
     def uniform() -> float:
         """Uniform in (−1, 1)."""
-        state[0] = x = (MULTIPLIER * state[0] + INCREMENT) & MODULUS_MASK
-        return 2.0 * (x * _SCALE) - 1.0
+        state[0] = x = (MULTIPLIER * state[0] + INCREMENT) & MASK
+        return 2.0 * (x * SCALE) - 1.0
 
     def normal() -> float:
         """Box and Muller's cosine branch; the radius is drawn first."""
-        state[0] = x = (MULTIPLIER * state[0] + INCREMENT) & MODULUS_MASK
-        state[0] = y = (MULTIPLIER * x + INCREMENT) & MODULUS_MASK
-        return sqrt(-2.0 * log(x * _SCALE)) * cos(2.0 * pi * (y * _SCALE))
+        state[0] = x = (MULTIPLIER * state[0] + INCREMENT) & MASK
+        state[0] = y = (MULTIPLIER * x + INCREMENT) & MASK
+        return sqrt(RADIUS_FACTOR * log(x * SCALE)) * cos(TWO_PI * (y * SCALE))
 
     return uniform, normal

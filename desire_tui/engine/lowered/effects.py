@@ -30,6 +30,7 @@ from desire_tui.engine.lowered.statements import (
     Terminate,
     UpdateTrackHold,
 )
+from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:
@@ -43,9 +44,6 @@ Piece = tuple[int, int]
 
 OVER_ELEMENTS = (Vec, ShiftedVec, MatVec, PatternRow, Outer)
 """Operands that have one number for each element."""
-
-DRAWS = {"ran": 1, "gauss": 2}
-"""Operations that draw, and how many numbers one call takes from the random sequence."""
 
 
 def operands(node: Value) -> tuple[Value, ...]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.lowered.effects import DRAWS, operands
+from desire_tui.engine.lowered.effects import operands
 from desire_tui.engine.lowered.expressions import Op, Table1, Table2
 from desire_tui.engine.lowering import expressions
 from desire_tui.engine.lowering.lowering_context import (
@@ -18,6 +18,7 @@ from desire_tui.engine.lowering.lowering_context import (
 )
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.nodes.expressions import Call, Name
+from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:

@@ -21,6 +21,7 @@ from desire_tui.engine.lowered.expressions import (
     Table2,
     Vec,
 )
+from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.reference.numbers import ARRAYS, scalar_function, whole_power
 from desire_tui.engine.reference.random import ElementDraws, Sequence, normal
 from desire_tui.engine.values import IROW
@@ -133,7 +134,7 @@ class ExpressionClosures:
 
     def _operation(self, value: Op) -> Thunk:
         name = value.name
-        if name in {"ran", "gauss"}:
+        if name in DRAWS:
             return self._random(name)
         if name == "ipow":
             base, exponent = self._thunk(value.args[0]), value.args[1]
@@ -172,7 +173,7 @@ class ExpressionClosures:
         if isinstance(value, Const | Load):
             return False
         if isinstance(value, Op):
-            if value.name in {"ran", "gauss"}:
+            if value.name in DRAWS:
                 return self.count is not None
             return any(self._is_array(argument) for argument in value.args)
         if isinstance(value, Table1):

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import Diagnostic
-from desire_tui.engine.lowering.jacobian import checked_array
+from desire_tui.engine.lowered.jacobian_array import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.passes.slices import jacobian_pass
 from desire_tui.engine.reference.statements import StatementClosures

@@ -12,6 +12,7 @@ from desire_tui.engine.library import LIBRARY, func1
 from desire_tui.engine.lowered.effects import operands
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
 from desire_tui.engine.lowered.statements import Deriv, Guard, Set, Terminate
+from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.reference.numbers import power, whole_power
 
 if TYPE_CHECKING:
@@ -139,7 +140,7 @@ class _Expression:
             table = self.text.statements.cells[value.slot : value.slot + 2 * value.count]
             x = self._written(value.x, depth + 1)[0]
             return f"func1({x}, {self.text._name('a', table)})", _ATOM  # noqa: SLF001 - as above
-        if not isinstance(value, Op) or value.name in {"ran", "gauss"}:
+        if not isinstance(value, Op) or value.name in DRAWS:
             raise CannotWriteError
         name = value.name
         if name in _BINARY:

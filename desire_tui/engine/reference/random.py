@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.library import INCREMENT, MODULUS_MASK, MULTIPLIER
+from desire_tui.engine.random_sequence import INCREMENT, MASK, MULTIPLIER, RADIUS_FACTOR, SCALE, TWO_PI
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
-
-_SCALE = 2.0**-48
 
 
 class Sequence:
@@ -28,25 +26,25 @@ class Sequence:
 
     def uniform(self) -> float:
         """Return the next u, 0 ≤ u < 1."""
-        x = (int(self.state[0]) * MULTIPLIER + INCREMENT) & MODULUS_MASK
+        x = (int(self.state[0]) * MULTIPLIER + INCREMENT) & MASK
         self.state[0] = x
-        return x * _SCALE
+        return x * SCALE
 
     def block(self, count: int) -> Array:
         """Return the next `count` numbers u."""
         x = int(self.state[0])
         found = np.empty(count)
         for i in range(count):
-            x = (x * MULTIPLIER + INCREMENT) & MODULUS_MASK
-            found[i] = x * _SCALE
+            x = (x * MULTIPLIER + INCREMENT) & MASK
+            found[i] = x * SCALE
         self.state[0] = x
         return found
 
 
 def normal(u1: float, u2: float) -> float:
     """Return sqrt(-2 ln u1)·cos(2π u2) (Box and Muller)."""
-    radius = math.sqrt(-2.0 * math.log(u1)) if u1 > 0.0 else math.inf
-    return radius * math.cos(2.0 * math.pi * u2)
+    radius = math.sqrt(RADIUS_FACTOR * math.log(u1)) if u1 > 0.0 else math.inf
+    return radius * math.cos(TWO_PI * u2)
 
 
 class ElementDraws:
@@ -76,5 +74,5 @@ class ElementDraws:
     def normal(self, column: int) -> Array:
         """Return `gauss(0)` of each element."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            radius = np.sqrt(-2.0 * np.log(self.table[:, column]))
-            return np.asarray(radius * np.cos(2.0 * np.pi * self.table[:, column + 1]), dtype=np.float64)
+            radius = np.sqrt(RADIUS_FACTOR * np.log(self.table[:, column]))
+            return np.asarray(radius * np.cos(TWO_PI * self.table[:, column + 1]), dtype=np.float64)

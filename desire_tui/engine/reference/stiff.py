@@ -24,7 +24,7 @@ from desire_tui.engine.integration.problem import (
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.integration.tableaus import TABLEAUS
-from desire_tui.engine.lowering.jacobian import checked_array
+from desire_tui.engine.lowered.jacobian_array import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import dependence

@@ -1,8 +1,7 @@
-"""`ran()`: the 48-bit linear congruential sequence of language.md 4.1, with jumps of any length.
+"""`ran()` and `gauss()` as instructions: the sequence of `random_sequence`, with jumps of any length.
 
-X ← (MULTIPLIER·X + INCREMENT) mod 2⁴⁸, u = X / 2⁴⁸. A jump of k draws is again such a step, with constants
-that are known when the code is written, so lanes and blocks of a vector draw independently and still in the
-exact order.
+A jump of k draws is again a step of the sequence, with constants that are known when the code is written, so
+lanes and blocks of a vector draw independently and still in the exact order.
 """
 
 from __future__ import annotations
@@ -10,26 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.functions import apply
+from desire_tui.engine.random_sequence import MASK, RADIUS_FACTOR, SCALE, TWO_PI, jump
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.lanes import Lanes
-
-MULTIPLIER, INCREMENT, BITS = 0x5DEECE66D, 11, 48
-MASK = (1 << BITS) - 1
-_INVERSE = pow(MULTIPLIER, -1, 1 << BITS)
-
-
-def jump(count: int) -> tuple[int, int]:
-    """Return (a, c) so that `count` steps of the sequence (backwards if negative) are X ← a·X + c mod 2⁴⁸."""
-    step = (MULTIPLIER, INCREMENT) if count >= 0 else (_INVERSE, -_INVERSE * INCREMENT & MASK)
-    total = (1, 0)
-    for bit in f"{abs(count):b}":
-        a, c = total
-        total = (a * a & MASK, (a * c + c) & MASK)
-        if bit == "1":
-            a, c = total
-            total = (a * step[0] & MASK, (a * step[1] + c) & MASK)
-    return total
 
 
 def advance(lanes: Lanes, state: str, count: int) -> str:
@@ -44,7 +27,7 @@ def advance(lanes: Lanes, state: str, count: int) -> str:
 def fraction(lanes: Lanes, state: str) -> str:
     """Write u = X / 2⁴⁸ (exact)."""
     real = lanes.text.op(f"sitofp {lanes.integers} {state} to {lanes.kind}")
-    return lanes.mul(real, lanes.const(2.0**-BITS))
+    return lanes.mul(real, lanes.const(SCALE))
 
 
 def uniform(lanes: Lanes, state: str) -> str:
@@ -55,6 +38,6 @@ def uniform(lanes: Lanes, state: str) -> str:
 def normal(lanes: Lanes, first: str, second: str) -> str:
     """Write sqrt(-2 ln u1)·cos(2π u2)."""
     logarithm = lanes.outside("log", fraction(lanes, first))
-    radius = apply(lanes, "sqrt", [lanes.mul(lanes.const(-2.0), logarithm)])
-    angle = lanes.mul(lanes.const(6.283185307179586), fraction(lanes, second))
+    radius = apply(lanes, "sqrt", [lanes.mul(lanes.const(RADIUS_FACTOR), logarithm)])
+    angle = lanes.mul(lanes.const(TWO_PI), fraction(lanes, second))
     return lanes.mul(radius, lanes.outside("cos", angle))

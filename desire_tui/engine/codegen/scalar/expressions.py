@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir import random
 from desire_tui.engine.codegen.ir.functions import apply, power
 from desire_tui.engine.codegen.ir.table_lookup import table1, table2
-from desire_tui.engine.lowered.effects import DRAWS
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
+from desire_tui.engine.random_sequence import DRAWS
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.cells import Cells

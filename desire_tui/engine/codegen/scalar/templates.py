@@ -12,6 +12,7 @@ from desire_tui.engine.codegen.ir.functions import apply, power
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import IrText, literal
 from desire_tui.engine.lowered.expressions import Const, Load, Op
+from desire_tui.engine.random_sequence import DRAWS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.cells import Cells
     from desire_tui.engine.lowered.expressions import Value
 
-_PLAIN_NEVER = frozenset({"ran", "gauss"})
 _known: dict[tuple[object, ...], tuple[str, frozenset[str], str]] = {}
 """Shape → lines with places for leaves and a prefix, what they need declared, the result."""
 _SHAPES_MOST = 5000
@@ -51,7 +51,7 @@ def shape(node: Value, key: list[object], leaves: list[int | float]) -> None:
             exponent = args[1]
             assert isinstance(exponent, Const)
             key.append(exponent.value)
-        elif name in _PLAIN_NEVER:
+        elif name in DRAWS:
             raise NotPlainError
         else:
             for arg in args:

@@ -18,7 +18,7 @@ from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import is_own, kind_of, plan
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
-from desire_tui.engine.lowering.jacobian import checked_array
+from desire_tui.engine.lowered.jacobian_array import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import dependence

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir import random
 from desire_tui.engine.codegen.scalar.expressions import IrExpressions
-from desire_tui.engine.lowered.effects import DRAWS, OVER_ELEMENTS, operands, walk
+from desire_tui.engine.lowered.effects import OVER_ELEMENTS, operands, walk
 from desire_tui.engine.lowered.expressions import Const, MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
+from desire_tui.engine.random_sequence import DRAWS, MASK, jump
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.cells import Cells
@@ -106,13 +107,13 @@ class StripExpressions(IrExpressions):
 
 def lane_states(lanes: Lanes, start: str, count: int, per_element: int) -> str:
     """Write each lane's random state before it draws for element `lane` of `count`, from the sequence's."""
-    jumps = [random.jump((count - 1 - lane) * per_element) for lane in range(lanes.width)]
-    a = ", ".join(f"i64 {jump[0]}" for jump in jumps)
-    c = ", ".join(f"i64 {jump[1]}" for jump in jumps)
+    jumps = [jump((count - 1 - lane) * per_element) for lane in range(lanes.width)]
+    a = ", ".join(f"i64 {jumped[0]}" for jumped in jumps)
+    c = ", ".join(f"i64 {jumped[1]}" for jumped in jumps)
     text = lanes.text
     one = text.op(f"insertelement {lanes.integers} poison, i64 {start}, i64 0")
     zeros = f"<{lanes.width} x i32> zeroinitializer"
     all_same = text.op(f"shufflevector {lanes.integers} {one}, {lanes.integers} poison, {zeros}")
     grown = text.op(f"mul {lanes.integers} {all_same}, <{a}>")
     moved = text.op(f"add {lanes.integers} {grown}, <{c}>")
-    return text.op(f"and {lanes.integers} {moved}, {lanes.whole(random.MASK)}")
+    return text.op(f"and {lanes.integers} {moved}, {lanes.whole(MASK)}")
