@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.common.dialogs import LineDialog
-from desire_tui.common.paths import full, write_safely
+from desire_tui.common.paths import full
+from desire_tui.engine.atomic_file import replace_text
 from desire_tui.engine.diagnostics import DesireError
 
 if TYPE_CHECKING:
@@ -144,7 +145,7 @@ class GraphActions(Controller):
             return
         path = full(Path(name) if Path(name).suffix else Path(f"{name}.csv"), app.session.folder)
         try:
-            write_safely(path, app.samples(","))
+            replace_text(path, app.samples(","))
         except OSError as error:
             app.complain(f"cannot write {path}: {error.strerror}", code=106)
             return

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.common.dialogs import Choice
-from desire_tui.common.paths import exists, full, write_safely
+from desire_tui.common.paths import exists, full
 from desire_tui.editor.buffer import Buffer, NotText
+from desire_tui.engine.atomic_file import replace_text
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,7 +22,7 @@ class Disk(Controller):
     def write(self, path: Path, text: str) -> bool:
         """Write a file; False if it cannot be written, which the user is told."""
         try:
-            write_safely(path, text)
+            replace_text(path, text)
         except OSError as error:
             self.app.complain(f"cannot write {path}: {error.strerror}", code=106)
             return False

@@ -102,16 +102,11 @@ def _pages(session: Session) -> list[Graph]:
 
 def _pictures(session: Session, name: str, ending: str) -> None:
     """One graph: NAME; several: NAME-1, NAME-2 …; on standard output: the last one."""
-    from desire_tui.engine.outputs.picture_file import write_picture
+    from desire_tui.engine.outputs.picture_file import picture_of, write_picture
 
     pages = _pages(session)
     if name == STANDARD_OUTPUT:
-        import tempfile
-
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / f"graph{ending}"
-            write_picture(pages[-1], path)
-            sys.stdout.buffer.write(path.read_bytes())
+        sys.stdout.buffer.write(picture_of(pages[-1], ending[1:]))
         sys.stdout.buffer.flush()
         return
     path = Path(name)

@@ -17,7 +17,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from desire_tui.common.paths import state_folder, write_safely
+from desire_tui.common.paths import state_folder
+from desire_tui.engine.atomic_file import replace_text
 
 VERSION = 1
 
@@ -56,7 +57,7 @@ def store(path: Path, tabs: list[SavedTab]) -> bool:
     """Write tabs; without any, remove the file. False if the folder cannot be written."""
     try:
         if tabs:
-            write_safely(path, json.dumps({"version": VERSION, "tabs": [asdict(tab) for tab in tabs]}))
+            replace_text(path, json.dumps({"version": VERSION, "tabs": [asdict(tab) for tab in tabs]}))
         else:
             path.unlink(missing_ok=True)
     except OSError:

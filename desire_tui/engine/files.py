@@ -1,10 +1,11 @@
-"""Program files: reading them whatever they hold, writing what programs made; every failure a message."""
+"""Reading program files, writing output files; every failure is a message."""
 
 from __future__ import annotations
 
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.atomic_file import replacing
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.source import Source
 
@@ -42,15 +43,15 @@ def decoded(data: bytes, name: str) -> str:
         return data.decode("latin-1")
 
 
-def write_file(path: Path, write: Callable[[IO[str]], None]) -> None:
-    """Write a text file. DesireError 106 where that fails (a full disk too)."""
-    with _writing(path), path.open("w", encoding="utf-8", newline="\n") as file:
+def write_file(path: Path, write: Callable[[IO[str]], object]) -> None:
+    """Replace a text file, whole or not at all. DesireError 106: a full disk, no permission, no folder …."""
+    with _writing(path), replacing(path) as file:
         write(file)
 
 
-def write_bytes(path: Path, write: Callable[[IO[bytes]], None]) -> None:
-    """Write a binary file. DesireError 106 where that fails."""
-    with _writing(path), path.open("wb") as file:
+def write_bytes(path: Path, write: Callable[[IO[bytes]], object], *, sync: bool = True) -> None:
+    """Replace a binary file, whole or not at all; `sync` as in `replacing`. DesireError 106."""
+    with _writing(path), replacing(path, "wb", sync=sync) as file:
         write(file)
 
 

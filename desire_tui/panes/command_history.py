@@ -38,10 +38,10 @@ class CommandHistory:
         self.lines.append(line)
         del self.lines[:-KEPT_MAX]
         if self._path is not None:
-            from desire_tui.common.paths import write_safely
+            from desire_tui.engine.atomic_file import replace_text
 
             with contextlib.suppress(OSError):
-                write_safely(self._path, json.dumps(self.lines, ensure_ascii=False, indent=0))
+                replace_text(self._path, json.dumps(self.lines, ensure_ascii=False, indent=0))
 
     def previous(self, typed: str) -> str | None:
         """Return the line before, None if there is none."""

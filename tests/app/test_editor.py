@@ -304,7 +304,7 @@ async def test_a_read_only_folder_and_a_vanished_file_lose_nothing(program, tmp_
         def refuse(*_: object) -> None:
             raise PermissionError(13, "Permission denied")
 
-        monkeypatch.setattr("desire_tui.actions.save_and_reload.write_safely", refuse)
+        monkeypatch.setattr("desire_tui.actions.save_and_reload.replace_text", refuse)
         await desk.press("ctrl+s")
         await desk.until(lambda: "error 106" in desk.output)
         assert area.is_dirty

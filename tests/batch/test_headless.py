@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+FILE_KINDS = ("png", "svg", "pdf", "csv", "json", "npz")
 
 DECAY = """TMAX = 1 | DT = 0.1 | NN = 11 | x = 1 | a = 1
 drun
@@ -25,11 +26,11 @@ dispt x
 """
 
 
-def desire(*args, cwd=None, text_in="", timeout=60):
+def desire(*args, cwd=None, text_in="", timeout=60, **options):
     """Run the command; returns status, stdout, stderr."""
     done = subprocess.run(
         [sys.executable, "-m", "desire_tui", *map(str, args)], cwd=cwd, input=text_in, capture_output=True,
-        text=True, timeout=timeout, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)},
+        text=True, timeout=timeout, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)}, **options,
     )  # fmt: skip
     assert "Traceback" not in done.stderr, done.stderr
     return done.returncode, done.stdout, done.stderr
@@ -451,11 +452,33 @@ def test_output_that_cannot_be_written(decay, tmp_path):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_a_full_disk_is_a_message(decay):
-    status, _, err = desire("run", decay, "--csv", "/dev/full")
+@pytest.mark.parametrize("kind", FILE_KINDS)
+def test_a_full_disk_is_a_message(decay, tmp_path, kind):
+    (tmp_path / f"full.{kind}").symlink_to("/dev/full")
+    status, _, err = desire("run", decay, f"--{kind}", tmp_path / f"full.{kind}")
     assert status == 1
     assert "error 106" in err
     assert "No space left" in err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs limits of the system")
+@pytest.mark.parametrize("kind", FILE_KINDS)
+def test_a_disk_that_becomes_full_leaves_the_old_file(decay, tmp_path, kind):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    path = folder / f"old.{kind}"
+    path.write_text("old")
+    status, _, err = desire("run", decay, f"--{kind}", path, preexec_fn=_files_of_100_bytes)
+    assert status == 1
+    assert f"error 106: cannot write {path}: File too large" in err
+    assert path.read_text() == "old"
+    assert [p.name for p in folder.iterdir()] == [path.name]
+
+
+def _files_of_100_bytes():
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
 
 
 def test_a_reader_that_leaves(tmp_path):

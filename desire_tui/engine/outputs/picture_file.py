@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.files import write_bytes
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
 from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, to_unit
 
@@ -37,24 +38,26 @@ def write_picture(graph: Graph, path: Path) -> None:
     kind = path.suffix.lower()
     if kind not in KINDS:
         raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
-    try:
-        _write(graph, path, kind[1:], _INCHES, _DOTS_PER_INCH)
-    except OSError as reason:
-        facts = {"path": path, "reason": reason.strerror or reason}
-        raise DesireError(Diagnostic("file-unwritable", facts=facts)) from None
+    content = picture_of(graph, kind[1:])
+    write_bytes(path, lambda file: file.write(content))
 
 
 def png_of(graph: Graph, width: int, height: int) -> bytes:
     """Return a graph as a PNG of `width` × `height` dots."""
     wide = _INCHES[0]
-    buffer = BytesIO()
-    _write(graph, buffer, "png", (wide, wide * height / width), width / wide)
-    return buffer.getvalue()
+    return picture_of(graph, "png", (wide, wide * height / width), width / wide)
 
 
-def _write(
-    graph: Graph, target: Path | BytesIO, kind: str, inches: tuple[float, float], dots_per_inch: float
-) -> None:
+def picture_of(
+    graph: Graph,
+    kind: str,
+    inches: tuple[float, float] = _INCHES,
+    dots_per_inch: float = _DOTS_PER_INCH,
+) -> bytes:
+    """Return a graph as the content of a picture file of a kind (png, svg, pdf).
+
+    It is drawn in memory: matplotlib's PDF writer cannot cope with a disk that is full.
+    """
     import logging
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its font cache is nobody's business here
@@ -62,7 +65,9 @@ def _write(
 
     with _drawing, rc_context({"svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000}):
         figure = draw(graph, inches)
-        figure.savefig(target, format=kind, dpi=dots_per_inch, facecolor=figure.get_facecolor())
+        buffer = BytesIO()
+        figure.savefig(buffer, format=kind, dpi=dots_per_inch, facecolor=figure.get_facecolor())
+    return buffer.getvalue()
 
 
 def draw(graph: Graph, inches: tuple[float, float] = _INCHES) -> Figure:

@@ -6,13 +6,13 @@ one.
 
 from __future__ import annotations
 
-import os
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.files import write_bytes
 from desire_tui.engine.lowered.statements import GetHistory
 
 if TYPE_CHECKING:
@@ -26,16 +26,9 @@ if TYPE_CHECKING:
 
 def write_stash(path: Path, histories: NDArray[np.float64]) -> None:
     """Write the file as a whole, or leave the old one. DesireError 106."""
-    temporary = path.with_name(path.name + ".part")
-    try:
-        with temporary.open("wb") as file:
-            np.save(file, np.ascontiguousarray(histories), allow_pickle=False)
-        os.replace(temporary, path)  # noqa: PTH105 - the atomic replacement on every platform
-    except OSError as reason:
-        temporary.unlink(missing_ok=True)
-        raise DesireError(
-            Diagnostic("file-unwritable", facts={"path": path, "reason": reason.strerror or reason})
-        ) from None
+    rows = np.ascontiguousarray(histories)
+    # a program may write it after each of many runs: they do not wait for the disk
+    write_bytes(path, lambda file: np.save(file, rows, allow_pickle=False), sync=False)
 
 
 def read_stash(path: Path, wanted: tuple[SampleColumn, ...], segment: Segment) -> NDArray[np.float64]:
