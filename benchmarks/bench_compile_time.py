@@ -1,6 +1,6 @@
 """From a program's text to the first pass of its segment: what a user waits for behind `zz`.
 
-Goals (performance.md): up to 30 lines 10 ms; 1401 scalar equations 100 ms cold, 30 ms after a one-line edit.
+Goals (performance.md 2): up to 30 lines 10 ms; 1401 equations 100 ms cold, 30 ms after a one-line edit.
 *Cold*: every store is empty (lines, statements by shape, lowered expressions, templates), and the text is
 new, so that no compiled code fits either. Not counted, because the app does them while the user reads and
 types: loading LLVM and the grammar's tables, compiling a rule's loop, which all programs share. *One line

@@ -1,6 +1,6 @@
 """Speed of runs beside C (gcc -O3 -march=native, loops as one would write them by hand).
 
-Goals (performance.md): Lorenz and the ladder ≤ 1.1 times C, Monte Carlo ≤ 0.35 times; one million states
+Goals (performance.md 2): Lorenz and the ladder ≤ 1.1 times C, Monte Carlo ≤ 0.35 times; one million states
 within the memory of 20 such arrays. Runs are measured once fast code is in; the first run, with everything
 that comes before it, stands beside.
 """

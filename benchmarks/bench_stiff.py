@@ -1,6 +1,6 @@
 """Stiff problems: rules 14 and 15 beside scipy's BDF and LSODA and scikit-sundae's CVODE.
 
-Goals (performance.md): at least 20 times faster than each at the same accuracy; within 1.2 times of CVODE
+Goals (performance.md 2): at least 20 times faster than each at the same accuracy; within 1.2 times of CVODE
 from C; 5,000 states of a heat equation 50 times faster than with a dense matrix, and linear in n. Run:
 `python -m benchmarks.bench_stiff`.
 

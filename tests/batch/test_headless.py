@@ -1,4 +1,4 @@
-"""`desire run` as a process: streams, files, exit statuses (desktop.md, Headless)."""
+"""`desire run` as a process: streams, files, exit statuses (headless.md 1, 2 and 3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The public layout of `desire run --json` (desktop.md, Headless), field by field."""
+"""The public layout of `desire run --json` (headless.md 3), field by field."""
 
 from __future__ import annotations
 

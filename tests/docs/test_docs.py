@@ -77,10 +77,24 @@ def test_command_lines_in_the_documentation_work(commands, shown, tmp_path, monk
 
 
 @pytest.mark.parametrize(
-    "path", [*WRITTEN, *(ROOT / "docs" / name for name in PAGES)], ids=lambda path: path.name
+    "path",
+    [*WRITTEN, *(ROOT / "docs" / name for name in PAGES), *sorted((ROOT / "docs" / "spec").glob("*.md"))],
+    ids=lambda path: str(path.relative_to(ROOT)),
 )
 def test_links_lead_somewhere(path):
     text = FENCE.sub("", path.read_text(encoding="utf-8"))
     text = re.sub(r"`[^`\n]*`", "", text)
     links = re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", text)
     assert [link for link in links if not (path.parent / link).exists()] == []
+
+
+def test_the_originals_error_numbers_are_those_of_the_messages():
+    text = (ROOT / "docs" / "spec" / "errors.md").read_text(encoding="utf-8")
+    table, _, unused = text.partition("Not in use here")
+    listed = set()
+    for cell in re.findall(r"^\| ([\d, –]+) \|", table, re.MULTILINE):
+        for first, last in re.findall(r"(\d+)(?:–(\d+))?", cell):
+            listed |= set(range(int(first), int(last or first) + 1))
+    messages = (ROOT / "docs" / "errors.md").read_text(encoding="utf-8")
+    used = {int(number) for number in re.findall(r"^### error (\d+)", messages, re.MULTILINE)}
+    assert listed - {int(number) for number in re.findall(r"\d+", unused)} == {n for n in used if n < 400}

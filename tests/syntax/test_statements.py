@@ -1,4 +1,4 @@
-"""Every statement form of the language reference, sections 3 to 13: its text and the node it means."""
+"""Every statement form of language.md 3 to 13: its text and the node it means."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ x_above_3 = Relation(">", x, N(3))
 y3 = Element("y", (N(3),))
 
 FORMS = {
-    # --------------------------------------------------------------- expressions (section 4)
+    # --------------------------------------------------------------- expressions (language.md 4)
     "x = 2^3^2": Assign(x, op("^", N(2), op("^", N(3), N(2)))),
     "x = -2^2": Assign(x, Unary("-", op("^", N(2), N(2)))),
     "x = 3*-2": Assign(x, op("*", N(3), Unary("-", N(2)))),
@@ -106,7 +106,7 @@ FORMS = {
     "step = 3": Assign(V("step"), N(3)),
     "data[2] = 3": Assign(Element("data", (N(2),)), N(3)),
     "x = input + to": Assign(x, op("+", V("input"), V("to"))),
-    # --------------------------------------------------------------- declarations (section 3)
+    # --------------------------------------------------------------- declarations (language.md 3)
     "ARRAY x[3], A[m, n]": Declare(
         "ARRAY",
         (
@@ -129,7 +129,7 @@ FORMS = {
     "INTEGER a": Declare("INTEGER", (DeclaredGroup((Declared("a", ()),), None),)),
     "COMPLEX z": Declare("COMPLEX", (DeclaredGroup((Declared("z", ()),), None),)),
     "FUNCTION f(a$, b$) = a$": Function("f", ("a$", "b$"), V("a$")),
-    # --------------------------------------------------------------- script (section 5)
+    # --------------------------------------------------------------- script (language.md 5)
     "if x > 3 then": If(x_above_3, None),
     "if x>3 and not (a<=b or a<>b) then": If(
         Logical("and", x_above_3, Not(Logical("or", Relation("<=", a, b), Relation("<>", a, b)))),
@@ -198,7 +198,7 @@ FORMS = {
     "clear": Simple("clear"),
     "STOP": Simple("STOP"),
     "go": Simple("go"),
-    # --------------------------------------------------------------- commands (section 6)
+    # --------------------------------------------------------------- commands (language.md 6)
     "erun": Simple("erun"),
     "zz": Simple("erun"),
     "run": Simple("run"),
@@ -223,7 +223,7 @@ FORMS = {
     "bye": Simple("bye"),
     "quit": Simple("bye"),
     "3 + a": Bare(op("+", N(3), a)),
-    # --------------------------------------------------------------- matrices, vectors (sections 7, 9.2, 9.3)
+    # --------------------------------------------------------------- matrices, vectors (language.md 7, 9.2, 9.3)
     "MATRIX C = 0": MatrixAssign("C", N(0), False, None, None, None),
     "MATRIX C = A * B": MatrixAssign("C", op("*", V("A"), V("B")), False, None, None, None),
     "MATRIX B = A%": MatrixAssign("B", Transposed("A"), False, None, None, None),
@@ -246,7 +246,7 @@ FORMS = {
     "Vector y = P#": VectorAssign("y", RowOf("P"), False, False, None),
     "DOT x = u*v": Dot(x, op("*", u, v), False),
     "AVG y[3] = u*A%*v": Dot(y3, op("*", op("*", u, Transposed("A")), v), True),
-    # --------------------------------------------------------------- DYNAMIC segments (section 9)
+    # --------------------------------------------------------------- DYNAMIC segments (language.md 9)
     "DYNAMIC": Simple("DYNAMIC"),
     "OUT": Simple("OUT"),
     "step": Simple("step"),
@@ -284,7 +284,7 @@ FORMS = {
     "PLEARN y = W*x; a": Learn("PLEARN", "y", "W", "x", a, None, False),
     "INTP v = W*x; a": Learn("INTP", "v", "W", "x", a, None, False),
     "JACOBIAN": Simple("JACOBIAN"),
-    # --------------------------------------------------------------- FFT, graphs (sections 12, 13)
+    # --------------------------------------------------------------- FFT, graphs (language.md 12, 13)
     "FFT F,x,y,z": Fft("F", (x, y, z)),
     "FFT I, 64, y, z": Fft("I", (N(64), y, z)),
     "FFT R,x,y,z,u,v": Fft("R", (x, y, z, u, v)),

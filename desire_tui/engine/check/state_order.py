@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def state_order(program: Program) -> tuple[str, ...]:
     """Return the names of the scalar states of all segments in the order of their `d/dt` lines.
 
-    Memory laid out in this order lets the compiled code load neighbouring states together (performance.md).
+    Memory laid out in this order lets the compiled code load neighbouring states together (performance.md 3).
     """
     found = find_structure(program)
     names: dict[str, None] = {}

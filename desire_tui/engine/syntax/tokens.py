@@ -1,6 +1,6 @@
 """The tokenizer: the one lexical truth for the parser, the statement splitter and the editor's highlighting.
 
-Language.md section 2. It knows what only a reader of whole statements can know: a keyword is a keyword at a
+language.md section 2. It knows what only a reader of whole statements can know: a keyword is a keyword at a
 statement's start alone, and `then`, `to`, `step` … are special only where their own statement expects an
 operator.
 """
