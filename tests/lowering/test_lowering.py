@@ -8,14 +8,14 @@ from desire_tui.engine.check.state_order import state_order
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.lowered.expressions import Const, Load, MatVec, Op, Outer, Vec
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec
-from desire_tui.engine.lowering.persistence import walk
+from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.syntax.parse import parse
 from tests.lowering.programs import segment, source
 
 
 def assigned(lowered, values, name):
     slot = values.find(name).slot
-    (found,) = [a for a in walk(lowered.body) if isinstance(a, Set) and a.slot == slot]
+    (found,) = [a for a in walk_actions(lowered.body) if isinstance(a, Set) and a.slot == slot]
     return found
 
 
@@ -67,7 +67,7 @@ def test_what_is_read_before_it_is_set_is_persistent(body):
 def test_both_branches_set_it():
     body = "if x\np = 1\nelse\np = 2\nend if\nd/dt x = p"
     lowered, _ = segment(body)
-    assert not any(a.persistent for a in walk(lowered.body) if isinstance(a, Set))
+    assert not any(a.persistent for a in walk_actions(lowered.body) if isinstance(a, Set))
 
 
 def test_vectors_persist_too():

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from desire_tui.engine.lowered.statements import Deriv, Guard, Set
-from desire_tui.engine.lowering.persistence import walk
+from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
 from tests.lowering.programs import segment
 
@@ -15,7 +15,7 @@ def names(actions, values):
     """Names assigned (or `d` and the state's number) in order."""
     by_slot = {q.slot: q.name for q in values if not q.shape}
     shown = []
-    for action in walk(actions):
+    for action in walk_actions(actions):
         if isinstance(action, Guard):
             shown.append(action.kind)
         elif isinstance(action, Deriv):

@@ -1,10 +1,15 @@
-"""What expressions and statements are made of and read: the one walk that every pass over a segment uses."""
+"""What expressions and statements read, write and do besides: everything that passes and back ends ask.
+
+A new class of expression or statement is described here once; code that asks these functions instead of
+looking at classes need not change for it.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, NamedTuple, assert_never
 
 from desire_tui.engine.lowered.expressions import (
+    Const,
     Load,
     MatVec,
     Op,
@@ -30,6 +35,7 @@ from desire_tui.engine.lowered.statements import (
     Terminate,
     UpdateTrackHold,
 )
+from desire_tui.engine.lowered.walk import walk_values
 from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.values import IROW
 
@@ -37,67 +43,58 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowered.statements import Action
-
-Piece = tuple[int, int]
-"""A stretch of memory: its first slot, its length."""
-
-OVER_ELEMENTS = (Vec, ShiftedVec, MatVec, PatternRow, Outer)
-"""Operands that have one number for each element."""
+    from desire_tui.engine.lowered.statements import Action, SimpleAction
 
 
-def operands(node: Value) -> tuple[Value, ...]:
-    """Return the expressions that a node computes with, in the order in which they are evaluated."""
-    if isinstance(node, Op):
-        return node.args
-    if isinstance(node, Table1):
-        return (node.x,)
-    if isinstance(node, Table2):
-        return (node.x, node.y)
-    return ()
+class ArrayPiece(NamedTuple):
+    """An array that is reached by its address, whatever its length: its first slot, its length."""
+
+    slot: int
+    length: int
 
 
-def walk(*values: Value | None) -> Iterator[Value]:
-    """Every node of some expressions, outer ones first; one that stands at several places comes once.
+Piece = tuple[int, int] | ArrayPiece
+"""A stretch of memory: its first slot, its length. Scalars are plain tuples of length 1."""
 
-    A loop, not recursion: FUNCTIONs of FUNCTIONs share parts, so the tree behind an expression may be
-    exponentially larger than the expression, and deeper than Python's stack.
-    """
-    seen: set[int] = set()
-    rest = [value for value in reversed(values) if value is not None]
-    while rest:
-        node = rest.pop()
-        if id(node) in seen:
-            continue
-        seen.add(id(node))
-        yield node
-        rest.extend(reversed(operands(node)))
+Role = Literal["derivative", "definition", "effect"]
+"""A statement gives a derivative, or computes a defined variable from others and nothing else, or does more:
+remembers, draws, learns, ends the run."""
+
+Timing = Literal["always", "point", "step"]
+"""A statement runs in every pass, or only at communication points (COMM), or only at steps' starts (STEP)."""
 
 
-def draws(*values: Value | None) -> int:
+def count_draws(*values: Value | None) -> int:
     """Count the random numbers that one element of some expressions takes."""
-    return sum(DRAWS.get(node.name, 0) for node in walk(*values) if isinstance(node, Op))
+    return sum(DRAWS.get(node.name, 0) for node in walk_values(*values) if isinstance(node, Op))
 
 
 def memory(node: Value) -> tuple[Piece, ...]:
     """Return the memory that a node itself reads, its operands' left out."""
     match node:
+        case Op() | Const():
+            return ()
         case Load():
             return ((node.slot, 1),)
         case Vec() | ShiftedVec():
-            return ((node.slot, node.count),)
+            return (ArrayPiece(node.slot, node.count),)
         case MatVec():
             inner = node.rows if node.transposed else node.cols
-            return ((node.slot, node.rows * node.cols), (node.x_slot, inner))
+            return (ArrayPiece(node.slot, node.rows * node.cols), ArrayPiece(node.x_slot, inner))
         case PatternRow():
-            return ((node.slot, node.rows * node.cols), (IROW, 1))
+            return (ArrayPiece(node.slot, node.rows * node.cols), (IROW, 1))
         case Outer():
-            return ((node.u_slot, node.u_count), (node.v_slot, node.v_count))
+            return (ArrayPiece(node.u_slot, node.u_count), ArrayPiece(node.v_slot, node.v_count))
         case Table1():
-            return ((node.slot, 2 * node.count),)
+            return (ArrayPiece(node.slot, 2 * node.count),)
         case Table2():
-            return ((node.f_slot, node.rows * node.cols), (node.x_slot, node.rows), (node.y_slot, node.cols))
-    return ()
+            return (
+                ArrayPiece(node.f_slot, node.rows * node.cols),
+                ArrayPiece(node.x_slot, node.rows),
+                ArrayPiece(node.y_slot, node.cols),
+            )
+        case _:
+            assert_never(node)
 
 
 def expressions(action: Action) -> tuple[Value, ...]:
@@ -105,10 +102,10 @@ def expressions(action: Action) -> tuple[Value, ...]:
 
     Not the time of a delay: that is found before the run.
     """
-    every: tuple[Value | None, ...] = ()
+    every: tuple[Value | None, ...]
     match action:
         case Set() | SetVec() | Deriv() | DerivVec() | Terminate():
-            every = (action.value,)
+            return (action.value,)
         case SetMat():
             every = (action.value, action.lower, action.upper)
         case SetDot():
@@ -121,34 +118,48 @@ def expressions(action: Action) -> tuple[Value, ...]:
             every = (action.rate, action.criterion)
         case Guard():
             every = (action.condition,)
+        case StoreHistory() | GetHistory():
+            every = ()
+        case _:
+            assert_never(action)
     return tuple(value for value in every if value is not None)
+
+
+def own_reads(action: Action) -> tuple[Piece, ...]:
+    """Return the memory that a statement reads besides what its expressions read."""
+    match action:
+        case Set() | Deriv() | DerivVec() | SetDot() | Terminate() | Guard():
+            return ()
+        case SetVec() | SetMat():
+            count = _size(action)
+            mask = () if action.mask_slot is None else (ArrayPiece(action.mask_slot, count),)
+            keeps = action.mode == "add" or (action.mask_slot is not None and isinstance(action, SetMat))
+            return (*mask, ArrayPiece(action.slot, count)) if keeps else mask
+        case StoreHistory():
+            return ((action.slot, 1),)
+        case GetHistory():
+            return (ArrayPiece(action.array_slot, action.count),)
+        case DelayLine():
+            return (ArrayPiece(action.buffer_slot, action.count),)
+        case UpdateTrackHold():
+            return ((action.held_slot, 1), (action.tracked_slot, 1))
+        case LearningStep():
+            counts = () if action.count_slot is None else (ArrayPiece(action.count_slot, action.out_count),)
+            return (
+                ArrayPiece(action.weights_slot, action.out_count * action.in_count),
+                ArrayPiece(action.in_slot, action.in_count),
+                ArrayPiece(action.out_slot, action.out_count),
+                *counts,
+            )
+        case _:
+            assert_never(action)
 
 
 def reads(action: Action) -> Iterator[Piece]:
     """All memory that a statement reads, what it may leave as it was included; of a guard the condition's."""
-    for node in walk(*expressions(action)):
+    for node in walk_values(*expressions(action)):
         yield from memory(node)
-    match action:
-        case SetVec() | SetMat():
-            if action.mask_slot is not None:
-                yield action.mask_slot, _size(action)
-            if action.mode == "add" or (action.mask_slot is not None and isinstance(action, SetMat)):
-                yield action.slot, _size(action)
-        case StoreHistory():
-            yield action.slot, 1
-        case GetHistory():
-            yield action.array_slot, action.count
-        case DelayLine():
-            yield action.buffer_slot, action.count
-        case UpdateTrackHold():
-            yield action.held_slot, 1
-            yield action.tracked_slot, 1
-        case LearningStep():
-            yield action.weights_slot, action.out_count * action.in_count
-            yield action.in_slot, action.in_count
-            yield action.out_slot, action.out_count
-            if action.count_slot is not None:
-                yield action.count_slot, action.out_count
+    yield from own_reads(action)
 
 
 def writes(action: Action) -> tuple[Piece, ...]:
@@ -156,23 +167,58 @@ def writes(action: Action) -> tuple[Piece, ...]:
     match action:
         case Set() | SetDot() | GetHistory():
             return ((action.slot, 1),)
+        case Deriv() | DerivVec() | Terminate() | Guard():
+            return ()
         case SetVec() | SetMat():
-            return ((action.slot, _size(action)),)
+            return (ArrayPiece(action.slot, _size(action)),)
         case StoreHistory():
-            return ((action.array_slot, action.count),)
+            return (ArrayPiece(action.array_slot, action.count),)
         case DelayLine():
-            return ((action.slot, 1), (action.buffer_slot, action.count))
+            return ((action.slot, 1), ArrayPiece(action.buffer_slot, action.count))
         case UpdateTrackHold():
             return ((action.held_slot, 1), (action.tracked_slot, 1))
         case LearningStep():
-            own = (
-                (action.weights_slot, action.out_count * action.in_count),
-                (action.out_slot, action.out_count),
+            counts = () if action.count_slot is None else (ArrayPiece(action.count_slot, action.out_count),)
+            full = () if action.full_slot is None else (ArrayPiece(action.full_slot, 1),)
+            return (
+                ArrayPiece(action.weights_slot, action.out_count * action.in_count),
+                ArrayPiece(action.out_slot, action.out_count),
+                *counts,
+                *full,
             )
-            counts = () if action.count_slot is None else ((action.count_slot, action.out_count),)
-            full = () if action.full_slot is None else ((action.full_slot, 1),)
-            return (*own, *counts, *full)
-    return ()
+        case _:
+            assert_never(action)
+
+
+def role(action: SimpleAction) -> Role:
+    """Return what a statement is for."""
+    match action:
+        case Deriv() | DerivVec():
+            return "derivative"
+        case Set() | SetVec() | SetMat() | SetDot():
+            remembers = action.persistent or count_draws(*expressions(action))
+            return "effect" if remembers else "definition"
+        case StoreHistory() | GetHistory() | DelayLine() | UpdateTrackHold() | Terminate() | LearningStep():
+            return "effect"
+        case _:
+            assert_never(action)
+
+
+def timing(action: SimpleAction) -> Timing:
+    """Return in which passes a statement runs (language.md 8.2)."""
+    match action:
+        case (
+            Set() | SetVec() | SetMat() | SetDot() | Deriv() | DerivVec() | UpdateTrackHold() | LearningStep()
+        ):
+            return "always"
+        case StoreHistory() | GetHistory():
+            return "point"
+        case DelayLine():
+            return "step" if action.per_step else "point"
+        case Terminate():
+            return "step"
+        case _:
+            assert_never(action)
 
 
 def _size(action: SetVec | SetMat) -> int:

@@ -106,4 +106,7 @@ class Outer:
     v_count: int
 
 
-Value = Const | Load | Op | Table1 | Table2 | Vec | ShiftedVec | MatVec | PatternRow | Outer
+ElementOperand = Vec | ShiftedVec | MatVec | PatternRow | Outer
+"""Operands that have one number for each element."""
+
+Value = Const | Load | Op | Table1 | Table2 | ElementOperand

@@ -201,11 +201,14 @@ class Guard:
     every: int = 1
 
 
-Action = (
-    Set
-    | SetVec
-    | SetMat
-    | SetDot
+Assignment = Set | SetVec | SetMat | SetDot
+"""Statements that give a variable a value computed from others."""
+
+ArrayAction = SetVec | SetMat | SetDot | DerivVec | LearningStep
+"""Statements that loop over the elements of arrays."""
+
+SimpleAction = (
+    Assignment
     | Deriv
     | DerivVec
     | StoreHistory
@@ -214,5 +217,7 @@ Action = (
     | UpdateTrackHold
     | Terminate
     | LearningStep
-    | Guard
 )
+"""Statements that hold no others."""
+
+Action = SimpleAction | Guard

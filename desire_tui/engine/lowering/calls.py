@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.lowered.effects import operands
 from desire_tui.engine.lowered.expressions import Op, Table1, Table2
+from desire_tui.engine.lowered.walk import operands
 from desire_tui.engine.lowering import expressions
 from desire_tui.engine.lowering.lowering_context import (
     BAD,

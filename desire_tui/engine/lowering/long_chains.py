@@ -10,7 +10,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.left_chains import PIECE, chain, is_long
-from desire_tui.engine.lowered.effects import draws
+from desire_tui.engine.lowered.effects import count_draws
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Vec
 from desire_tui.engine.lowered.statements import Set, SetMat, SetVec
 from desire_tui.engine.lowering import expressions, products
@@ -50,7 +50,7 @@ def lower_long(context: LoweringContext, node: Binary, extent: Extent) -> Value:
         if step.op == "&":
             return context.report("ampersand-here", step)
         result = Op(expressions.OPERATIONS[step.op], (result, right))
-    return _bounded(context, node, result) if extent and draws(result) else result
+    return _bounded(context, node, result) if extent and count_draws(result) else result
 
 
 def _kept(context: LoweringContext, node: Expr, value: Value, extent: Extent) -> Value:
@@ -63,7 +63,7 @@ def _kept(context: LoweringContext, node: Expr, value: Value, extent: Extent) ->
     context.reads.append("")  # the statement's own part alone must not be kept
     if UNKNOWN in extent:
         return BAD  # a check before the run: nothing is computed
-    if extent and draws(value):
+    if extent and count_draws(value):
         return _bounded(context, node, value)
     count, where = prod(extent), context.where(node)
     slot = context.scope.hidden(count)

@@ -11,13 +11,12 @@ from bisect import bisect_left
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered.statements import Guard, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered.statements import Set, SetDot, SetMat, SetVec
 from desire_tui.engine.lowering.scope import SYSTEM_SLOTS
 from desire_tui.engine.passes.intervals import Intervals
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Load
-    from desire_tui.engine.lowered.statements import Action
 
 Assignment = Set | SetVec | SetMat | SetDot
 Snapshot = tuple[dict[str, "Load"], set[int], Intervals]
@@ -86,14 +85,3 @@ class Flow:
                 kept = kept or (at < len(early) and early[at] < slot + count) or ranges.touches(slot, count)
             if kept:
                 made.persistent = True  # type: ignore[misc]  # nodes are frozen for the type checker only
-
-
-def walk(actions: tuple[Action, ...] | list[Action]) -> list[Action]:
-    """Return all actions, those inside guards included, in order."""
-    found: list[Action] = []
-    for action in actions:
-        found.append(action)
-        if isinstance(action, Guard):
-            found.extend(walk(action.body))
-            found.extend(walk(action.orelse))
-    return found

@@ -7,11 +7,16 @@ the same passes.
 
 from __future__ import annotations
 
-from desire_tui.engine.lowered.effects import draws as count_draws
-from desire_tui.engine.lowered.effects import expressions, reads, writes
-from desire_tui.engine.lowered.statements import Action, Guard, Set, SetDot, SetMat, SetVec
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered.effects import reads, role, writes
+from desire_tui.engine.lowered.statements import Guard
+from desire_tui.engine.lowered.walk import with_bodies
 from desire_tui.engine.passes.intervals import Intervals
 from desire_tui.engine.values import SCALAR_SLOTS
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered.statements import Action, SimpleAction
 
 Actions = tuple["Action", ...]
 
@@ -22,16 +27,6 @@ def needed(actions: Actions, wanted: frozenset[int] = frozenset()) -> Actions:
     `wanted` are the ids of statements that are kept in any case.
     """
     return _backward(actions, SlotSet(), wanted)
-
-
-def draws(action: Action) -> bool:
-    """Whether a statement draws random numbers."""
-    return count_draws(*expressions(action)) > 0
-
-
-def with_bodies(guard: Guard, body: Actions, orelse: Actions) -> Guard:
-    """Return a guard that holds other statements."""
-    return Guard(guard.kind, body, guard.where, guard.condition, orelse, guard.every)
 
 
 class SlotSet:
@@ -75,7 +70,5 @@ def _backward(actions: Actions, seen: SlotSet, wanted: frozenset[int]) -> Action
     return tuple(reversed(kept))
 
 
-def _is_needed(action: Action, seen: SlotSet) -> bool:
-    if not isinstance(action, Set | SetVec | SetMat | SetDot) or action.persistent or draws(action):
-        return True
-    return any(seen.touch(slot, count) for slot, count in writes(action))
+def _is_needed(action: SimpleAction, seen: SlotSet) -> bool:
+    return role(action) != "definition" or any(seen.touch(slot, count) for slot, count in writes(action))

@@ -10,8 +10,9 @@ once for each column (or group of columns, `integration.pattern`) of the Jacobia
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
+from desire_tui.engine.lowered.effects import role
 from desire_tui.engine.lowered.expressions import (
     Const,
     Load,
@@ -24,8 +25,23 @@ from desire_tui.engine.lowered.expressions import (
     Table2,
     Vec,
 )
-from desire_tui.engine.lowered.statements import Deriv, DerivVec, DotTerm, Guard, Set, SetDot, SetMat, SetVec
-from desire_tui.engine.passes.dead_code import draws, needed
+from desire_tui.engine.lowered.statements import (
+    DelayLine,
+    Deriv,
+    DerivVec,
+    DotTerm,
+    GetHistory,
+    Guard,
+    LearningStep,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    StoreHistory,
+    Terminate,
+    UpdateTrackHold,
+)
+from desire_tui.engine.passes.dead_code import needed
 from desire_tui.engine.passes.derivative_rules import SLOPES, ZERO, op, plus
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.passes.tangents import NotDifferentiable, Tangents
@@ -35,7 +51,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.lowered.statements import Action
+    from desire_tui.engine.lowered.statements import Action, Assignment
 
 _NUDGE = Const(1e-6)
 """Relative distance over which a table's slope is taken: exact inside an interval, where it is linear."""
@@ -75,24 +91,29 @@ class _Differentiator:
         return made
 
     def _action(self, action: Action, made: list[Action]) -> None:
-        if isinstance(action, Deriv):
-            made.append(Deriv(action.state, self.of(action.value) or ZERO, action.where))
-        elif isinstance(action, DerivVec):
-            made.append(DerivVec(action.state, action.count, self.of(action.value) or ZERO, action.where))
-        elif isinstance(action, Guard):
-            if action.kind != "if":
+        match action:
+            case Deriv():
+                made.append(Deriv(action.state, self.of(action.value) or ZERO, action.where))
+            case DerivVec():
+                made.append(DerivVec(action.state, action.count, self.of(action.value) or ZERO, action.where))
+            case Guard():
+                if action.kind != "if":
+                    raise NotDifferentiable(action)
+                body, orelse = tuple(self.actions(action.body)), tuple(self.actions(action.orelse))
+                made.append(Guard("if", body, action.where, action.condition, orelse, action.every))
+            case Set() | SetVec() | SetMat() | SetDot():
+                if role(action) != "definition":
+                    raise NotDifferentiable(action)
+                made.extend(self._assignment(action))
+                made.append(action)
+            case (
+                StoreHistory() | GetHistory() | DelayLine() | UpdateTrackHold() | Terminate() | LearningStep()
+            ):
                 raise NotDifferentiable(action)
-            body, orelse = tuple(self.actions(action.body)), tuple(self.actions(action.orelse))
-            made.append(Guard("if", body, action.where, action.condition, orelse, action.every))
-        elif isinstance(action, Set | SetVec | SetMat | SetDot):
-            if action.persistent or draws(action):
-                raise NotDifferentiable(action)
-            made.extend(self._assignment(action))
-            made.append(action)
-        else:
-            raise NotDifferentiable(action)
+            case _:
+                assert_never(action)
 
-    def _assignment(self, action: Set | SetVec | SetMat | SetDot) -> Iterable[Action]:
+    def _assignment(self, action: Assignment) -> Iterable[Action]:
         """Tangent of an assignment, if its target depends on the states at all."""
         slot = self._tangents.slot(action.slot)
         if slot is None:

@@ -10,23 +10,12 @@ out one pass too late: it is `early`, belongs to the STEP pass and is not comput
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
-from desire_tui.engine.lowered.effects import reads, writes
-from desire_tui.engine.lowered.statements import (
-    DelayLine,
-    Deriv,
-    DerivVec,
-    GetHistory,
-    Guard,
-    Set,
-    SetDot,
-    SetMat,
-    SetVec,
-    StoreHistory,
-    Terminate,
-)
-from desire_tui.engine.passes.dead_code import SlotSet, draws, with_bodies
+from desire_tui.engine.lowered.effects import reads, role, timing, writes
+from desire_tui.engine.lowered.statements import Guard, Terminate
+from desire_tui.engine.lowered.walk import simple_actions, walk_actions, with_bodies
+from desire_tui.engine.passes.dead_code import SlotSet
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -38,15 +27,7 @@ Actions = tuple["Action", ...]
 
 def holds_term(actions: Iterable[Action]) -> bool:
     """Whether a run of these statements may end by `term`."""
-    return any(
-        isinstance(a, Terminate) or (isinstance(a, Guard) and (holds_term(a.body) or holds_term(a.orelse)))
-        for a in actions
-    )
-
-
-def computes(action: Action) -> bool:
-    """Whether a statement only computes a defined variable from others."""
-    return isinstance(action, Set | SetVec | SetMat | SetDot) and not action.persistent and not draws(action)
+    return any(isinstance(action, Terminate) for action in walk_actions(actions))
 
 
 def early(step_pass: Actions) -> frozenset[int]:
@@ -64,8 +45,8 @@ def _collect(actions: Actions, changed: SlotSet, found: set[int]) -> None:
             _collect(action.orelse, changed, found)
             _collect(action.body, changed, found)
             if _reads_any(action, changed):
-                found.update(map(id, _leaves(action)))
-        elif computes(action):
+                found.update(map(id, simple_actions((action,))))
+        elif role(action) == "definition":
             if _reads_any(action, changed):
                 found.add(id(action))
         else:
@@ -77,33 +58,25 @@ def _reads_any(action: Action, changed: SlotSet) -> bool:
     return any(changed.touch(slot, count) for slot, count in reads(action))
 
 
-def _leaves(guard: Guard) -> Iterable[Action]:
-    for action in (*guard.body, *guard.orelse):
-        if isinstance(action, Guard):
-            yield from _leaves(action)
-        else:
-            yield action
-
-
 def tail(actions: Iterable[Action], known: frozenset[int]) -> Actions:
     """Return what the STEP pass left out of a segment's body; `known` is what it computed for the sample."""
     kept: list[Action] = []
     for action in actions:
         if isinstance(action, Guard):
-            if action.kind == "out":
-                kept.extend(_at_point(action.body))
-            elif action.kind == "step":  # OUT may stand behind it
-                kept.extend(tail(action.body, known))
-            elif action.kind == "if":
-                body, orelse = tail(action.body, known), tail(action.orelse, known)
-                if body or orelse:
-                    kept.append(with_bodies(action, body, orelse))
-        elif isinstance(action, StoreHistory | GetHistory):
-            kept.append(action)
-        elif isinstance(action, DelayLine):
-            if not action.per_step:
-                kept.append(action)
-        elif computes(action) and id(action) not in known:
+            match action.kind:
+                case "out":
+                    kept.extend(_at_point(action.body))
+                case "step":  # OUT may stand behind it
+                    kept.extend(tail(action.body, known))
+                case "if":
+                    body, orelse = tail(action.body, known), tail(action.orelse, known)
+                    if body or orelse:
+                        kept.append(with_bodies(action, body, orelse))
+                case "sample":
+                    pass
+                case _:
+                    assert_never(action.kind)
+        elif timing(action) == "point" or (role(action) == "definition" and id(action) not in known):
             kept.append(action)
     return tuple(kept)
 
@@ -113,15 +86,17 @@ def _at_point(actions: Iterable[Action]) -> Actions:
     kept: list[Action] = []
     for action in actions:
         if isinstance(action, Guard):
-            if action.kind == "out":
-                kept.extend(_at_point(action.body))
-            elif action.kind == "if":
-                body, orelse = _at_point(action.body), _at_point(action.orelse)
-                if body or orelse:
-                    kept.append(with_bodies(action, body, orelse))
-        elif isinstance(action, DelayLine):
-            if not action.per_step:
-                kept.append(action)
-        elif not isinstance(action, Deriv | DerivVec | Terminate):
+            match action.kind:
+                case "out":
+                    kept.extend(_at_point(action.body))
+                case "if":
+                    body, orelse = _at_point(action.body), _at_point(action.orelse)
+                    if body or orelse:
+                        kept.append(with_bodies(action, body, orelse))
+                case "step" | "sample":
+                    pass
+                case _:
+                    assert_never(action.kind)
+        elif timing(action) != "step" and role(action) != "derivative":
             kept.append(action)
     return tuple(kept)

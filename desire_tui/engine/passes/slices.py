@@ -6,20 +6,13 @@ left out (`dead_code`). `Guard` remains for `if` and `sample` only; `out` and `s
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
-from desire_tui.engine.lowered.statements import (
-    DelayLine,
-    Deriv,
-    DerivVec,
-    GetHistory,
-    Guard,
-    Set,
-    StoreHistory,
-    Terminate,
-)
-from desire_tui.engine.passes.dead_code import needed, with_bodies
-from desire_tui.engine.passes.final_sample import computes, early, tail
+from desire_tui.engine.lowered.effects import role, timing
+from desire_tui.engine.lowered.statements import Deriv, Guard, Set
+from desire_tui.engine.lowered.walk import simple_actions, with_bodies
+from desire_tui.engine.passes.dead_code import needed
+from desire_tui.engine.passes.final_sample import early, tail
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -55,10 +48,10 @@ def jacobian_pass(segment: Segment, stride: int) -> Actions:
     """Return the JACOBIAN segment and what it uses; J[i, k] goes to `slot` + i·stride + k."""
     given = segment.jacobian
     assert given is not None
-    pure = _pure(_resolve(segment.body, comm=False, step=False))
+    definitions = _definitions(_resolve(segment.body, comm=False, step=False))
     where = segment.states[0].where
     wanted = tuple(Deriv(number, entry.value, where) for number, entry in enumerate(given.entries))
-    helpers = needed(pure + given.body + wanted)[: -len(wanted) or None]
+    helpers = needed(definitions + given.body + wanted)[: -len(wanted) or None]
     return helpers + tuple(
         Set(given.slot + entry.row * stride + entry.column, entry.value, where) for entry in given.entries
     )
@@ -71,45 +64,37 @@ def acts_at_steps(segment: Segment) -> bool:
 
 def is_pure(actions: Actions) -> bool:
     """Whether statements only compute: nothing is remembered, drawn or ended."""
-    return all(
-        is_pure(a.body) and is_pure(a.orelse)
-        if isinstance(a, Guard)
-        else isinstance(a, Deriv | DerivVec) or computes(a)
-        for a in actions
-    )
+    return all(role(action) != "effect" for action in simple_actions(actions))
 
 
-def _pure(actions: Actions) -> Actions:
+def _definitions(actions: Actions) -> Actions:
     kept: list[Action] = []
     for action in actions:
         if isinstance(action, Guard):
-            kept.append(with_bodies(action, _pure(action.body), _pure(action.orelse)))
-        elif not isinstance(action, Deriv | DerivVec) and is_pure((action,)):
+            kept.append(with_bodies(action, _definitions(action.body), _definitions(action.orelse)))
+        elif role(action) == "definition":
             kept.append(action)
     return tuple(kept)
 
 
 def _resolve(actions: Iterable[Action], *, comm: bool, step: bool) -> Actions:
+    runs = {"always": True, "point": comm, "step": step}
     kept: list[Action] = []
     for action in actions:
-        if isinstance(action, Guard):
-            if action.kind == "out":
-                if comm:
-                    kept.extend(_resolve(action.body, comm=comm, step=step))
-            elif action.kind == "step":
-                if step:
-                    kept.extend(_resolve(action.body, comm=comm, step=step))
-            elif action.kind == "if" or comm:
-                body = _resolve(action.body, comm=comm, step=step)
-                orelse = _resolve(action.orelse, comm=comm, step=step)
-                if body or orelse:
-                    kept.append(with_bodies(action, body, orelse))
-        elif isinstance(action, Terminate):
-            if step:
+        if not isinstance(action, Guard):
+            if runs[timing(action)]:
                 kept.append(action)
-        elif isinstance(action, DelayLine):
-            if step if action.per_step else comm:
-                kept.append(action)
-        elif not isinstance(action, StoreHistory | GetHistory) or comm:
-            kept.append(action)
+            continue
+        match action.kind:
+            case "out" | "step":
+                if comm if action.kind == "out" else step:
+                    kept.extend(_resolve(action.body, comm=comm, step=step))
+            case "if" | "sample":
+                if comm or action.kind == "if":
+                    body = _resolve(action.body, comm=comm, step=step)
+                    orelse = _resolve(action.orelse, comm=comm, step=step)
+                    if body or orelse:
+                        kept.append(with_bodies(action, body, orelse))
+            case _:
+                assert_never(action.kind)
     return tuple(kept)

@@ -9,12 +9,13 @@ than the truth, never smaller.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, assert_never
 
 import numpy as np
 
 from desire_tui.engine.lowered.effects import memory, reads, writes
 from desire_tui.engine.lowered.expressions import (
+    Const,
     Load,
     MatVec,
     Op,
@@ -106,21 +107,28 @@ class _Finder:
 
     def of(self, value: Value) -> Bonds:
         """Return what an expression depends on."""
-        if isinstance(value, Op):
-            count = extent(value)
-            return frozenset(b for argument in value.args for b in _spread(self.of(argument), count))
-        if isinstance(value, Load):
-            return self._read(value.slot, 1)
-        if isinstance(value, Vec):
-            return self._read(value.slot, value.count)
-        if isinstance(value, ShiftedVec):
-            return _shift(self._read(value.slot, value.count), value.by, value.count)
-        if isinstance(value, Table1):
-            return self.of(value.x)
-        if isinstance(value, Table2):
-            count = extent(value)
-            return _spread(self.of(value.x), count) | _spread(self.of(value.y), count)
-        return _spread(_block(self._read(slot, count) for slot, count in memory(value)), extent(value))
+        match value:
+            case Const():
+                return _NONE
+            case Op():
+                count = extent(value)
+                return frozenset(b for argument in value.args for b in _spread(self.of(argument), count))
+            case Load():
+                return self._read(value.slot, 1)
+            case Vec():
+                return self._read(value.slot, value.count)
+            case ShiftedVec():
+                return _shift(self._read(value.slot, value.count), value.by, value.count)
+            case Table1():
+                return self.of(value.x)
+            case Table2():
+                count = extent(value)
+                return _spread(self.of(value.x), count) | _spread(self.of(value.y), count)
+            case MatVec() | PatternRow() | Outer():
+                read = _block(self._read(slot, count) for slot, count in memory(value))
+                return _spread(read, extent(value))
+            case _:
+                assert_never(value)
 
     def _read(self, slot: int, count: int) -> Bonds:
         """Bonds of the numbers in `slot` …, whatever names they were written under."""
@@ -158,21 +166,25 @@ class _Finder:
 
 def extent(value: Value) -> int:
     """Return the number of elements of an expression."""
-    if isinstance(value, Op):
-        return max((extent(argument) for argument in value.args), default=1)
-    if isinstance(value, Vec | ShiftedVec):
-        return value.count
-    if isinstance(value, Table1):
-        return extent(value.x)
-    if isinstance(value, Table2):
-        return max(extent(value.x), extent(value.y))
-    if isinstance(value, MatVec):
-        return value.cols if value.transposed else value.rows
-    if isinstance(value, PatternRow):
-        return value.cols
-    if isinstance(value, Outer):
-        return value.u_count * value.v_count
-    return 1
+    match value:
+        case Const() | Load():
+            return 1
+        case Op():
+            return max((extent(argument) for argument in value.args), default=1)
+        case Vec() | ShiftedVec():
+            return value.count
+        case Table1():
+            return extent(value.x)
+        case Table2():
+            return max(extent(value.x), extent(value.y))
+        case MatVec():
+            return value.cols if value.transposed else value.rows
+        case PatternRow():
+            return value.cols
+        case Outer():
+            return value.u_count * value.v_count
+        case _:
+            assert_never(value)
 
 
 def _spread(bonds: Bonds, count: int) -> Bonds:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.effects import reads, writes
 from desire_tui.engine.lowered.expressions import Table1, Vec
-from desire_tui.engine.lowered.statements import Guard
+from desire_tui.engine.lowered.walk import simple_actions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -32,7 +32,7 @@ class Tangents:
     def __init__(
         self, states: Sequence[StateRange], actions: Sequence[Action], room: Callable[[int], int]
     ) -> None:
-        flat = list(_flat(actions))
+        flat = list(simple_actions(actions))
         pieces = [(s.slot, s.count) for s in states]
         for action in flat:
             pieces += reads(action)
@@ -94,15 +94,6 @@ class Tangents:
 
     def _size(self, region: int) -> int:
         return self._ends[region] - self._starts[region]
-
-
-def _flat(actions: Iterable[Action]) -> Iterable[Action]:
-    for action in actions:
-        if isinstance(action, Guard):
-            yield from _flat(action.body)
-            yield from _flat(action.orelse)
-        else:
-            yield action
 
 
 def _regions(pieces: Iterable[tuple[int, int]]) -> tuple[list[int], list[int]]:

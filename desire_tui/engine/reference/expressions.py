@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, assert_never
 
 import numpy as np
 
 from desire_tui.engine.library import func1, func2
-from desire_tui.engine.lowered.effects import operands
 from desire_tui.engine.lowered.expressions import (
     Const,
     Load,
@@ -21,6 +20,7 @@ from desire_tui.engine.lowered.expressions import (
     Table2,
     Vec,
 )
+from desire_tui.engine.lowered.walk import operands
 from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.reference.numbers import ARRAYS, scalar_function, whole_power
 from desire_tui.engine.reference.random import ElementDraws, Sequence, normal
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.expressions import ElementOperand, Value
     from desire_tui.engine.values import Values
 
     Array = NDArray[np.float64]
@@ -107,7 +107,7 @@ class ExpressionClosures:
 
         return first_time_only
 
-    def _made(self, value: Value) -> Thunk:
+    def _made(self, value: Op | Table1 | Table2 | ElementOperand) -> Thunk:
         data = self.data
         if isinstance(value, Op):
             return self._operation(value)
@@ -129,8 +129,9 @@ class ExpressionClosures:
             return lambda: outer(u, v).ravel()
         if isinstance(value, Table1):
             return self._table1(value)
-        assert isinstance(value, Table2)
-        return self._table2(value)
+        if isinstance(value, Table2):
+            return self._table2(value)
+        assert_never(value)
 
     def _operation(self, value: Op) -> Thunk:
         name = value.name
@@ -170,17 +171,21 @@ class ExpressionClosures:
         return known
 
     def _has_elements(self, value: Value) -> bool:
-        if isinstance(value, Const | Load):
-            return False
-        if isinstance(value, Op):
-            if value.name in DRAWS:
-                return self.count is not None
-            return any(self._is_array(argument) for argument in value.args)
-        if isinstance(value, Table1):
-            return self._is_array(value.x)
-        if isinstance(value, Table2):
-            return self._is_array(value.x) or self._is_array(value.y)
-        return True
+        match value:
+            case Const() | Load():
+                return False
+            case Op():
+                if value.name in DRAWS:
+                    return self.count is not None
+                return any(self._is_array(argument) for argument in value.args)
+            case Table1():
+                return self._is_array(value.x)
+            case Table2():
+                return self._is_array(value.x) or self._is_array(value.y)
+            case Vec() | ShiftedVec() | MatVec() | PatternRow() | Outer():
+                return True
+            case _:
+                assert_never(value)
 
     def _random(self, name: str) -> Thunk:
         uniform = self.sequence.uniform

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 import numpy as np
 
@@ -20,16 +20,19 @@ def learn(action: LearningStep, data: Array, rate: float, criterion: float | Non
     out = data[action.out_slot : action.out_slot + rows]
     weights = data[action.weights_slot : action.weights_slot + rows * cols].reshape(rows, cols)
     x = data[action.in_slot : action.in_slot + cols]
-    if action.kind == "PLEARN":
-        _sanger(out, weights, x, rate)
-    elif action.kind == "INTP":
-        out[:] = np.where(weights.dot(x) > rate, 1.0, 0.0)
-    else:
-        slot = action.count_slot
-        wins = None if slot is None else data[slot : slot + rows]
-        found = _compete(out, weights, x, rate, 0.0 if criterion is None else criterion, wins)
-        if action.full_slot is not None:
-            data[action.full_slot] = 0.0 if found else 1.0
+    match action.kind:
+        case "PLEARN":
+            _sanger(out, weights, x, rate)
+        case "INTP":
+            out[:] = np.where(weights.dot(x) > rate, 1.0, 0.0)
+        case "CLEARN":
+            slot = action.count_slot
+            wins = None if slot is None else data[slot : slot + rows]
+            found = _compete(out, weights, x, rate, 0.0 if criterion is None else criterion, wins)
+            if action.full_slot is not None:
+                data[action.full_slot] = 0.0 if found else 1.0
+        case _:
+            assert_never(action.kind)
 
 
 def _compete(out: Array, weights: Array, x: Array, rate: float, criterion: float, wins: Array | None) -> bool:

@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.library import LIBRARY, func1
-from desire_tui.engine.lowered.effects import operands
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
 from desire_tui.engine.lowered.statements import Deriv, Guard, Set, Terminate
+from desire_tui.engine.lowered.walk import operands
 from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.reference.numbers import power, whole_power
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, assert_never
 
 import numpy as np
 
@@ -102,6 +102,8 @@ class StatementClosures:
                 return lambda: learn(action, self.data, rate(), None if criterion is None else criterion())
             case Guard():
                 return self._guard(action)
+            case _:
+                assert_never(action)
 
     def _set(self, slot: int, value: Thunk) -> Run:
         cells = self.cells

@@ -4,15 +4,39 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.library import LIBRARY, func1
-from desire_tui.engine.lowered.effects import walk
-from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
-from desire_tui.engine.lowered.statements import DelayLine, Guard, Set
+from desire_tui.engine.lowered.expressions import (
+    Const,
+    Load,
+    MatVec,
+    Op,
+    Outer,
+    PatternRow,
+    ShiftedVec,
+    Table1,
+    Table2,
+    Vec,
+)
+from desire_tui.engine.lowered.statements import (
+    DelayLine,
+    Deriv,
+    DerivVec,
+    GetHistory,
+    Guard,
+    LearningStep,
+    Set,
+    SetDot,
+    SetMat,
+    SetVec,
+    StoreHistory,
+    Terminate,
+    UpdateTrackHold,
+)
+from desire_tui.engine.lowered.walk import simple_actions, walk_values
 from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP
-from desire_tui.engine.runtime.run_faults import actions
 from desire_tui.engine.values import DT
 
 if TYPE_CHECKING:
@@ -54,7 +78,7 @@ class Delays:
         """Return each delay line's lag by its counter. DesireError 105: buffer too short; 122: DT varies."""
         known = self._found.get(id(segment))
         if known is None or known[0] is not segment:
-            changes_dt = any(isinstance(a, Set) and a.slot == DT for a in actions(segment.body))
+            changes_dt = any(isinstance(a, Set) and a.slot == DT for a in simple_actions(segment.body))
             known = self._found[id(segment)] = (segment, tuple(_lines(segment.body, [])), changes_dt)
         _, lines, changes_dt = known
         return _lags(segment, lines, changes_dt, plan, values) if lines else {}
@@ -73,17 +97,23 @@ def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[TimedDelay]:
             case Guard():
                 yield from _lines(action.body, before.copy())
                 yield from _lines(action.orelse, before.copy())
+            case SetVec() | SetMat() | SetDot() | Deriv() | DerivVec() | StoreHistory() | GetHistory():
+                pass
+            case UpdateTrackHold() | Terminate() | LearningStep():
+                pass
+            case _:
+                assert_never(action)
 
 
 def _needed(tau: Value, before: list[Set]) -> tuple[Set, ...]:
     """Return those statements that a time depends on."""
-    slots = {node.slot for node in walk(tau) if isinstance(node, Load)}
+    slots = {node.slot for node in walk_values(tau) if isinstance(node, Load)}
     needed: list[Set] = []
     for action in reversed(before) if slots else ():
         if action.slot in slots:
             needed.append(action)
             slots.discard(action.slot)
-            slots.update(node.slot for node in walk(action.value) if isinstance(node, Load))
+            slots.update(node.slot for node in walk_values(action.value) if isinstance(node, Load))
     return tuple(reversed(needed))
 
 
@@ -126,13 +156,17 @@ def _evaluate(value: Value, values: Values, own: dict[int, float]) -> float:
             return func1(_evaluate(value.x, values, own), table)
         case Op():
             function = _OPERATIONS.get(value.name) or LIBRARY[value.name].value
-            if function is not None:  # ran() and gauss() have none: a time that is drawn is no time
-                numbers = (_evaluate(a, values, own) for a in value.args)
-                try:
-                    return float(function(*numbers))  # type: ignore[arg-type]
-                except (ArithmeticError, ValueError):
-                    return math.nan
-    return math.nan
+            if function is None:  # ran() and gauss(): a time that is drawn is no time
+                return math.nan
+            numbers = (_evaluate(a, values, own) for a in value.args)
+            try:
+                return float(function(*numbers))  # type: ignore[arg-type]
+            except (ArithmeticError, ValueError):
+                return math.nan
+        case Table2() | Vec() | ShiftedVec() | MatVec() | PatternRow() | Outer():
+            return math.nan
+        case _:
+            assert_never(value)
 
 
 def _error(key: str, segment: Segment, line: DelayLine, **facts: object) -> DesireError:

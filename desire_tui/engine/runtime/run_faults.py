@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
-from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered.statements import Assignment, Deriv, DerivVec
+from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.runtime.plan import DUMMY
 from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.lowered.statements import Action, Where
+    from desire_tui.engine.lowered.statements import Where
     from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
@@ -104,7 +104,7 @@ def _state_slot(segment: Segment, number: int) -> int:
 
 
 def _derivative(segment: Segment, number: int) -> Where | None:
-    for action in actions(segment.body):
+    for action in walk_actions(segment.body):
         match action:
             case Deriv(state=state) if state == number:
                 return action.where
@@ -115,27 +115,15 @@ def _derivative(segment: Segment, number: int) -> Where | None:
 
 def _defining(segment: Segment, slot: int) -> Where | None:
     """Return the place that gives a slot its value: an assignment, or a state's derivative."""
-    for action in actions(segment.body):
-        match action:
-            case Set(slot=first) | SetDot(slot=first) if first == slot:
-                return action.where
-            case SetVec(slot=first, count=count) if first <= slot < first + count:
-                return action.where
-            case SetMat(slot=first, rows=rows, cols=cols) if first <= slot < first + rows * cols:
-                return action.where
+    for action in walk_actions(segment.body):
+        if not isinstance(action, Assignment):
+            continue
+        if any(first <= slot < first + count for first, count in writes(action)):
+            return action.where
     for states in segment.states:
         if states.slot <= slot < states.slot + states.count:
             return _derivative(segment, states.first + slot - states.slot)
     return None
-
-
-def actions(body: tuple[Action, ...]) -> Iterator[Action]:
-    """All statements of a body, those inside guards too."""
-    for action in body:
-        yield action
-        if isinstance(action, Guard):
-            yield from actions(action.body)
-            yield from actions(action.orelse)
 
 
 def _placed(key: str, facts: dict[str, object], segment: Segment, where: Where | None) -> DesireError:

@@ -104,8 +104,8 @@ class NativeModel:
     def _is_small(self) -> bool:
         if self._segment.order > SMALL or len(self._segment.body) > SMALL:
             return False
-        scope = survey(self._passes.values())
-        return scope.only_scalars and scope.statements <= SMALL
+        usage = survey(self._passes.values())
+        return usage.only_scalars and usage.statements <= SMALL
 
     # ------------------------------------------------------------------ running
 

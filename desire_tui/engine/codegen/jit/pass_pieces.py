@@ -14,7 +14,7 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector.vectors import ArrayStatements
-from desire_tui.engine.lowered.statements import Guard
+from desire_tui.engine.lowered.walk import walk_actions
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -53,9 +53,9 @@ def cut(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]]:
 
 
 def _weight(action: Action | Rolled) -> int:
-    if isinstance(action, Guard):
-        return 1 + sum(_weight(a) for a in (*action.body, *action.orelse))
-    return _ROLLED_WEIGHT if isinstance(action, Rolled) else 1
+    if isinstance(action, Rolled):
+        return _ROLLED_WEIGHT
+    return sum(1 for _ in walk_actions((action,)))
 
 
 def write(actions: Sequence[Action | Rolled]) -> Piece:

@@ -37,10 +37,10 @@ class RegisterStorage:
         self.lanes = Lanes(text)
         self.memory = memory_fields(text)
         self.context = context_fields(text)
-        scope = survey(passes.values())
-        self._changed = sorted((scope.written | {T, DT, ERRMAX, *states}) - scope.pinned)
-        slots = scope.read | scope.written | {T, DT, ERRMAX, *states, *columns}
-        self.cells = RegisterCells(text, slots, scope.pinned)
+        usage = survey(passes.values())
+        self._changed = sorted((usage.written | {T, DT, ERRMAX, *states}) - usage.pinned)
+        slots = usage.read | usage.written | {T, DT, ERRMAX, *states, *columns}
+        self.cells = RegisterCells(text, slots, usage.pinned)
         self.statements = ScalarStatements(text, self.cells)
         for number in range(len(states)):
             text.alloca("double", f"%x0.{number}")

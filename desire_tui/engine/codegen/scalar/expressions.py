@@ -13,7 +13,7 @@ from desire_tui.engine.random_sequence import DRAWS
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.cells import Cells
     from desire_tui.engine.codegen.ir.lanes import Lanes
-    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.expressions import ElementOperand, Value
 
 
 class IrExpressions:
@@ -40,6 +40,8 @@ class IrExpressions:
         self._known.clear()
 
     def _write(self, node: Value) -> str:
+        if isinstance(node, Const):
+            return self.lanes.const(node.value)
         if isinstance(node, Op):
             if node.name in DRAWS:
                 return self.draw(node.name)
@@ -60,7 +62,7 @@ class IrExpressions:
         """Read a scalar."""
         return self.cells.load(slot)
 
-    def operand(self, node: Value) -> str:
+    def operand(self, node: ElementOperand) -> str:
         """Read the elements of a vector operand."""
         raise TypeError(f"{type(node).__name__} in a scalar expression")
 

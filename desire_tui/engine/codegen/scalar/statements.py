@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.work_memory import context_fields, memory_fields
@@ -11,9 +11,14 @@ from desire_tui.engine.codegen.scalar.expressions import ScalarExpressions
 from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
+    DerivVec,
     GetHistory,
     Guard,
+    LearningStep,
     Set,
+    SetDot,
+    SetMat,
+    SetVec,
     StoreHistory,
     Terminate,
     UpdateTrackHold,
@@ -24,7 +29,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.ir.cells import Cells
     from desire_tui.engine.codegen.ir.text import IrText
-    from desire_tui.engine.lowered.statements import Action
+    from desire_tui.engine.lowered.statements import Action, ArrayAction
 
 
 class ScalarStatements:
@@ -73,14 +78,16 @@ class ScalarStatements:
                 self._track(action)
             case Terminate():
                 self._terminate(action)
-            case _:
+            case SetVec() | SetMat() | SetDot() | DerivVec() | LearningStep():
                 self.arrays(action)
+            case _:
+                assert_never(action)
 
     def single_element(self, action: Set | Deriv) -> bool:  # noqa: ARG002 - for statements over arrays
         """Write a statement over arrays of one element; return False for an ordinary one."""
         return False
 
-    def arrays(self, action: Action) -> None:
+    def arrays(self, action: ArrayAction) -> None:
         """Write a statement over arrays."""
         raise TypeError(f"{type(action).__name__} among scalar statements")
 
@@ -104,14 +111,18 @@ class ScalarStatements:
         self.cells.forget()
 
     def _guard(self, guard: Guard) -> None:
-        if guard.kind == "if":
-            assert guard.condition is not None
-            positive = self.lanes.compare("ogt", self.scalars.value(guard.condition), self.lanes.const(0.0))
-            self.when(positive, guard.body, guard.orelse)
-        elif guard.kind == "sample":
-            self.when(self._sampled(guard.every), guard.body)
-        else:
-            self.write(guard.body)
+        match guard.kind:
+            case "if":
+                assert guard.condition is not None
+                condition = self.scalars.value(guard.condition)
+                positive = self.lanes.compare("ogt", condition, self.lanes.const(0.0))
+                self.when(positive, guard.body, guard.orelse)
+            case "sample":
+                self.when(self._sampled(guard.every), guard.body)
+            case "out" | "step":
+                self.write(guard.body)
+            case _:
+                assert_never(guard.kind)
 
     def _sampled(self, every: int) -> str:
         """Whether this point's number, through continued runs, is a multiple; a joint has had its turn."""

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.codegen.ir import random
 from desire_tui.engine.codegen.scalar.expressions import IrExpressions
-from desire_tui.engine.lowered.effects import OVER_ELEMENTS, operands, walk
-from desire_tui.engine.lowered.expressions import Const, MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
+from desire_tui.engine.lowered.expressions import (
+    Const,
+    ElementOperand,
+    MatVec,
+    Op,
+    Outer,
+    PatternRow,
+    ShiftedVec,
+    Vec,
+)
+from desire_tui.engine.lowered.walk import operands, walk_values
 from desire_tui.engine.random_sequence import DRAWS, MASK, jump
 
 if TYPE_CHECKING:
@@ -34,7 +43,7 @@ class Prepared:
 def is_invariant(node: Value) -> bool:
     """Whether a value is one number for all elements: no operand over elements, no draw."""
     return not any(
-        isinstance(n, OVER_ELEMENTS) or (isinstance(n, Op) and n.name in DRAWS) for n in walk(node)
+        isinstance(n, ElementOperand) or (isinstance(n, Op) and n.name in DRAWS) for n in walk_values(node)
     )
 
 
@@ -65,7 +74,7 @@ class StripExpressions(IrExpressions):
         """Scalars were read before the loop."""
         raise AssertionError(f"slot {slot} was not prepared")
 
-    def operand(self, node: Value) -> str:
+    def operand(self, node: ElementOperand) -> str:
         """Read the strip's elements of an operand."""
         base = self.prepared.bases[id(node)]
         strip = self.strip
@@ -78,7 +87,8 @@ class StripExpressions(IrExpressions):
                 return strip.fetch(base)
             case Outer():
                 return self._outer(node, base)
-        raise TypeError(type(node).__name__)
+            case _:
+                assert_never(node)
 
     def _outer(self, node: Outer, v_base: str) -> str:
         text, lanes, strip = self.text, self.lanes, self.strip

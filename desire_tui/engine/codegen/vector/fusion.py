@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered.effects import memory, walk
+from desire_tui.engine.lowered.effects import memory, own_reads, writes
 from desire_tui.engine.lowered.expressions import Vec
 from desire_tui.engine.lowered.statements import DerivVec, SetVec
+from desire_tui.engine.lowered.walk import walk_values
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -56,7 +57,7 @@ def _crosses(ranges: Iterable[Range], others: Iterable[Range]) -> bool:
 def value_reach(node: Value) -> Reach:
     """Return what an expression reads."""
     reach = Reach()
-    for part in walk(node):
+    for part in walk_values(node):
         ranges = reach.same if isinstance(part, Vec) else reach.other
         ranges.update((slot, slot + count) for slot, count in memory(part))
     return reach
@@ -65,10 +66,8 @@ def value_reach(node: Value) -> Reach:
 def statement_reach(action: SetVec | DerivVec) -> Reach:
     """Return what an elementwise statement reads and writes (derivatives are nobody's operand)."""
     reach = value_reach(action.value)
-    if isinstance(action, SetVec):
-        reach.writes.add((action.slot, action.slot + action.count))
-        if action.mask_slot is not None:
-            reach.same.add((action.mask_slot, action.mask_slot + action.count))
+    reach.same.update((slot, slot + count) for slot, count in own_reads(action))
+    reach.writes.update((slot, slot + count) for slot, count in writes(action))
     return reach
 
 

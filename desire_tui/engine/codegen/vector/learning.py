@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
@@ -11,36 +11,47 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.vector import products
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.vector.vectors import ArrayStatements
+    from desire_tui.engine.codegen.vector.operands import ArrayOperands
     from desire_tui.engine.lowered.statements import LearningStep
 
 _INFINITY = float("inf")
 
 
-def write_learning(statements: ArrayStatements, action: LearningStep) -> None:
+def write_learning(statements: ArrayOperands, action: LearningStep) -> None:
     """Write one learning step as a call."""
     text = statements.text
     rows, cols = action.out_count, action.in_count
     rate = statements.scalars.value(action.rate)
     out, weights, x = (statements.at(s) for s in (action.out_slot, action.weights_slot, action.in_slot))
     sizes = f"i64 {rows}, i64 {cols}, double {rate}"
-    if action.kind == "CLEARN":
-        criterion = "0.0" if action.criterion is None else statements.scalars.value(action.criterion)
-        wins = "null" if action.count_slot is None else statements.at(action.count_slot)
-        text.needs.add(_compete())
-        arrays = f"ptr {out}, ptr {weights}, ptr {x}"
-        found = text.op(f"call double @compete({arrays}, {sizes}, double {criterion}, ptr {wins})")
-        if action.full_slot is not None:
-            text.do(f"store double {found}, ptr {statements.at(action.full_slot)}")
-        return
+    match action.kind:
+        case "CLEARN":
+            criterion = "0.0" if action.criterion is None else statements.scalars.value(action.criterion)
+            wins = "null" if action.count_slot is None else statements.at(action.count_slot)
+            text.needs.add(_compete())
+            arrays = f"ptr {out}, ptr {weights}, ptr {x}"
+            found = text.op(f"call double @compete({arrays}, {sizes}, double {criterion}, ptr {wins})")
+            if action.full_slot is not None:
+                text.do(f"store double {found}, ptr {statements.at(action.full_slot)}")
+        case "INTP":
+            _write_product(statements, action, out, weights, x)
+            text.needs.add(_threshold())
+            text.do(f"call void @threshold(ptr {out}, i64 {rows}, double {rate})")
+        case "PLEARN":
+            _write_product(statements, action, out, weights, x)
+            text.needs.add(_sanger())
+            rest = statements.temp(cols)
+            text.do(f"call void @sanger(ptr {out}, ptr {weights}, ptr {x}, {sizes}, ptr {rest})")
+        case _:
+            assert_never(action.kind)
+
+
+def _write_product(statements: ArrayOperands, action: LearningStep, out: str, weights: str, x: str) -> None:
+    """Write v = W·x."""
+    text = statements.text
     text.needs.add(products.matrix_times_vector())
-    text.do(f"call void @matvec(ptr {weights}, ptr {x}, ptr {out}, i64 {rows}, i64 {cols})")
-    if action.kind == "INTP":
-        text.needs.add(_threshold())
-        text.do(f"call void @threshold(ptr {out}, i64 {rows}, double {rate})")
-        return
-    text.needs.add(_sanger())
-    text.do(f"call void @sanger(ptr {out}, ptr {weights}, ptr {x}, {sizes}, ptr {statements.temp(cols)})")
+    sizes = f"i64 {action.out_count}, i64 {action.in_count}"
+    text.do(f"call void @matvec(ptr {weights}, ptr {x}, ptr {out}, {sizes})")
 
 
 def _row(text: IrText, row: str) -> str:

@@ -9,8 +9,9 @@ from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
 from desire_tui.engine.codegen.vector.fusion import Reach, needs_copy, value_reach
 from desire_tui.engine.codegen.vector.strips import Strip
-from desire_tui.engine.lowered.effects import draws, walk
+from desire_tui.engine.lowered.effects import count_draws
 from desire_tui.engine.lowered.expressions import Outer
+from desire_tui.engine.lowered.walk import walk_values
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,7 +24,7 @@ def write_matrix(statements: ArrayOperands, action: SetMat) -> None:
     """Write `MATRIX W = …` or `DELTA W = …`."""
     count = action.rows * action.cols
     values = (action.value, action.lower, action.upper)
-    prepared = statements.prepare(count, draws(*values), *values)
+    prepared = statements.prepare(count, count_draws(*values), *values)
     reads = value_reach(action.value)
     copies = needs_copy(Reach(reads.same, reads.other, {(action.slot, action.slot + count)}))
     own = statements.at(action.slot)
@@ -48,7 +49,7 @@ def write_matrix(statements: ArrayOperands, action: SetMat) -> None:
             value = lanes.choose(free, value, strip.fetch(own))
         strip.put(target, value)
 
-    if any(isinstance(n, Outer) for n in walk(action.value)):
+    if any(isinstance(n, Outer) for n in walk_values(action.value)):
         cols = action.cols
         loop(statements.text, "0", str(action.rows), 1, lambda row: _row_strips(statements, cols, row, body))
     else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.codegen.ir.counted_loops import loop
 from desire_tui.engine.codegen.ir.lanes import Lanes
@@ -11,8 +11,8 @@ from desire_tui.engine.codegen.scalar.statements import ScalarStatements
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import Prepared, invariants, lane_states
 from desire_tui.engine.codegen.vector.strips import Strip
-from desire_tui.engine.lowered.effects import walk
-from desire_tui.engine.lowered.expressions import MatVec, Outer, PatternRow, ShiftedVec, Vec
+from desire_tui.engine.lowered.expressions import ElementOperand, MatVec, Outer, PatternRow, ShiftedVec, Vec
+from desire_tui.engine.lowered.walk import walk_values
 from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:
@@ -58,8 +58,8 @@ class ArrayOperands(ScalarStatements):
                 continue
             for part in invariants(value):
                 prepared.splats[id(part)] = self.wide.splat(self.scalars.value(part))
-            for node in walk(value):
-                if isinstance(node, Vec | ShiftedVec | MatVec | PatternRow | Outer):
+            for node in walk_values(value):
+                if isinstance(node, ElementOperand):
                     prepared.bases[id(node)] = self.base(node)
         if per_element:
             start = self.text.op("load i64, ptr %random")
@@ -71,7 +71,7 @@ class ArrayOperands(ScalarStatements):
             self.text.do(f"store i64 {after}, ptr %random")
         return prepared
 
-    def base(self, node: Vec | ShiftedVec | MatVec | PatternRow | Outer) -> str:
+    def base(self, node: ElementOperand) -> str:
         """Return the address of an operand's first element; products are computed now."""
         match node:
             case MatVec():
@@ -80,8 +80,10 @@ class ArrayOperands(ScalarStatements):
                 return self._row(node)
             case Outer():
                 return self.at(node.v_slot)
-            case _:
+            case Vec() | ShiftedVec():
                 return self.at(node.slot)
+            case _:
+                assert_never(node)
 
     def product(self, node: MatVec) -> str:
         """Write a matrix product into scratch memory."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.codegen.scalar.rerolled_loops import write_rolled
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
@@ -12,15 +12,16 @@ from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statemen
 from desire_tui.engine.codegen.vector.learning import write_learning
 from desire_tui.engine.codegen.vector.matrices import write_dot, write_matrix
 from desire_tui.engine.codegen.vector.operands import ArrayOperands
-from desire_tui.engine.lowered.effects import OVER_ELEMENTS, draws, walk
-from desire_tui.engine.lowered.expressions import ShiftedVec
+from desire_tui.engine.lowered.effects import count_draws
+from desire_tui.engine.lowered.expressions import ElementOperand, ShiftedVec
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, LearningStep, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered.walk import walk_values
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from desire_tui.engine.codegen.vector.strips import Strip
-    from desire_tui.engine.lowered.statements import Action
+    from desire_tui.engine.lowered.statements import Action, ArrayAction
 
 
 class ArrayStatements(ArrayOperands):
@@ -37,7 +38,7 @@ class ArrayStatements(ArrayOperands):
             else:
                 self.statement(group[0])
 
-    def arrays(self, action: Action) -> None:
+    def arrays(self, action: ArrayAction) -> None:
         """Write a statement that has its own loops."""
         match action:
             case SetMat():
@@ -47,13 +48,15 @@ class ArrayStatements(ArrayOperands):
             case LearningStep():
                 write_learning(self, action)
                 self.cells.forget()
+            case SetVec() | DerivVec():
+                self._fused([action])
             case _:
-                super().arrays(action)
+                assert_never(action)
         self.free_temps()
 
     def single_element(self, action: Set | Deriv) -> bool:
         """Write a statement over arrays of one element; return False for an ordinary one."""
-        if not any(isinstance(n, OVER_ELEMENTS) for n in walk(action.value)):
+        if not any(isinstance(n, ElementOperand) for n in walk_values(action.value)):
             return False
         if isinstance(action, Set):
             self._fused([SetVec(action.slot, 1, action.value, action.where)])
@@ -66,7 +69,7 @@ class ArrayStatements(ArrayOperands):
     def _fused(self, group: list[SetVec | DerivVec]) -> None:
         """Write statements of one length as one loop."""
         writers = [_Writer(self, action) for action in group]
-        shifts = [n.by for a in group for n in walk(a.value) if isinstance(n, ShiftedVec)]
+        shifts = [n.by for a in group for n in walk_values(a.value) if isinstance(n, ShiftedVec)]
         below = max((-by for by in shifts if by < 0), default=0)
         above = max((by for by in shifts if by > 0), default=0)
 
@@ -88,7 +91,7 @@ class _Writer:
         self._action = action
         self._mask = self._own = ""
         self._copy = False
-        self._prepared = statements.prepare(action.count, draws(action.value), action.value)
+        self._prepared = statements.prepare(action.count, count_draws(action.value), action.value)
         if isinstance(action, DerivVec):
             self._target = statements.text.op(f"getelementptr double, ptr %dx, i64 {action.state}")
             return
