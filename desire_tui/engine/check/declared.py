@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.left_chains import chain
 from desire_tui.engine.library import power
 from desire_tui.engine.lowering.scope import SYSTEM_SLOTS, UNKNOWN, StaticScope
-from desire_tui.engine.nodes.assignments import Assign, Bare, Dot
+from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.commands import Drun, Simple
-from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, Procedure
+from desire_tui.engine.nodes.control import GoTo, Procedure
 from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
-from desire_tui.engine.nodes.files import Input, Read
-from desire_tui.engine.nodes.segment import Delay, Derivative, FunctionTable, Get, Invoke, TrackHold
+from desire_tui.engine.nodes.names import assigned, dummies, invocation
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.declarations import Declared, DeclaredGroup
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.program import Placed, Program, SegmentText
-    from desire_tui.engine.nodes.record import Statement
+    from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.structure.structure import Structure
 
 _KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
@@ -75,9 +74,9 @@ class DeclaredNames:
     def scope_for(self, text: SegmentText) -> StaticScope:
         """Return the names that `text` may use. Results of other segments count as the script's."""
         scalars = set(self._before.get(text.label, self._seen.scalars))
-        for label, assigned in self._by_segments.items():
+        for label, names in self._by_segments.items():
             if label != text.label:
-                scalars |= assigned
+                scalars |= names
         quantities = [
             Quantity(q.name, q.slot, q.shape, q.kind, q.is_state) for q in self._seen.quantities.values()
         ]
@@ -137,18 +136,10 @@ class DeclaredNames:
 
 
 def _assigned_by(node: Statement) -> tuple[str, ...]:
-    """Names that a script statement could give a value."""
-    if isinstance(node, Assign | Dot):
-        return (node.target.name,)
-    if isinstance(node, For):
-        return (node.variable.name,)
-    if isinstance(node, Read | Input):
-        return tuple(t.name for t in node.targets)
-    if isinstance(node, CallProcedure):
-        return tuple(r.name for r in node.references if isinstance(r, Name))
+    """Names that a script statement could give a value; a PROCEDURE's dummies get theirs from calls."""
     if isinstance(node, Procedure):
-        return (*node.values, *node.references)
-    return ()
+        return dummies(node)
+    return tuple(target.name for target in assigned(node).targets)
 
 
 def _assigned_in_segments(program: Program, structure: Structure) -> dict[str | None, set[str]]:
@@ -163,23 +154,17 @@ def _assigned_in_segments(program: Program, structure: Structure) -> dict[str | 
         names = found.setdefault(segment.label, set())
         for placed in segment.body:
             names.update(_assigned_in_segment(placed.node))
-            if isinstance(placed.node, Bare | Invoke):
+            if invocation(placed.node) is not None:
                 names |= bodies
     return found
 
 
-def _assigned_in_segment(node: Statement) -> Iterable[str]:
-    """Names that a segment's statement could give a value."""
-    if isinstance(node, Assign | Dot | Derivative | FunctionTable):
-        return (node.target.name,)
-    if isinstance(node, Get | Delay):
-        return (node.variable.name,)
-    if isinstance(node, TrackHold):
-        return (node.held.name, node.tracked.name)
-    if isinstance(node, Bare | Invoke):
-        call = node if isinstance(node, Invoke) else node.value
-        return [a.name for a in getattr(call, "args", ()) if isinstance(a, Name)]
-    return ()
+def _assigned_in_segment(node: Statement) -> tuple[str, ...]:
+    """Names that a segment's statement could give a value; a submodel may assign its arguments."""
+    invoked = invocation(node)
+    if invoked is not None:
+        return tuple(argument.name for argument in invoked[1] if isinstance(argument, Name))
+    return tuple(target.name for target in assigned(node).targets)
 
 
 def _constants(script: Iterable[Placed]) -> dict[str, float]:

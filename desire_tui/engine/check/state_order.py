@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.gc_pause import undisturbed_allocation
-from desire_tui.engine.nodes.assignments import Bare
-from desire_tui.engine.nodes.expressions import Call, Name
-from desire_tui.engine.nodes.segment import Derivative, Invoke
+from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.names import invocation
+from desire_tui.engine.nodes.segment import Derivative
 from desire_tui.engine.structure.structure import structure as find_structure
 
 if TYPE_CHECKING:
@@ -32,12 +32,10 @@ def state_order(program: Program) -> tuple[str, ...]:
                 if isinstance(statement.target, Name):
                     names.setdefault(rename.get(statement.target.name, statement.target.name))
                 continue
-            if isinstance(statement, Invoke):
-                name, args = statement.name, statement.args
-            elif isinstance(statement, Bare) and isinstance(statement.value, Call):
-                name, args = statement.value.name, statement.value.args
-            else:
+            invoked = invocation(statement)
+            if invoked is None:
                 continue
+            name, args = invoked
             submodel = found.submodels.get(name)
             if submodel is None or depth > 20:
                 continue

@@ -9,43 +9,20 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import Diagnostic, closest
 from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.nodes.commands import Drun, FileCommand, Simple
-from desire_tui.engine.nodes.control import GoTo, Label, Procedure
-from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Request
+from desire_tui.engine.nodes.commands import Simple
+from desire_tui.engine.nodes.declarations import Declare
+from desire_tui.engine.nodes.display import Display
 from desire_tui.engine.nodes.expressions import Call, Element, Name
-from desire_tui.engine.nodes.files import Restore
-from desire_tui.engine.nodes.record import Node
-from desire_tui.engine.nodes.segment import (
-    Delay,
-    Derivative,
-    FunctionTable,
-    Get,
-    Invoke,
-    Learn,
-    Sample,
-    Store,
-    Term,
-    TrackHold,
-    VectorDerivative,
-)
+from desire_tui.engine.nodes.statements import SegmentOnlyStatement
+from desire_tui.engine.nodes.walk import parts_read
 from desire_tui.engine.values import SYSTEM_VARIABLES
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Collection
 
     from desire_tui.engine.nodes.program import Placed, Program
-    from desire_tui.engine.nodes.record import Statement
     from desire_tui.engine.structure.structure import Structure
 
-_NAMES_ARE_NOT_READ = (
-    Declare, Label, GoTo, Drun, Restore, FileCommand, Submodel,
-    Procedure, Display, Simple,
-)  # fmt: skip
-_SEGMENT_ONLY = (
-    Derivative, VectorDerivative, Store, Get, Delay, TrackHold,
-    FunctionTable, Term, Sample, Request, Learn, Invoke,
-)  # fmt: skip
 _SEGMENT_WORDS = frozenset({"OUT", "step", "JACOBIAN"})
 _SCRIPT_CONSTANTS = frozenset({"j", "PI"})
 
@@ -68,7 +45,7 @@ def unknown_names(
     problems: list[Diagnostic] = []
     complained: set[str] = set()
     for placed in program.script:
-        if id(placed) in in_bodies or isinstance(placed.node, _NAMES_ARE_NOT_READ + _SEGMENT_ONLY):
+        if id(placed) in in_bodies or isinstance(placed.node, Declare | Display | SegmentOnlyStatement):
             continue
         for part in parts_read(placed.node):
             name = part.name
@@ -100,7 +77,7 @@ def misplaced(program: Program, structure: Structure) -> list[Diagnostic]:
         for placed in program.script
         if id(placed) not in in_bodies
         and (
-            isinstance(placed.node, _SEGMENT_ONLY)
+            isinstance(placed.node, SegmentOnlyStatement)
             or (isinstance(placed.node, Simple) and placed.node.word in _SEGMENT_WORDS)
         )
     ]
@@ -113,31 +90,3 @@ def _problem(
     key = keys.get(part.__class__, "undefined-variable")
     facts = {"name": part.name, "close": closest(part.name, known)}
     return Diagnostic(key, placed.span(part), facts, program.source)
-
-
-def parts_read(statement: Statement) -> Iterator[Name | Element | Call]:
-    """Every name, element and call of a statement; FUNCTION bodies without their dummies.
-
-    Targets are among them, which does no harm: they are assigned.
-    """
-    dummies = statement.dummies if isinstance(statement, Function) else ()
-    rest: list[object] = [statement]
-    while rest:
-        part = rest.pop()
-        if isinstance(part, tuple):
-            rest.extend(reversed(part))
-        elif isinstance(part, Node):
-            if isinstance(part, Name | Element | Call) and part.name not in dummies:
-                yield part
-            rest.extend(getattr(part, field) for field in reversed(_parts(part.__class__)))
-
-
-_PARTS: dict[type, tuple[str, ...]] = {}
-
-
-def _parts(kind: type) -> tuple[str, ...]:
-    known = _PARTS.get(kind)
-    if known is None:
-        slots: tuple[str, ...] = getattr(kind, "__slots__", ())
-        known = _PARTS[kind] = tuple(s for s in slots if s not in {"start", "end", "name"})
-    return known

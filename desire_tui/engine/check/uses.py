@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.check.unknown import may_be_stopped, parts_read
+from desire_tui.engine.check.unknown import may_be_stopped
 from desire_tui.engine.diagnostics import Diagnostic, closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.nodes.commands import Drun
 from desire_tui.engine.nodes.control import CallProcedure
 from desire_tui.engine.nodes.declarations import Function
 from desire_tui.engine.nodes.expressions import Call
+from desire_tui.engine.nodes.walk import parts_read
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

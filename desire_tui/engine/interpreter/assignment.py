@@ -10,7 +10,6 @@ from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.expression_translation import literal
 from desire_tui.engine.interpreter.name_resolution import Reference
 from desire_tui.engine.interpreter.python_ast import at
-from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
@@ -20,13 +19,12 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.nodes.assignments import Assign
     from desire_tui.engine.nodes.expressions import Expr, Target
 
 
-def assign(site: Site) -> Operation:
+def assign(site: Site, node: Assign) -> Operation:
     """Make the operation of an assignment. A new name counts as 0 on its own right side."""
-    node = site.node
-    assert isinstance(node, Assign)
     slot, kind = site.slot_code(node.target)
     fresh = _fresh_slot(site, slot)
     if fresh is None:

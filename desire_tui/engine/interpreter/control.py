@@ -21,28 +21,22 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.statement_context import Site
 
 
-def if_then(site: Site) -> Operation:
+def if_then(site: Site, node: If) -> Operation:
     """`if C then`."""
-    node = site.node
-    assert isinstance(node, If)
     if node.condition is None:
         raise ScriptFault("if-without-then", node)
     condition = site.translator.condition(node.condition)
     return _choose(site, condition, site.next, _behind(site))
 
 
-def while_loop(site: Site) -> Operation:
+def while_loop(site: Site, node: While) -> Operation:
     """`while C`."""
-    node = site.node
-    assert isinstance(node, While)
     condition = site.translator.condition(node.condition)
     return _choose(site, condition, site.next, _behind(site))
 
 
-def until(site: Site) -> Operation:
+def until(site: Site, node: Until) -> Operation:
     """`until C`."""
-    node = site.node
-    assert isinstance(node, Until)
     again = site.partner + 1
     leave = py.when(site.translator.condition(node.condition), py.give(py.number(site.next)))
     check = py.carry_out(py.call("check"))
@@ -73,10 +67,8 @@ def _jump_back(site: Site, address: int) -> Operation:
     return operation
 
 
-def go_to(site: Site) -> Operation:
+def go_to(site: Site, node: GoTo) -> Operation:
     """`go to L`."""
-    node = site.node
-    assert isinstance(node, GoTo)
     place = site.code.text.structure.place(node.target)
     if place is None:
         raise ScriptFault("no-such-label", node, name=node.target)
@@ -84,10 +76,8 @@ def go_to(site: Site) -> Operation:
     return _jump_back(site, address) if place <= site.place else site.jump(address)
 
 
-def for_loop(site: Site) -> Operation:
+def for_loop(site: Site, node: For) -> Operation:
     """`for v = a to b step s`: bounds are evaluated once; error 48 for a loop variable that is not real."""
-    node = site.node
-    assert isinstance(node, For)
     first, last = site.real(node.first), site.real(node.last)
     by = site.real(node.by) if node.by is not None else None
     slot_of, kind = site.slot(node.variable)

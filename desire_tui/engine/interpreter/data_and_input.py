@@ -76,10 +76,8 @@ class DataList:
         return known()
 
 
-def read(site: Site) -> Operation:
+def read(site: Site, node: Read) -> Operation:
     """`read a, B, c[2]`."""
-    node = site.node
-    assert isinstance(node, Read)
     machine = site.machine
     fillers = [filler(site, target) for target in node.targets]
 
@@ -90,10 +88,8 @@ def read(site: Site) -> Operation:
     return site.then(action)
 
 
-def restore(site: Site) -> Operation:
+def restore(site: Site, node: Restore) -> Operation:
     """`restore`, `restore label`, `restore 210`; error 68."""
-    node = site.node
-    assert isinstance(node, Restore)
     data, place = site.machine.data, 0
     if node.target is not None:
         found = site.machine.structure.place(node.target)
@@ -133,10 +129,8 @@ def _array_filler(site: Site, target: Name, quantity: Quantity) -> Callable[[Cal
     return fill
 
 
-def get_input(site: Site) -> Operation:
+def get_input(site: Site, node: Input) -> Operation:
     """`input x, A` from the console, `input #n, x` from a file."""
-    node = site.node
-    assert isinstance(node, Input)
     if site.code.is_command and node.channel is None:
         raise ScriptFault("not-a-command", node, word="input")
     fillers = [filler(site, target) for target in node.targets]

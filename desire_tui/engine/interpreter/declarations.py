@@ -6,7 +6,6 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.nodes.declarations import Declare, Declared
 from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity
 
 if TYPE_CHECKING:
@@ -14,16 +13,14 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes.declarations import DeclaredGroup
+    from desire_tui.engine.nodes.declarations import Declare, Declared, DeclaredGroup
     from desire_tui.engine.nodes.record import Node
 
 _KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
 
 
-def declare(site: Site) -> Operation:
+def declare(site: Site, node: Declare) -> Operation:
     """Make the operation of a declaration. Dimensions are evaluated each time it is carried out."""
-    node = site.node
-    assert isinstance(node, Declare)
     groups = [
         (group, [[site.real(d) for d in part.dimensions] for part in group.parts]) for group in node.groups
     ]

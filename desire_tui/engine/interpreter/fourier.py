@@ -9,7 +9,6 @@ import numpy as np
 
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.interruptible import patiently
-from desire_tui.engine.nodes.commands import Fft
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.nodes.commands import Fft
 
 WORK_PER_ELEMENT = 50
 """What a transform costs, in multiplications, roughly (`patiently`)."""
@@ -25,10 +25,8 @@ _ROOM_PER_ELEMENT = 8
 """Numbers that a transform holds at a time: copies, complex input, complex output."""
 
 
-def fft(site: Site) -> Operation:
+def fft(site: Site, node: Fft) -> Operation:
     """Make the operation of an FFT statement; errors 61 (not a vector), 72 (length), 3 (overflow)."""
-    node = site.node
-    assert isinstance(node, Fft)
     count = site.whole(node.args[0])
     quantities = [site.array(arg) for arg in node.args[1:]]
     for argument, quantity in zip(node.args[1:], quantities, strict=True):

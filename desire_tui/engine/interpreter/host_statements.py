@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING, NoReturn
 from desire_tui.engine.interpreter.code_table import Finished
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.nodes.commands import Drun, FileCommand, Irule, Seed, Simple
-from desire_tui.engine.nodes.display import Display, Plot, Show
 from desire_tui.engine.nodes.expressions import Name, Text
-from desire_tui.engine.nodes.files import Connect, Disconnect
 from desire_tui.engine.random_sequence import seeded
 from desire_tui.engine.values import Kind
 
@@ -18,14 +16,14 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.host import Host
     from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.nodes.display import Display, Plot, Show
+    from desire_tui.engine.nodes.files import Connect, Disconnect
 
 RULES = frozenset(range(17)) - {6}
 
 
-def drun(site: Site) -> Operation:
+def drun(site: Site, node: Drun) -> Operation:
     """`drun L`, `drunr L`."""
-    node = site.node
-    assert isinstance(node, Drun)
 
     def action() -> None:
         site.machine.channels.flush()
@@ -55,10 +53,9 @@ def clear(site: Site) -> Operation:
     return site.then(action)
 
 
-def irule(site: Site) -> Operation:
+def irule(site: Site, node: Irule) -> Operation:
     """`irule n`, or the current rule; error 86."""
-    node, host = site.node, site.host
-    assert isinstance(node, Irule)
+    host = site.host
     if node.rule is None:
         return site.then(lambda: host.write(f"irule {host.rule}\n"))
     rule, argument = site.whole(node.rule), node.rule
@@ -72,10 +69,8 @@ def irule(site: Site) -> Operation:
     return site.then(action)
 
 
-def seed(site: Site) -> Operation:
+def seed(site: Site, node: Seed) -> Operation:
     """`SEED n`."""
-    node = site.node
-    assert isinstance(node, Seed)
     number, random = site.whole(node.value), site.values.random
 
     def action() -> None:
@@ -84,20 +79,18 @@ def seed(site: Site) -> Operation:
     return site.then(action)
 
 
-def display(site: Site) -> Operation:
+def display(site: Site, node: Display) -> Operation:
     """`display …`; `display 2` is for scripts only."""
-    node, host = site.node, site.host
-    assert isinstance(node, Display)
+    host = site.host
     if site.code.is_command and node.mode == "2":
         raise ScriptFault("not-a-command", node, word="display 2")
     args = [site.real(arg) for arg in node.args]
     return site.then(lambda: host.display(node.mode, [arg() for arg in args]))
 
 
-def plot(site: Site) -> Operation:
+def plot(site: Site, node: Plot) -> Operation:
     """`plot x, y [, c]`, `plot z [, c]`."""
-    node, host = site.node, site.host
-    assert isinstance(node, Plot)
+    host = site.host
     first, kind = site.value(node.args[0])
     is_complex = kind is Kind.COMPLEX
     rest = [site.real(arg) for arg in node.args[1:]]
@@ -113,10 +106,8 @@ def plot(site: Site) -> Operation:
     return site.then(action)
 
 
-def show(site: Site) -> Operation:
+def show(site: Site, node: Show) -> Operation:
     """`SHOW A, ncol`; error 112. Without ncol a matrix keeps its columns, a vector becomes about square."""
-    node = site.node
-    assert isinstance(node, Show)
     quantity = site.array(Name(node.name, node.start, node.end))
     square = max(1, round(quantity.size**0.5))
     usual = quantity.shape[-1] if len(quantity.shape) > 1 else square
@@ -131,20 +122,16 @@ def show(site: Site) -> Operation:
     return site.then(action)
 
 
-def connect(site: Site) -> Operation:
+def connect(site: Site, node: Connect) -> Operation:
     """`connect 'f' as input n`."""
-    node = site.node
-    assert isinstance(node, Connect)
     if not isinstance(node.file, Text):
         raise ScriptFault("file-name-missing", node.file)
     name, number, channels = node.file.value, site.whole(node.channel), site.machine.channels
     return site.then(lambda: channels.connect(name, node.mode, number()))
 
 
-def disconnect(site: Site) -> Operation:
+def disconnect(site: Site, node: Disconnect) -> Operation:
     """`disconnect n, m`."""
-    node = site.node
-    assert isinstance(node, Disconnect)
     numbers, channels = [site.whole(channel) for channel in node.channels], site.machine.channels
 
     def action() -> None:
@@ -173,10 +160,9 @@ def trace(site: Site) -> Operation:
 _IN_SCRIPTS = {"snapshot", "notebook", "help", "sh", "list", "list+", "compare", "bye"}
 
 
-def host_command(site: Site) -> Operation:
+def host_command(site: Site, node: FileCommand | Simple) -> Operation:
     """Commands about editors, files, programs; error 199 for those that a script may not give."""
-    node, host = site.node, site.host
-    assert isinstance(node, FileCommand | Simple)
+    host = site.host
     argument = node.argument if isinstance(node, FileCommand) else None
     if not site.code.is_command and node.word not in _IN_SCRIPTS:
         raise ScriptFault("command-only", node, word=node.word)

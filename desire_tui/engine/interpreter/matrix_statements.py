@@ -10,7 +10,6 @@ from desire_tui.engine.interpreter.array_expressions import ArrayExpressions, co
 from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.left_chains import chain
-from desire_tui.engine.nodes.assignments import Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.expressions import Expr, Name, Number, Transposed, Unary
 
 if TYPE_CHECKING:
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.nodes.assignments import Dot, MatrixAssign, VectorAssign
     from desire_tui.engine.values import Quantity
 
     Array = NDArray[np.float64]
@@ -26,10 +26,8 @@ TEMPORARIES = 3
 """Arrays of the target's size that a statement holds at a time."""
 
 
-def matrix(site: Site) -> Operation:
+def matrix(site: Site, node: MatrixAssign) -> Operation:
     """`MATRIX C = A * B + …`; `= 1` the identity, `= 0` all zeroes; `DELTA` adds."""
-    node = site.node
-    assert isinstance(node, MatrixAssign)
     target = site.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 2:
         raise ScriptFault("not-a-matrix", Name(node.name, node.start, node.end), name=node.name)
@@ -62,10 +60,8 @@ def matrix(site: Site) -> Operation:
     return site.then(action)
 
 
-def vector(site: Site) -> Operation:
+def vector(site: Site, node: VectorAssign) -> Operation:
     """`Vector y = A * x + b`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
-    node = site.node
-    assert isinstance(node, VectorAssign)
     target = site.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 1:
         raise ScriptFault("not-a-vector", Name(node.name, node.start, node.end), name=node.name)
@@ -96,10 +92,8 @@ def _largest_only(vector: Array) -> Array:
     return result
 
 
-def dot(site: Site) -> Operation:
+def dot(site: Site, node: Dot) -> Operation:
     """`DOT s = u*v + u*1 + u*A*v + u*A%*v`; `AVG` divides by the vectors' length."""
-    node = site.node
-    assert isinstance(node, Dot)
     terms = [_DotTerm(site, sign, term) for sign, term in _terms(node.value, 1.0)]
     store = storer(site, node.target)
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.name_resolution import Meaning, Reference
-from desire_tui.engine.nodes.control import CallProcedure
 from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.values import SCALAR_SLOTS, Kind, Quantity
 
@@ -20,16 +19,15 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation, ScriptCode
     from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.nodes.control import CallProcedure
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.structure.structure import ProcedureText
 
 Box = list[int]
 
 
-def call(site: Site) -> Operation:
+def call(site: Site, node: CallProcedure) -> Operation:
     """Make the operation of a call; errors 201 and 56."""
-    node = site.node
-    assert isinstance(node, CallProcedure)
     procedures = site.machine.structure.procedures
     found = procedures.get(node.name)
     if found is None:

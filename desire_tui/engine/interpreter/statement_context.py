@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.machine import ScriptMachine
     from desire_tui.engine.nodes.expressions import Expr, Target
     from desire_tui.engine.nodes.program import Placed
-    from desire_tui.engine.nodes.record import Node, Statement
+    from desire_tui.engine.nodes.record import Node
+    from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.values import Quantity
 
 

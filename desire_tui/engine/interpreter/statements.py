@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING, assert_never, get_args
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter import (
@@ -36,69 +36,14 @@ from desire_tui.engine.nodes.files import (
     Write,
     WriteItem,
 )
+from desire_tui.engine.nodes.statements import SegmentOnlyStatement
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from desire_tui.engine.interpreter.code_table import Operation, ScriptCode
     from desire_tui.engine.interpreter.machine import ScriptMachine
-    from desire_tui.engine.nodes.record import Statement
-
-    Maker = Callable[[Site], Operation]
-
-_MAKERS: dict[type[Statement], Maker] = {
-    Assign: assign,
-    If: control.if_then,
-    For: control.for_loop,
-    While: control.while_loop,
-    Until: control.until,
-    GoTo: control.go_to,
-    Label: control.nothing,
-    Data: control.nothing,
-    Function: control.nothing,
-    Procedure: control.leave_block,
-    Submodel: control.leave_block,
-    CallProcedure: procedures.call,
-    Declare: declare,
-    Read: data_and_input.read,
-    Restore: data_and_input.restore,
-    Input: data_and_input.get_input,
-    Write: writing.write,
-    Note: writing.note,
-    Dump: writing.dump,
-    Connect: host_statements.connect,
-    Disconnect: host_statements.disconnect,
-    Irule: host_statements.irule,
-    Seed: host_statements.seed,
-    Drun: host_statements.drun,
-    Fft: fft,
-    Display: host_statements.display,
-    Plot: host_statements.plot,
-    Show: host_statements.show,
-    MatrixAssign: matrix_statements.matrix,
-    VectorAssign: matrix_statements.vector,
-    Dot: matrix_statements.dot,
-    FileCommand: host_statements.host_command,
-}
-
-_WORDS: dict[str, Maker] = {
-    "else": control.leave_block,
-    "proceed": control.nothing,
-    "repeat": control.nothing,
-    "next": control.next_pass,
-    "end while": control.end_while,
-    "end": control.end_procedure,
-    "exit": control.exit_block,
-    "STOP": control.stop,
-    "go": host_statements.go,
-    "reset": host_statements.reset,
-    "clear": host_statements.clear,
-    "time": host_statements.time,
-    "trace": host_statements.trace,
-}
+    from desire_tui.engine.nodes.statements import Statement
 
 _COMMANDS = [
-    *_WORDS,
     *get_args(Word),
     "write",
     "drun",
@@ -109,40 +54,130 @@ _COMMANDS = [
     "keep",
     "note",
 ]
-_SEGMENT_WORDS = {"OUT", "step", "JACOBIAN", "end if", "DYNAMIC"}
-_SCRIPT_ONLY = (Label, GoTo, Procedure, Submodel, Data)
-_SCRIPT_ONLY_WORDS = {"STOP", "end"}
 
 
 def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
     """Make the operation of a statement."""
     site = Site(machine, code, place)
     node = site.node
-    if isinstance(node, Simple):
-        return _make_word(site, node)
-    if code.is_command and isinstance(node, _SCRIPT_ONLY):
-        raise ScriptFault("not-a-command", node, word=_first_word(node))
-    if isinstance(node, Bare):
-        return _bare(site, node)
-    maker = _MAKERS.get(type(node))
-    if maker is None:
+    if code.is_command:
+        _must_be_command(node)
+    match node:
+        case Assign():
+            return assign(site, node)
+        case Simple():
+            return _make_word(site, node)
+        case Bare():
+            return _bare(site, node)
+        case If():
+            return control.if_then(site, node)
+        case For():
+            return control.for_loop(site, node)
+        case While():
+            return control.while_loop(site, node)
+        case Until():
+            return control.until(site, node)
+        case GoTo():
+            return control.go_to(site, node)
+        case Label() | Data() | Function():
+            return control.nothing(site)
+        case Procedure() | Submodel():
+            return control.leave_block(site)
+        case CallProcedure():
+            return procedures.call(site, node)
+        case Declare():
+            return declare(site, node)
+        case Read():
+            return data_and_input.read(site, node)
+        case Restore():
+            return data_and_input.restore(site, node)
+        case Input():
+            return data_and_input.get_input(site, node)
+        case Write():
+            return writing.write(site, node)
+        case Note():
+            return writing.note(site, node)
+        case Dump():
+            return writing.dump(site, node)
+        case Connect():
+            return host_statements.connect(site, node)
+        case Disconnect():
+            return host_statements.disconnect(site, node)
+        case Irule():
+            return host_statements.irule(site, node)
+        case Seed():
+            return host_statements.seed(site, node)
+        case Drun():
+            return host_statements.drun(site, node)
+        case Fft():
+            return fft(site, node)
+        case Display():
+            return host_statements.display(site, node)
+        case Plot():
+            return host_statements.plot(site, node)
+        case Show():
+            return host_statements.show(site, node)
+        case MatrixAssign():
+            return matrix_statements.matrix(site, node)
+        case VectorAssign():
+            return matrix_statements.vector(site, node)
+        case Dot():
+            return matrix_statements.dot(site, node)
+        case FileCommand():
+            return host_statements.host_command(site, node)
+    if isinstance(node, SegmentOnlyStatement):
         raise ScriptFault("not-in-script", node)
-    return maker(site)
+    assert_never(node)
 
 
 def _make_word(site: Site, node: Simple) -> Operation:
-    if node.word in _SEGMENT_WORDS:
-        raise ScriptFault("not-in-script", node)
-    if site.code.is_command and node.word in _SCRIPT_ONLY_WORDS:
-        raise ScriptFault("not-a-command", node, word=node.word)
-    return _WORDS.get(node.word, host_statements.host_command)(site)
+    """Make the operation of a statement that is a word."""
+    match node.word:
+        case "else":
+            return control.leave_block(site)
+        case "proceed" | "repeat":
+            return control.nothing(site)
+        case "next":
+            return control.next_pass(site)
+        case "end while":
+            return control.end_while(site)
+        case "end":
+            return control.end_procedure(site)
+        case "exit":
+            return control.exit_block(site)
+        case "STOP":
+            return control.stop(site)
+        case "go":
+            return host_statements.go(site)
+        case "reset":
+            return host_statements.reset(site)
+        case "clear":
+            return host_statements.clear(site)
+        case "time":
+            return host_statements.time(site)
+        case "trace":
+            return host_statements.trace(site)
+        case "OUT" | "step" | "JACOBIAN" | "end if" | "DYNAMIC":
+            raise ScriptFault("not-in-script", node)
+        case "erun" | "run" | "bye" | "new" | "NEW" | "list" | "list+" | "ed" | "edit" | "reload" | "keep+":
+            return host_statements.host_command(site, node)
+    assert_never(node.word)
 
 
-def _first_word(node: Statement) -> str:
-    if isinstance(node, GoTo):
-        return "go to"
-    name = type(node).__name__
-    return name.lower() if isinstance(node, Label | Data) else name.upper()
+def _must_be_command(node: Statement) -> None:
+    """Refuse what only a script may hold."""
+    word = None
+    match node:
+        case GoTo():
+            word = "go to"
+        case Label() | Data():
+            word = type(node).__name__.lower()
+        case Procedure() | Submodel():
+            word = type(node).__name__.upper()
+        case Simple("STOP" | "end"):
+            word = node.word
+    if word is not None:
+        raise ScriptFault("not-a-command", node, word=word)
 
 
 def _bare(site: Site, node: Bare) -> Operation:

@@ -15,7 +15,6 @@ from desire_tui.engine.interpreter.number_text import (
 )
 from desire_tui.engine.interpreter.quantity_rows import value_text
 from desire_tui.engine.nodes.expressions import Name, Text
-from desire_tui.engine.nodes.files import Dump, Note, Write
 from desire_tui.engine.values import Quantity
 
 if TYPE_CHECKING:
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes.files import WriteItem
+    from desire_tui.engine.nodes.files import Dump, Note, Write, WriteItem
     from desire_tui.engine.values import Values
 
     Piece = Callable[[], Iterator[str]]
@@ -31,10 +30,8 @@ if TYPE_CHECKING:
 _SEPARATORS = {",": "\t", ";": "", "": ""}
 
 
-def write(site: Site) -> Operation:
+def write(site: Site, node: Write) -> Operation:
     """`write …`, `write #n, …`, `write ##n, …`."""
-    node = site.node
-    assert isinstance(node, Write)
     line = line_of(site, node.items, raw=node.raw)
     if node.channel is None:
         return site.then(lambda: _send(site, line, site.host.write))
@@ -60,10 +57,8 @@ def _send(site: Site, line: Piece, sink: Callable[[str], None]) -> None:
         sink("".join(pending))
 
 
-def note(site: Site) -> Operation:
+def note(site: Site, node: Note) -> Operation:
     """`note 'text'; x`: one line of the notebook."""
-    node = site.node
-    assert isinstance(node, Note)
     line = line_of(site, node.items, raw=False)
     return site.then(lambda: site.host.note("".join(line()).rstrip("\n")))
 
@@ -123,10 +118,8 @@ def _coded(site: Site, item: WriteItem) -> Piece:
     return lambda: iter((convert(number()),))
 
 
-def dump(site: Site) -> Operation:
+def dump(site: Site, node: Dump) -> Operation:
     """`dump`, `dump #n`; `dump run` shows the last run's settings and counters."""
-    node = site.node
-    assert isinstance(node, Dump)
     if node.what == "run":
         return site.then(lambda: site.host.command("dump", "run"))
     if node.channel is None:

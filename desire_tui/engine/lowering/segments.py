@@ -6,7 +6,7 @@ learning) → persistence (flow) → `lowered.Segment`. All problems of the segm
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, assert_never, get_args
 
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment, StateRange
@@ -18,16 +18,18 @@ from desire_tui.engine.lowering.lowering_context import LoweringContext
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.lowering.states import StateTable
 from desire_tui.engine.lowering.submodels import expand
-from desire_tui.engine.nodes.assignments import Assign, Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import If
 from desire_tui.engine.nodes.display import Request, Show
 from desire_tui.engine.nodes.expressions import Element, Name
+from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.nodes.segment import (
     Delay,
     Derivative,
     FunctionTable,
     Get,
+    Invoke,
     Learn,
     Sample,
     Store,
@@ -35,51 +37,22 @@ from desire_tui.engine.nodes.segment import (
     TrackHold,
     VectorDerivative,
 )
+from desire_tui.engine.nodes.statements import ScriptOnlyStatement, Statement
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.lowering.lowering_context import FunctionText
     from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.lowering.submodels import Line
-    from desire_tui.engine.nodes.expressions import Target
     from desire_tui.engine.nodes.program import SegmentText
     from desire_tui.engine.source import Source
     from desire_tui.engine.structure.structure import SubmodelText
 
-_HANDLERS: dict[type, Callable[[SegmentBuilder, Any], None]] = {
-    Assign: statements.assign,
-    Derivative: statements.derivative,
-    VectorDerivative: arrays.vector_derivative,
-    VectorAssign: arrays.vector_assign,
-    MatrixAssign: arrays.matrix_assign,
-    Dot: arrays.dot,
-    Store: statements.store,
-    Get: statements.get,
-    Delay: statements.delay,
-    TrackHold: statements.track_hold,
-    FunctionTable: statements.table,
-    Term: statements.term,
-    If: statements.condition,
-    Simple: statements.simple,
-    Sample: statements.sample,
-    Request: requests.request,
-    Show: requests.show,
-    Learn: learning.learn,
-}
-
-_SCALAR_TARGETS: dict[type, Callable[[Any], tuple[Target, ...]]] = {
-    Assign: lambda n: (n.target,),
-    Dot: lambda n: (n.target,),
-    Get: lambda n: (n.variable,),
-    Delay: lambda n: (n.variable,),
-    TrackHold: lambda n: (n.held, n.tracked),
-    FunctionTable: lambda n: (n.target,),
-    Request: lambda n: n.items if n.kind == "recover" else (),
-}
-_ARRAY_TARGETS = (VectorAssign, MatrixAssign, Store, Learn, Delay)
+_ASSIGN_NOTHING_IN_A_PASS = frozenset({Derivative, VectorDerivative, *get_args(ScriptOnlyStatement)})
+"""States change between passes, statements of the script are refused."""
 
 
 def lower_segment(
@@ -100,21 +73,15 @@ def lower_segment(
     _ready_from_start(builder, lines)
     for node, frame in lines:
         context.enter(frame)
-        handler = _HANDLERS.get(node.__class__)
-        if handler is None:
-            context.report(
-                "illegal-in-dynamic", node, word=source.text[slice(*context.span(node))].split(" ")[0]
-            )
-        else:
-            outer, place = builder.body, len(builder.body)
-            try:
-                handler(builder, node)
-            except RecursionError:
-                context.enter(frame)
-                context.report("expression-too-deep", node, limit=LEVELS_MOST)
-            if context.before:
-                outer[place:place] = context.before
-                context.before.clear()
+        outer, place = builder.body, len(builder.body)
+        try:
+            _lower_statement(builder, node)
+        except RecursionError:
+            context.enter(frame)
+            context.report("expression-too-deep", node, limit=LEVELS_MOST)
+        if context.before:
+            outer[place:place] = context.before
+            context.before.clear()
     body = builder.finish()
     jacobian = lower_jacobian(builder, jacobian_lines) if jacobian_lines else None
     context.flow.mark_persistent([(r.slot, r.count) for r in builder.states.ranges])
@@ -128,22 +95,70 @@ def lower_segment(
     return segment, context.problems
 
 
+def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
+    match node:
+        case Assign():
+            return statements.assign(builder, node)
+        case Derivative():
+            return statements.derivative(builder, node)
+        case VectorAssign():
+            return arrays.vector_assign(builder, node)
+        case VectorDerivative():
+            return arrays.vector_derivative(builder, node)
+        case MatrixAssign():
+            return arrays.matrix_assign(builder, node)
+        case Dot():
+            return arrays.dot(builder, node)
+        case Store():
+            return statements.store(builder, node)
+        case Get():
+            return statements.get(builder, node)
+        case Delay():
+            return statements.delay(builder, node)
+        case TrackHold():
+            return statements.track_hold(builder, node)
+        case FunctionTable():
+            return statements.table(builder, node)
+        case Term():
+            return statements.term(builder, node)
+        case If():
+            return statements.condition(builder, node)
+        case Simple():
+            return statements.simple(builder, node)
+        case Sample():
+            return statements.sample(builder, node)
+        case Request():
+            return requests.request(builder, node)
+        case Show():
+            return requests.show(builder, node)
+        case Learn():
+            return learning.learn(builder, node)
+    if isinstance(node, ScriptOnlyStatement | Bare | Invoke):  # calls of submodels have been expanded
+        context = builder.context
+        word = context.source.text[slice(*context.span(node))].split(" ")[0]
+        context.report("illegal-in-dynamic", node, word=word)
+        return None
+    assert_never(node)
+
+
 def _collect_targets(context: LoweringContext, lines: Sequence[Line]) -> None:
     """Note where each scalar of the segment is first assigned, and whether arrays are."""
     for node, frame in lines:
-        get_targets = _SCALAR_TARGETS.get(node.__class__)
-        if get_targets is not None:
-            context.enter(frame)
-            for target in get_targets(node):
-                if isinstance(target, Element):
-                    context.assigned_arrays = True
-                    continue
-                name = frame.rename.get(target.name, target.name)
-                if name not in context.assigned:
-                    context.assigned[name] = (context.span(node),)
-                    context.scope.scalar(name)
-        if isinstance(node, _ARRAY_TARGETS):
+        if node.__class__ in _ASSIGN_NOTHING_IN_A_PASS:
+            continue
+        found = assigned(node)
+        if found.arrays:
             context.assigned_arrays = True
+        if found.targets:
+            context.enter(frame)
+        for target in found.targets:
+            if isinstance(target, Element):
+                context.assigned_arrays = True
+                continue
+            name = frame.rename.get(target.name, target.name)
+            if name not in context.assigned:
+                context.assigned[name] = (context.span(node),)
+                context.scope.scalar(name)
 
 
 def _states(context: LoweringContext, lines: Sequence[Line]) -> StateTable:

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, ExpansionFrame
-from desire_tui.engine.nodes.assignments import Bare
-from desire_tui.engine.nodes.expressions import Call, Name
-from desire_tui.engine.nodes.segment import Invoke
+from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.names import invocation
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.program import Placed
-    from desire_tui.engine.nodes.record import Statement
+    from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.structure.structure import SubmodelText
 
 LINES_MOST = 1_000_000
@@ -32,20 +31,18 @@ def expand(
     """Return the statements with every invocation replaced by its body. Errors 201, 56, 52, 209."""
     lines: list[Line] = []
     for statement, at, _ in statements:
-        if isinstance(statement, Invoke):
-            context.frame = ExpansionFrame(at)
-            _invoke(context, statement, statement.name, statement.args, submodels, lines)
-        elif isinstance(statement, Bare) and isinstance(statement.value, Call):
-            context.frame = ExpansionFrame(at)
-            _invoke(context, statement, statement.value.name, statement.value.args, submodels, lines)
+        frame, invoked = ExpansionFrame(at), invocation(statement)
+        if invoked is None:
+            lines.append((statement, frame))
         else:
-            lines.append((statement, ExpansionFrame(at)))
+            context.frame = frame
+            _invoke(context, statement, *invoked, submodels, lines)
     return lines
 
 
 def _invoke(
     context: LoweringContext,
-    node: Invoke | Bare,
+    node: Statement,
     name: str,
     args: tuple[Expr, ...],
     submodels: Mapping[str, SubmodelText],
@@ -81,10 +78,9 @@ def _invoke(
     for statement, at, _ in submodel.body:
         inner = ExpansionFrame(at, rename, {}, invoked, calls)
         context.frame = inner
-        if isinstance(statement, Invoke):
-            _invoke(context, statement, statement.name, statement.args, submodels, lines)
-        elif isinstance(statement, Bare) and isinstance(statement.value, Call):
-            _invoke(context, statement, statement.value.name, statement.value.args, submodels, lines)
-        else:
+        inner_invocation = invocation(statement)
+        if inner_invocation is None:
             lines.append((statement, inner))
+        else:
+            _invoke(context, statement, *inner_invocation, submodels, lines)
     context.frame = frame

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.nodes.record import Statement, node
+from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr, Target
 
 
 @node
-class Assign(Statement):
+class Assign(Node):
     """`x = e`, `x[i] = e`: script assignment, defined variable, difference equation, Jacobian element."""
 
     target: Target
@@ -21,7 +21,7 @@ class Assign(Statement):
 
 
 @node
-class Bare(Statement):
+class Bare(Node):
     """An expression alone: a command prints it; in a segment `name(a, b)` invokes a submodel."""
 
     value: Expr
@@ -30,7 +30,7 @@ class Bare(Statement):
 
 
 @node
-class MatrixAssign(Statement):
+class MatrixAssign(Node):
     """`MATRIX W = [M] sum ; lower, upper`; `DELTA` adds (`delta`)."""
 
     name: str
@@ -44,7 +44,7 @@ class MatrixAssign(Statement):
 
 
 @node
-class VectorAssign(Statement):
+class VectorAssign(Node):
     """`Vector y = [m] v`, `Vector y^ = v` (`largest`), `Vectr delta x = v` (`delta`)."""
 
     name: str
@@ -57,7 +57,7 @@ class VectorAssign(Statement):
 
 
 @node
-class Dot(Statement):
+class Dot(Node):
     """`DOT s = u*v + …`; `AVG` divides by the length."""
 
     target: Target

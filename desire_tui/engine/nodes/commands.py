@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.nodes.record import Statement, node
+from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr
@@ -18,7 +18,7 @@ Word = Literal[
 
 
 @node
-class Simple(Statement):
+class Simple(Node):
     """A statement that is its keyword, aliases replaced (`zz` → `erun`, `rld` → `reload`, `quit` → `bye`)."""
 
     word: Word
@@ -27,7 +27,7 @@ class Simple(Statement):
 
 
 @node
-class FileCommand(Statement):
+class FileCommand(Node):
     """`keep 'f'`, `load 'f'`, `snapshot 'f'`, `notebook 'f'|on|off`, `help x`, `sh …`, `compare …`."""
 
     word: Literal["keep", "keep+", "load", "snapshot", "notebook", "help", "sh", "compare"]
@@ -37,7 +37,7 @@ class FileCommand(Statement):
 
 
 @node
-class Irule(Statement):
+class Irule(Node):
     """`irule n`; bare prints the current rule."""
 
     rule: Expr | None
@@ -46,7 +46,7 @@ class Irule(Statement):
 
 
 @node
-class Seed(Statement):
+class Seed(Node):
     """`SEED n`."""
 
     value: Expr
@@ -55,7 +55,7 @@ class Seed(Statement):
 
 
 @node
-class Drun(Statement):
+class Drun(Node):
     """`drun`, `drun L`, `drun *` (`star`), `drunr …` (`reset`)."""
 
     label: str | None
@@ -66,7 +66,7 @@ class Drun(Statement):
 
 
 @node
-class Fft(Statement):
+class Fft(Node):
     """`FFT F, n, x, y`."""
 
     kind: Literal["F", "I", "R", "C"]

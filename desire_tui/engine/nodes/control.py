@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.nodes.record import Statement, node
+from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Condition, Expr, Target
 
 
 @node
-class If(Statement):
+class If(Node):
     """`if C then` (script, `condition` set) or `if e` (segment, `value` set)."""
 
     condition: Condition | None
@@ -21,7 +21,7 @@ class If(Statement):
 
 
 @node
-class For(Statement):
+class For(Node):
     """`for v = a to b [step s]`."""
 
     variable: Target
@@ -33,7 +33,7 @@ class For(Statement):
 
 
 @node
-class While(Statement):
+class While(Node):
     """`while C`."""
 
     condition: Condition
@@ -42,7 +42,7 @@ class While(Statement):
 
 
 @node
-class Until(Statement):
+class Until(Node):
     """`until C`."""
 
     condition: Condition
@@ -51,7 +51,7 @@ class Until(Statement):
 
 
 @node
-class Label(Statement):
+class Label(Node):
     """`label L`: jump target in the script; starts a labelled segment after DYNAMIC."""
 
     name: str
@@ -60,7 +60,7 @@ class Label(Statement):
 
 
 @node
-class GoTo(Statement):
+class GoTo(Node):
     """`go to L`; a line number keeps its digits."""
 
     target: str
@@ -69,7 +69,7 @@ class GoTo(Statement):
 
 
 @node
-class Procedure(Statement):
+class Procedure(Node):
     """`PROCEDURE p(a, b; R1, R2)`."""
 
     name: str
@@ -80,7 +80,7 @@ class Procedure(Statement):
 
 
 @node
-class CallProcedure(Statement):
+class CallProcedure(Node):
     """`call p(e1, e2; r1, r2)`."""
 
     name: str

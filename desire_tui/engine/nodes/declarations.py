@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.nodes.record import Node, Statement, node
+from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr
@@ -31,7 +31,7 @@ class DeclaredGroup(Node):
 
 
 @node
-class Declare(Statement):
+class Declare(Node):
     """ARRAY, STATE, INTEGER or COMPLEX."""
 
     kind: Literal["ARRAY", "STATE", "INTEGER", "COMPLEX"]
@@ -41,7 +41,7 @@ class Declare(Statement):
 
 
 @node
-class Function(Statement):
+class Function(Node):
     """`FUNCTION f(a$, b$) = e`."""
 
     name: str
@@ -52,7 +52,7 @@ class Function(Statement):
 
 
 @node
-class Submodel(Statement):
+class Submodel(Node):
     """`SUBMODEL s(a$, b$)` or `MACRO`."""
 
     name: str

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.nodes.record import Statement, node
+from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr, Target
 
 
 @node
-class Display(Statement):
+class Display(Node):
     """`display 2`, `display N14`, `display W 10,20`. `mode` is `0 1 2` or the letter."""
 
     mode: Literal["0", "1", "2", "A", "B", "C", "F", "N", "Q", "R", "W", "Y"]
@@ -21,7 +21,7 @@ class Display(Statement):
 
 
 @node
-class Plot(Statement):
+class Plot(Node):
     """`plot x, y [, c]`, `plot z [, c]`."""
 
     args: tuple[Expr, ...]
@@ -30,7 +30,7 @@ class Plot(Statement):
 
 
 @node
-class Show(Statement):
+class Show(Node):
     """`SHOW A, ncol`."""
 
     name: str
@@ -40,7 +40,7 @@ class Show(Statement):
 
 
 @node
-class Request(Statement):
+class Request(Node):
     """`dispt`, `dispxy`, `DISPXY`, `type [#n,]`, `stash`, `recover`."""
 
     kind: Literal["dispt", "dispxy", "DISPXY", "type", "stash", "recover"]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.nodes.record import Node, Statement, node
+from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr, Target
 
 
 @node
-class Data(Statement):
+class Data(Node):
     """`data 1, 2*3; 4`."""
 
     items: tuple[Expr, ...]
@@ -20,7 +20,7 @@ class Data(Statement):
 
 
 @node
-class Read(Statement):
+class Read(Node):
     """`read a, B, c[2]`."""
 
     targets: tuple[Target, ...]
@@ -29,7 +29,7 @@ class Read(Statement):
 
 
 @node
-class Restore(Statement):
+class Restore(Node):
     """`restore`, `restore label`, `restore 210`."""
 
     target: str | None
@@ -38,7 +38,7 @@ class Restore(Statement):
 
 
 @node
-class Input(Statement):
+class Input(Node):
     """`input x, A` (channel None: the console) or `input #n, x`."""
 
     channel: Expr | None
@@ -62,7 +62,7 @@ class WriteItem(Node):
 
 
 @node
-class Write(Statement):
+class Write(Node):
     """`write …`, `write #n, …`, `write ##n, …` (`raw`)."""
 
     channel: Expr | None
@@ -73,7 +73,7 @@ class Write(Statement):
 
 
 @node
-class Connect(Statement):
+class Connect(Node):
     """`connect 'f' as input n`."""
 
     file: Expr
@@ -84,7 +84,7 @@ class Connect(Statement):
 
 
 @node
-class Disconnect(Statement):
+class Disconnect(Node):
     """`disconnect n, m`."""
 
     channels: tuple[Expr, ...]
@@ -93,7 +93,7 @@ class Disconnect(Statement):
 
 
 @node
-class Dump(Statement):
+class Dump(Node):
     """`dump`, `dump #n`, `dump run` [X]."""
 
     channel: Expr | None
@@ -103,7 +103,7 @@ class Dump(Statement):
 
 
 @node
-class Note(Statement):
+class Note(Node):
     """`note 'text'; x`: into the notebook, items as in `write`."""
 
     items: tuple[WriteItem, ...]

@@ -10,7 +10,8 @@ from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.nodes.record import Node, Statement
+    from desire_tui.engine.nodes.record import Node
+    from desire_tui.engine.nodes.statements import Statement
 
 
 class Placed(NamedTuple):

@@ -63,9 +63,3 @@ class Node:
     __slots__ = ()
     start: int
     end: int
-
-
-class Statement(Node):
-    """Anything that stands alone between two `|`."""
-
-    __slots__ = ()

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.nodes.record import Statement, node
+from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Call, Expr, Target
 
 
 @node
-class Derivative(Statement):
+class Derivative(Node):
     """`d/dt x = e`."""
 
     target: Target
@@ -21,7 +21,7 @@ class Derivative(Statement):
 
 
 @node
-class VectorDerivative(Statement):
+class VectorDerivative(Node):
     """`Vectr d/dt x = v`."""
 
     name: str
@@ -31,7 +31,7 @@ class VectorDerivative(Statement):
 
 
 @node
-class Store(Statement):
+class Store(Node):
     """`store X = x`."""
 
     array: str
@@ -41,7 +41,7 @@ class Store(Statement):
 
 
 @node
-class Get(Statement):
+class Get(Node):
     """`get x = X`."""
 
     variable: Target
@@ -51,7 +51,7 @@ class Get(Statement):
 
 
 @node
-class Delay(Statement):
+class Delay(Node):
     """`tdelay y = D(x, tau` (`per_step`) or `delay y = D(x, tau`."""
 
     variable: Target
@@ -64,7 +64,7 @@ class Delay(Statement):
 
 
 @node
-class TrackHold(Statement):
+class TrackHold(Node):
     """`trkhld y, y0 = p, x`."""
 
     held: Target
@@ -76,7 +76,7 @@ class TrackHold(Statement):
 
 
 @node
-class FunctionTable(Statement):
+class FunctionTable(Node):
     """The older forms `func y = F(x`, `func2 f = F(x, y; X, Y`: `call` is the func1 or func2 they mean."""
 
     target: Target
@@ -86,7 +86,7 @@ class FunctionTable(Statement):
 
 
 @node
-class Term(Statement):
+class Term(Node):
     """`term e`."""
 
     value: Expr
@@ -95,7 +95,7 @@ class Term(Statement):
 
 
 @node
-class Sample(Statement):
+class Sample(Node):
     """`SAMPLE m`."""
 
     every: Expr
@@ -104,7 +104,7 @@ class Sample(Statement):
 
 
 @node
-class Learn(Statement):
+class Learn(Node):
     """`CLEARN v = W(x) lrate, crit[#]`, `PLEARN y = W*x; lrate`, `INTP v = W*x; thresh`."""
 
     kind: Literal["CLEARN", "PLEARN", "INTP"]
@@ -119,7 +119,7 @@ class Learn(Statement):
 
 
 @node
-class Invoke(Statement):
+class Invoke(Node):
     """`invoke s(a, b)`; the form without the word is a `Bare` call."""
 
     name: str

@@ -12,18 +12,19 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import Diagnostic, closest
-from desire_tui.engine.nodes.assignments import Assign, Dot, MatrixAssign, VectorAssign
-from desire_tui.engine.nodes.control import CallProcedure
+from desire_tui.engine.nodes.assignments import Assign
+from desire_tui.engine.nodes.control import For
 from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.expressions import Element, Name, Number
-from desire_tui.engine.nodes.files import Input, Read
+from desire_tui.engine.nodes.files import Input
+from desire_tui.engine.nodes.names import assigned, declared, dummies
 from desire_tui.engine.nodes.program import Placed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from desire_tui.engine.nodes.program import Program
-    from desire_tui.engine.nodes.record import Statement
+    from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.structure.structure import Structure
 
 _FORM = re.compile(r"\s*([A-Za-z][\w$]*)\s*(?:\[\s*(\d+(?:\s*,\s*\d+)*)\s*\])?\s*", re.ASCII)
@@ -41,8 +42,8 @@ def parts(setting: str) -> tuple[str, tuple[int, ...]]:
 
 def initial(program: Program, overrides: Mapping[str, float]) -> dict[str, float]:
     """Return the scalars that have a value before the script begins: all that it does not declare."""
-    declared = {name for p in program.script if isinstance(p.node, Declare) for name in _written(p.node)}
-    return {name: value for name, value in _scalars(overrides).items() if name not in declared}
+    names = {name for p in program.script if isinstance(p.node, Declare) for name in declared(p.node)}
+    return {name: value for name, value in _scalars(overrides).items() if name not in names}
 
 
 def overridden(program: Program, structure: Structure, overrides: Mapping[str, float]) -> Program:
@@ -102,9 +103,9 @@ class _Changer:
         for submodel in structure.submodels.values():
             self._hidden.update((id(placed), every) for placed in submodel.body)
         for procedure in structure.procedures.values():
-            dummies = frozenset((*procedure.node.values, *procedure.node.references))
+            inner = frozenset(dummies(procedure.node))
             body = program.script[procedure.opens : procedure.closes + 1]
-            self._hidden.update((id(placed), dummies) for placed in body)
+            self._hidden.update((id(placed), inner) for placed in body)
 
     def statement(self, placed: Placed) -> Iterator[Placed]:
         """Yield the statements that stand in place of one."""
@@ -148,20 +149,14 @@ def _assignment(node: Statement, name: str, subscripts: tuple[int, ...], value: 
     return Assign(target, Number(value, start, end), start, end)
 
 
-def _written(node: Statement) -> Iterator[str]:
+def _written(node: Statement) -> tuple[str, ...]:
+    """Return the names that a statement could give a value; the variable of a loop must be left to it."""
     if isinstance(node, Declare):
-        for group in node.groups:
-            yield from (part.name for part in group.parts)
-            if group.whole is not None:
-                yield group.whole
-    elif isinstance(node, Assign | Dot):
-        yield node.target.name
-    elif isinstance(node, Read | Input):
-        yield from (target.name for target in node.targets)
-    elif isinstance(node, MatrixAssign | VectorAssign):
-        yield node.name
-    elif isinstance(node, CallProcedure):
-        yield from (r.name for r in node.references if isinstance(r, Name | Element))
+        return declared(node)
+    if isinstance(node, For):
+        return ()
+    found = assigned(node)
+    return (*(target.name for target in found.targets), *found.arrays)
 
 
 def _overlays(program: Program) -> dict[str, list[str]]:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from desire_tui.engine.nodes.program import Placed
-    from desire_tui.engine.nodes.record import Statement
+    from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.session.listener import Listener
     from desire_tui.engine.session.script_host import ScriptHost
     from desire_tui.engine.session.session import Session

@@ -3,27 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.diagnostics import Diagnostic
-from desire_tui.engine.nodes.assignments import Assign, Bare
-from desire_tui.engine.nodes.commands import Simple
-from desire_tui.engine.nodes.control import For, If, Label, Procedure, Until, While
-from desire_tui.engine.nodes.declarations import Function, Submodel
+from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
+from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
+from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
+from desire_tui.engine.nodes.display import Display, Plot, Show
 from desire_tui.engine.nodes.expressions import Call
-from desire_tui.engine.nodes.files import Data
+from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
+from desire_tui.engine.nodes.names import dummies
+from desire_tui.engine.nodes.statements import SegmentOnlyStatement
 from desire_tui.engine.structure.outline import ProcedureText, Structure, SubmodelText
 from desire_tui.engine.values import SYSTEM_VARIABLES
 
 if TYPE_CHECKING:
+    from desire_tui.engine.nodes.commands import Word
     from desire_tui.engine.nodes.program import Placed
-    from desire_tui.engine.nodes.record import Node
     from desire_tui.engine.source import Source
-
-CLOSERS: dict[type[Node], str] = {
-    If: "proceed", For: "next", While: "end while", Procedure: "end", Submodel: "end",
-}  # fmt: skip
-"""The word that closes a block, by the class of its opener (`repeat`, a plain word, is closed by `until`)."""
 
 
 @dataclass(slots=True)
@@ -72,47 +70,69 @@ class BlockSurvey:
             found.inside.append(self.open[-1].innermost if self.open else -1)
             if placed.number is not None:
                 found.numbers.setdefault(placed.number, place)
-            node = placed.node
-            match node:
-                case Assign():
-                    pass
-                case Bare(Call(name)) if not self._in_submodel():
-                    self.report("call-missing", placed, name=name)
-                case If():
-                    self._if(place, placed, node)
-                case For() | While():
-                    self.opens(place, CLOSERS[type(node)])
-                case Procedure() | Submodel():
-                    self._definition(place, placed, node.name)
-                case Function(name):
-                    self._not_in_definition(placed, name)
-                    self._new_name(place, placed, name)
-                    found.functions.setdefault(name, placed)
-                case Until():
-                    self.closes(place, placed, "until")
-                case Label(name):
-                    self._label(place, placed, name)
-                case Data():
-                    found.data.append(place)
-                case Simple(word):
-                    self._word(place, placed, word)
+            self._statement(place, placed)
         for block in reversed(self.open):
             self._unclosed(block)
 
-    def _word(self, place: int, placed: Placed, word: str) -> None:
-        if word == "repeat":
-            self.opens(place, "until")
-        elif word == "else":
-            self._else(place, placed)
-        elif word == "exit":
-            self._exit(place, placed)
-        elif word in ("proceed", "next", "end while", "end"):
-            self.closes(place, placed, word)
-        elif word == "end if":
-            if self._in_submodel():
-                self.closes(place, placed, "proceed")
-            else:
-                self.report("end-if-in-script", placed)
+    def _statement(self, place: int, placed: Placed) -> None:
+        """Note what a statement opens, closes or defines; segments' own statements do nothing of it."""
+        node = placed.node
+        match node:
+            case Assign() | Dot() | MatrixAssign() | VectorAssign() | Declare():
+                return None
+            case Bare():
+                if isinstance(node.value, Call) and not self._in_submodel():
+                    self.report("call-missing", placed, name=node.value.name)
+                return None
+            case If():
+                return self._if(place, placed, node)
+            case For():
+                return self.opens(place, "next")
+            case While():
+                return self.opens(place, "end while")
+            case Until():
+                return self.closes(place, placed, "until")
+            case Procedure() | Submodel():
+                return self._definition(place, placed, node)
+            case Function(name):
+                self._not_in_definition(placed, name)
+                self._new_name(place, placed, node)
+                self.found.functions.setdefault(name, placed)
+                return None
+            case Label(name):
+                return self._label(place, placed, name)
+            case Data():
+                self.found.data.append(place)
+                return None
+            case Simple(word):
+                return self._word(place, placed, word)
+            case GoTo() | CallProcedure() | Drun() | Restore():
+                return None  # where they lead is checked when all is known
+            case Read() | Input() | Write() | Connect() | Disconnect() | Dump() | Note() | FileCommand():
+                return None
+            case Irule() | Seed() | Fft() | Display() | Plot() | Show():
+                return None
+        if isinstance(node, SegmentOnlyStatement):
+            return None
+        assert_never(node)
+
+    def _word(self, place: int, placed: Placed, word: Word) -> None:
+        match word:
+            case "repeat":
+                self.opens(place, "until")
+            case "else":
+                self._else(place, placed)
+            case "exit":
+                self._exit(place, placed)
+            case "proceed" | "next" | "end while" | "end":
+                self.closes(place, placed, word)
+            case "end if":
+                if self._in_submodel():
+                    self.closes(place, placed, "proceed")
+                else:
+                    self.report("end-if-in-script", placed)
+            case _:
+                return  # commands
 
     def _in_submodel(self) -> bool:
         return any(isinstance(self.statements[block.place].node, Submodel) for block in self.open)
@@ -182,12 +202,12 @@ class BlockSurvey:
                 return
         self.report("exit-nowhere", placed)
 
-    def _definition(self, place: int, placed: Placed, name: str) -> None:
+    def _definition(self, place: int, placed: Placed, node: Procedure | Submodel) -> None:
         if self.open:
             self.report(
-                "nested-definition", placed, self.also("block-begins", self.open[-1].place), name=name
+                "nested-definition", placed, self.also("block-begins", self.open[-1].place), name=node.name
             )
-        self._new_name(place, placed, name)
+        self._new_name(place, placed, node)
         self.opens(place, "end")
 
     def _not_in_definition(self, placed: Placed, name: str) -> None:
@@ -196,14 +216,9 @@ class BlockSurvey:
             if isinstance(self.statements[block.place].node, Procedure | Submodel):
                 self.report("nested-definition", placed, self.also("block-begins", block.place), name=name)
 
-    def _new_name(self, place: int, placed: Placed, name: str) -> None:
-        node = placed.node
-        if isinstance(node, Procedure):
-            dummies = [*node.values, *node.references]
-        else:
-            assert isinstance(node, Function | Submodel)
-            dummies = list(node.dummies)
-        twice = next((d for d in dummies if dummies.count(d) > 1), None)
+    def _new_name(self, place: int, placed: Placed, node: Procedure | Function | Submodel) -> None:
+        name, own = node.name, dummies(node)
+        twice = next((dummy for dummy in own if own.count(dummy) > 1), None)
         if twice is not None:
             self.report("dummy-twice", placed, name=twice)
         if name in SYSTEM_VARIABLES or name == "PI":

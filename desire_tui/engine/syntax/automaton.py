@@ -15,7 +15,7 @@ from desire_tui.engine.syntax.lalr_tables import tables
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.nodes.record import Statement
+    from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.syntax.build import Value
 
 HEIGHT_MAX = 200

@@ -26,7 +26,7 @@ from desire_tui.engine.syntax.words import keyword_like
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from desire_tui.engine.nodes.record import Statement
+    from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
     Item = tuple[Statement | TokenFault, int]

@@ -11,9 +11,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.left_chains import OPERATORS, chain
-from desire_tui.engine.nodes.all_nodes import NODE_CLASSES
 from desire_tui.engine.nodes.expressions import Binary
-from desire_tui.engine.nodes.record import Node, Statement
+from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.syntax.automaton import derive
 from desire_tui.engine.syntax.build import NumberToken, Token
 from desire_tui.engine.syntax.literals import octal_value
@@ -22,6 +21,7 @@ from desire_tui.engine.syntax.statement_tokens import NUMBER, STRING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
     Maker = Callable[[StatementTokens], Statement]
@@ -33,7 +33,6 @@ _LETTERED = frozenset({"display", "FFT"})
 """Statements whose letter decides how many arguments they take: it is part of their shape."""
 _patterns: dict[tuple[str, ...], Statement] = {}
 _makers: dict[tuple[str, ...], Maker] = {}
-_NAMESPACE: dict[str, Any] = {**NODE_CLASSES, "octal_value": octal_value}
 
 
 def statement(chunk: StatementTokens) -> Statement:
@@ -94,9 +93,10 @@ def _filled(part: Any, chunk: StatementTokens) -> Any:
 
 def _generate(pattern: Statement) -> Maker:
     """Compile a function of a chunk that makes the pattern's nodes."""
-    body = f"lambda v, s, e: {_code(pattern)}"
+    names: dict[str, Any] = {"octal_value": octal_value}
+    body = f"lambda v, s, e: {_code(pattern, names)}"
     try:
-        make = eval(body, _NAMESPACE)  # noqa: S307 - see _code
+        make = eval(body, names)  # noqa: S307 - see _code
     except (
         SyntaxError,
         MemoryError,
@@ -106,18 +106,22 @@ def _generate(pattern: Statement) -> Maker:
     return lambda chunk: make(chunk.texts, chunk.starts, chunk.ends)
 
 
-def _code(part: Any) -> str:
-    """Write the constructor call. Only class names, token numbers and this project's literals get into it."""
+def _code(part: Any, names: dict[str, Any]) -> str:
+    """Write the constructor call. Only class names, token numbers and this project's literals get into it.
+
+    The classes that it names go into `names`.
+    """
     if isinstance(part, Node):
         record: Any = part
         values = [
             f"s[{part.start:d}]" if name == "start" else f"e[{part.end:d}]" if name == "end"
-            else _code(getattr(record, name))
+            else _code(getattr(record, name), names)
             for name in record.__slots__
         ]  # fmt: skip
+        names[type(part).__name__] = type(part)
         return f"{type(part).__name__}({', '.join(values)})"
     if isinstance(part, tuple):
-        return f"({''.join(_code(item) + ', ' for item in part)})"
+        return f"({''.join(_code(item, names) + ', ' for item in part)})"
     if isinstance(part, Token):
         return f"v[{part.number:d}]" + ("[1:-1]" if part.kind == STRING else "")
     if isinstance(part, NumberToken):

@@ -39,6 +39,7 @@ from desire_tui.engine.syntax.build.children import (
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.record import Node
+    from desire_tui.engine.nodes.statements import Statement
 
 DIMENSIONS_MAX = 10
 
@@ -46,48 +47,48 @@ DIMENSIONS_MAX = 10
 class ScriptProductions:
     """Blocks, jumps, declarations, input and output, graphs."""
 
-    def if_then(self, kids: Kids, first: int, last: int) -> Node:
+    def if_then(self, kids: Kids, first: int, last: int) -> Statement:
         return If(condition(kids[1]), None, first, last)
 
-    def if_positive(self, kids: Kids, first: int, last: int) -> Node:
+    def if_positive(self, kids: Kids, first: int, last: int) -> Statement:
         if isinstance(kids[1], CONDITIONS):
             raise Misuse("then-missing", kids[1].start, kids[1].end)
         return If(None, kids[1], first, last)
 
-    def for_(self, kids: Kids, first: int, last: int) -> Node:
+    def for_(self, kids: Kids, first: int, last: int) -> Statement:
         by = plain(kids[7]) if len(kids) > 6 else None
         return For(kids[1], plain(kids[3]), plain(kids[5]), by, first, last)
 
-    def while_(self, kids: Kids, first: int, last: int) -> Node:
+    def while_(self, kids: Kids, first: int, last: int) -> Statement:
         return While(condition(kids[1]), first, last)
 
-    def until(self, kids: Kids, first: int, last: int) -> Node:
+    def until(self, kids: Kids, first: int, last: int) -> Statement:
         return Until(condition(kids[1]), first, last)
 
-    def label(self, kids: Kids, first: int, last: int) -> Node:
+    def label(self, kids: Kids, first: int, last: int) -> Statement:
         return Label(kids[1], first, last)
 
-    def go_to(self, kids: Kids, first: int, last: int) -> Node:
+    def go_to(self, kids: Kids, first: int, last: int) -> Statement:
         return GoTo(kids[1], first, last)
 
-    def restore(self, kids: Kids, first: int, last: int) -> Node:
+    def restore(self, kids: Kids, first: int, last: int) -> Statement:
         return Restore(kids[1] if len(kids) > 1 else None, first, last)
 
-    def call_procedure(self, kids: Kids, first: int, last: int) -> Node:
+    def call_procedure(self, kids: Kids, first: int, last: int) -> Statement:
         values, references = halves(kids[3:-1])
         return CallProcedure(
             kids[1], tuple(map(plain, nodes_in(values))), tuple(map(plain, nodes_in(references))), first, last
         )
 
-    def invoke(self, kids: Kids, first: int, last: int) -> Node:
+    def invoke(self, kids: Kids, first: int, last: int) -> Statement:
         return Invoke(kids[1], tuple(map(plain, nodes_in(kids[3:-1]))), first, last)
 
-    def drun(self, kids: Kids, first: int, last: int) -> Node:
+    def drun(self, kids: Kids, first: int, last: int) -> Statement:
         star = len(kids) > 1 and kids[1].kind == "*"
         label = kids[1] if len(kids) > 1 and not star else None
         return Drun(label, kids[0].kind == "drunr", star, first, last)
 
-    def declare(self, kids: Kids, first: int, last: int) -> Node:
+    def declare(self, kids: Kids, first: int, last: int) -> Statement:
         groups = nodes_in(kids)
         for part in (part for group in groups for part in group.parts):
             if kids[0].kind == "ARRAY" and not part.dimensions:
@@ -106,62 +107,62 @@ class ScriptProductions:
             raise Misuse("dimensions-too-many", first, last, {"limit": DIMENSIONS_MAX})
         return Declared(kids[0], dimensions, first, last)
 
-    def procedure(self, kids: Kids, first: int, last: int) -> Node:
+    def procedure(self, kids: Kids, first: int, last: int) -> Statement:
         values, references = halves(kids[2:])
         return Procedure(kids[1], names_in(values), names_in(references), first, last)
 
-    def submodel(self, kids: Kids, first: int, last: int) -> Node:
+    def submodel(self, kids: Kids, first: int, last: int) -> Statement:
         return Submodel(kids[1], names_in(kids[2:]), first, last)
 
-    def function(self, kids: Kids, first: int, last: int) -> Node:
+    def function(self, kids: Kids, first: int, last: int) -> Statement:
         return Function(kids[1], names_in(kids[2:]), plain(kids[-1]), first, last)
 
-    def data(self, kids: Kids, first: int, last: int) -> Node:
+    def data(self, kids: Kids, first: int, last: int) -> Statement:
         return Data(tuple(map(plain, nodes_in(kids))), first, last)
 
-    def read(self, kids: Kids, first: int, last: int) -> Node:
+    def read(self, kids: Kids, first: int, last: int) -> Statement:
         return Read(nodes_in(kids), first, last)
 
-    def input(self, kids: Kids, first: int, last: int) -> Node:
+    def input(self, kids: Kids, first: int, last: int) -> Statement:
         channel, rest = channel_of(kids)
         return Input(channel, nodes_in(rest), first, last)
 
-    def write(self, kids: Kids, first: int, last: int) -> Node:
+    def write(self, kids: Kids, first: int, last: int) -> Statement:
         channel, rest = channel_of(kids)
         raw = channel is not None and kids[1].kind == "##"
         return Write(channel, raw, items_in(rest), first, last)
 
-    def note(self, kids: Kids, first: int, last: int) -> Node:
+    def note(self, kids: Kids, first: int, last: int) -> Statement:
         return Note(items_in(kids[1:]), first, last)
 
     def item(self, kids: Kids, first: int, last: int) -> Node:
         form: Any = kids[0].kind if len(kids) > 1 else ""
         return WriteItem(plain(kids[-1]), form, "", first, last)
 
-    def connect(self, kids: Kids, first: int, last: int) -> Node:
+    def connect(self, kids: Kids, first: int, last: int) -> Statement:
         return Connect(kids[1], kids[3].kind, plain(kids[4]), first, last)
 
-    def disconnect(self, kids: Kids, first: int, last: int) -> Node:
+    def disconnect(self, kids: Kids, first: int, last: int) -> Statement:
         return Disconnect(tuple(map(plain, nodes_in(kids))), first, last)
 
-    def dump(self, kids: Kids, first: int, last: int) -> Node:
+    def dump(self, kids: Kids, first: int, last: int) -> Statement:
         if len(kids) > 1 and kids[1].kind == "run":
             return Dump(None, "run", first, last)
         return Dump(kids[2] if len(kids) > 2 else None, "all", first, last)
 
-    def irule(self, kids: Kids, first: int, last: int) -> Node:
+    def irule(self, kids: Kids, first: int, last: int) -> Statement:
         return Irule(plain(kids[1]) if len(kids) > 1 else None, first, last)
 
-    def seed(self, kids: Kids, first: int, last: int) -> Node:
+    def seed(self, kids: Kids, first: int, last: int) -> Statement:
         return Seed(plain(kids[1]), first, last)
 
-    def fft(self, kids: Kids, first: int, last: int) -> Node:
+    def fft(self, kids: Kids, first: int, last: int) -> Statement:
         args = tuple(map(plain, nodes_in(kids)))
         if len(args) != (5 if kids[1] == "R" else 3):
             raise Misuse("fft-form", first, last)
         return Fft(kids[1], args, first, last)
 
-    def display(self, kids: Kids, first: int, last: int) -> Node:
+    def display(self, kids: Kids, first: int, last: int) -> Statement:
         mode, args = kids[1], tuple(map(plain, nodes_in(kids)))
         wanted = {"C": 1, "N": 1, "W": 2}.get(mode, 0)
         if len(args) != wanted:
@@ -173,14 +174,14 @@ class ScriptProductions:
             )
         return Display(mode, args, first, last)
 
-    def plot(self, kids: Kids, first: int, last: int) -> Node:
+    def plot(self, kids: Kids, first: int, last: int) -> Statement:
         args = tuple(map(plain, nodes_in(kids)))
         if len(args) > 3:
             raise Misuse("plot-form", first, last)
         return Plot(args, first, last)
 
-    def show(self, kids: Kids, first: int, last: int) -> Node:
+    def show(self, kids: Kids, first: int, last: int) -> Statement:
         return Show(kids[1], plain(kids[3]) if len(kids) > 3 else None, first, last)
 
-    def file_command(self, kids: Kids, first: int, last: int) -> Node:
+    def file_command(self, kids: Kids, first: int, last: int) -> Statement:
         return FileCommand(kids[0].kind, kids[1] if len(kids) > 1 else None, first, last)

@@ -24,46 +24,46 @@ from desire_tui.engine.nodes.segment import (
 from desire_tui.engine.syntax.build.children import Kids, Token, channel_of, mask_of, nodes_in, plain
 
 if TYPE_CHECKING:
-    from desire_tui.engine.nodes.record import Node
+    from desire_tui.engine.nodes.statements import Statement
 
 
 class Dynamic:
     """Vectors, matrices, derivatives, delays, requests, learning."""
 
-    def derivative(self, kids: Kids, first: int, last: int) -> Node:
+    def derivative(self, kids: Kids, first: int, last: int) -> Statement:
         return Derivative(kids[1], plain(kids[3]), first, last)
 
-    def vector_derivative(self, kids: Kids, first: int, last: int) -> Node:
+    def vector_derivative(self, kids: Kids, first: int, last: int) -> Statement:
         return VectorDerivative(kids[2], plain(kids[4]), first, last)
 
-    def vector(self, kids: Kids, first: int, last: int) -> Node:
+    def vector(self, kids: Kids, first: int, last: int) -> Statement:
         delta = kids[0].kind == "Delta" or kids[1].kind == "delta"
         largest = not delta and kids[2].kind == "^"
         at = 2 if kids[1].kind == "delta" else 1
         mask, rest = mask_of(kids[kids.index("=") + 1 :])
         return VectorAssign(kids[at], plain(rest[0]), delta, largest, mask, first, last)
 
-    def matrix(self, kids: Kids, first: int, last: int) -> Node:
+    def matrix(self, kids: Kids, first: int, last: int) -> Statement:
         mask, rest = mask_of(kids[3:])
         lower, upper = (plain(rest[2]), plain(rest[4])) if len(rest) > 1 else (None, None)
         return MatrixAssign(kids[1], plain(rest[0]), kids[0].kind == "DELTA", mask, lower, upper, first, last)
 
-    def dot(self, kids: Kids, first: int, last: int) -> Node:
+    def dot(self, kids: Kids, first: int, last: int) -> Statement:
         return Dot(kids[1], plain(kids[3]), kids[0].kind == "AVG", first, last)
 
-    def store(self, kids: Kids, first: int, last: int) -> Node:
+    def store(self, kids: Kids, first: int, last: int) -> Statement:
         return Store(kids[1], kids[3], first, last)
 
-    def get(self, kids: Kids, first: int, last: int) -> Node:
+    def get(self, kids: Kids, first: int, last: int) -> Statement:
         return Get(kids[1], kids[3], first, last)
 
-    def delay(self, kids: Kids, first: int, last: int) -> Node:
+    def delay(self, kids: Kids, first: int, last: int) -> Statement:
         return Delay(kids[1], kids[3], plain(kids[5]), plain(kids[7]), kids[0].kind == "tdelay", first, last)
 
-    def track_hold(self, kids: Kids, first: int, last: int) -> Node:
+    def track_hold(self, kids: Kids, first: int, last: int) -> Statement:
         return TrackHold(kids[1], kids[3], plain(kids[5]), plain(kids[7]), first, last)
 
-    def table(self, kids: Kids, first: int, last: int) -> Node:
+    def table(self, kids: Kids, first: int, last: int) -> Statement:
         """`func y = F(x` means func1(x; F); `func2 f = F(x, y; X, Y` means func2(x, y; F, X, Y)."""
         array: Token = kids[3]
         arguments = list(map(plain, nodes_in(kids[5:])))
@@ -74,17 +74,17 @@ class Dynamic:
             call = Call("func2", (*arguments[:2], table, *arguments[2:]), array.number, last)
         return FunctionTable(kids[1], call, first, last)
 
-    def term(self, kids: Kids, first: int, last: int) -> Node:
+    def term(self, kids: Kids, first: int, last: int) -> Statement:
         return Term(plain(kids[1]), first, last)
 
-    def sample(self, kids: Kids, first: int, last: int) -> Node:
+    def sample(self, kids: Kids, first: int, last: int) -> Statement:
         return Sample(plain(kids[1]), first, last)
 
-    def request(self, kids: Kids, first: int, last: int) -> Node:
+    def request(self, kids: Kids, first: int, last: int) -> Statement:
         channel, rest = channel_of(kids)
         return Request(kids[0].kind, channel, nodes_in(rest), first, last)
 
-    def learn(self, kids: Kids, first: int, last: int) -> Node:
+    def learn(self, kids: Kids, first: int, last: int) -> Statement:
         kind, output, weights, source = kids[0].kind, kids[1], kids[3], kids[5]
         if kind != "CLEARN":
             return Learn(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.left_chains import chain
 from desire_tui.engine.nodes.expressions import (
@@ -25,20 +25,20 @@ from desire_tui.engine.nodes.expressions import (
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.nodes.record import Node
+    from desire_tui.engine.nodes.expressions import Condition, Expr
 
 _BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "&": 2, "^": 4}
 _SIGN = 3
 _ATOM = 5
 
 
-def expression(node: Node, binds: int = 0) -> str:
+def expression(node: Expr, binds: int = 0) -> str:
     """Return an expression, in parentheses where its operator binds less tightly than `binds`."""
     text, own = _bare_expr(node)
     return f"({text})" if own < binds else text
 
 
-def _bare_expr(node: Node) -> tuple[str, int]:
+def _bare_expr(node: Expr) -> tuple[str, int]:
     match node:
         case Number(value):
             return format_number(value), _ATOM
@@ -66,7 +66,7 @@ def _bare_expr(node: Node) -> tuple[str, int]:
             return f"{expression(left, _ATOM)}^{exponent}", _BINDS["^"]
         case Binary():
             return _chain(node)
-    raise TypeError(node)
+    assert_never(node)
 
 
 def _chain(node: Binary) -> tuple[str, int]:
@@ -89,7 +89,7 @@ def _operand(sign: str, text: str) -> str:
     return f" {text}" if sign == "-" and text.startswith("-") else text
 
 
-def condition(node: Node, binds: int = 0) -> str:
+def condition(node: Condition, binds: int = 0) -> str:
     """Return a condition, in parentheses where its operator binds less tightly than `binds`."""
     match node:
         case Relation(op, left, right):
@@ -102,7 +102,7 @@ def condition(node: Node, binds: int = 0) -> str:
             own = 2 if op == "and" else 1
             text = f"{condition(left, own)} {op} {condition(right, own + 1)}"
             return f"({text})" if own < binds else text
-    raise TypeError(node)
+    assert_never(node)
 
 
 def format_number(value: float) -> str:
@@ -122,6 +122,6 @@ def quoted(text: str) -> str:
     return f'"{text}"' if "'" in text else f"'{text}'"
 
 
-def listed(items: Iterable[Node]) -> str:
+def listed(items: Iterable[Expr]) -> str:
     """Return expressions between commas."""
     return ", ".join(map(expression, items))

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from desire_tui.engine.nodes.program import Placed, Program
-    from desire_tui.engine.nodes.record import Statement
+    from desire_tui.engine.nodes.statements import Statement
 
 INDENT = "  "
 _CLOSING = frozenset({"else", "proceed", "next", "end while", "end", "end if"})
@@ -48,7 +48,7 @@ def _repeats(script: Sequence[Placed], placed: Placed) -> bool:
 
 
 def _opens(node: Statement) -> bool:
-    if isinstance(node, (If, For, While, Procedure, Submodel)):
+    if isinstance(node, If | For | While | Procedure | Submodel):
         return True
     return isinstance(node, Simple) and node.word in ("repeat", "else")
 

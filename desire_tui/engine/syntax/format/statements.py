@@ -1,15 +1,14 @@
-"""Statements as text: a writer for each class."""
+"""Statements as text."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, Plot, Request, Show
-from desire_tui.engine.nodes.expressions import Expr, Logical, Not, Relation
 from desire_tui.engine.nodes.files import (
     Connect,
     Data,
@@ -38,17 +37,108 @@ from desire_tui.engine.nodes.segment import (
 from desire_tui.engine.syntax.format.expressions import condition, expression, listed, quoted
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
-    from desire_tui.engine.nodes.record import Node
+    from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.statements import Statement
 
 
-def format_statement(node: Node) -> str:
-    """Return a statement's (or an expression's) canonical text."""
-    writer = _WRITERS.get(type(node))
-    if writer is not None:
-        return writer(node)
-    return condition(node) if isinstance(node, (Relation, Logical, Not)) else expression(node)
+def format_statement(node: Statement) -> str:
+    """Return a statement's canonical text."""
+    match node:
+        case Assign():
+            return f"{expression(node.target)} = {expression(node.value)}"
+        case Bare():
+            return expression(node.value)
+        case If():
+            return _if(node)
+        case For():
+            return _for(node)
+        case While():
+            return f"while {condition(node.condition)}"
+        case Until():
+            return f"until {condition(node.condition)}"
+        case Simple():
+            return node.word
+        case FileCommand():
+            return _file(node)
+        case Label():
+            return f"label {node.name}"
+        case GoTo():
+            return f"go to {node.target}"
+        case Procedure():
+            return f"PROCEDURE {_call(node.name, node.values, node.references)}"
+        case CallProcedure():
+            return f"call {_call(node.name, _texts(node.values), _texts(node.references))}"
+        case Submodel():
+            return f"SUBMODEL {_call(node.name, node.dummies)}"
+        case Invoke():
+            return f"invoke {_call(node.name, _texts(node.args))}"
+        case Function():
+            return f"FUNCTION {_call(node.name, node.dummies)} = {expression(node.body)}"
+        case Declare():
+            return _declare(node)
+        case Data():
+            return f"data {listed(node.items)}"
+        case Read():
+            return f"read {listed(node.targets)}"
+        case Restore():
+            return _with("restore", node.target)
+        case Input():
+            return f"input {_channel(node.channel)}{listed(node.targets)}"
+        case Write():
+            return _write(node)
+        case Connect():
+            return f"connect {expression(node.file)} as {node.mode} {expression(node.channel)}"
+        case Disconnect():
+            return f"disconnect {listed(node.channels)}"
+        case Dump():
+            return _dump(node)
+        case Note():
+            return _with("note", _items(node.items))
+        case Irule():
+            return _with("irule", None if node.rule is None else expression(node.rule))
+        case Seed():
+            return f"SEED {expression(node.value)}"
+        case Drun():
+            return _drun(node)
+        case Fft():
+            return f"FFT {node.kind}, {listed(node.args)}"
+        case Display():
+            return _display(node)
+        case Plot():
+            return f"plot {listed(node.args)}"
+        case Show():
+            return f"SHOW {node.name}" + (f", {expression(node.columns)}" if node.columns is not None else "")
+        case MatrixAssign():
+            return _matrix(node)
+        case VectorAssign():
+            return _vector(node)
+        case Dot():
+            return f"{'AVG' if node.average else 'DOT'} {expression(node.target)} = {expression(node.value)}"
+        case Derivative():
+            return f"d/dt {expression(node.target)} = {expression(node.value)}"
+        case VectorDerivative():
+            return f"Vectr d/dt {node.name} = {expression(node.value)}"
+        case Store():
+            return f"store {node.array} = {expression(node.variable)}"
+        case Get():
+            return f"get {expression(node.variable)} = {node.array}"
+        case Delay():
+            return _delay(node)
+        case TrackHold():
+            return f"trkhld {listed((node.held, node.tracked))} = {listed((node.control, node.value))}"
+        case FunctionTable():
+            return _table(node)
+        case Term():
+            return f"term {expression(node.value)}"
+        case Sample():
+            return f"SAMPLE {expression(node.every)}"
+        case Request():
+            return f"{node.kind} {_channel(node.channel)}{listed(node.items)}"
+        case Learn():
+            return _learn(node)
+    assert_never(node)
 
 
 def _if(node: If) -> str:
@@ -72,7 +162,7 @@ def _call(name: str, args: Sequence[str], references: Sequence[str] = ()) -> str
     return f"{name}({', '.join(args)}{second})"
 
 
-def _texts(items: Iterable[Node]) -> list[str]:
+def _texts(items: Iterable[Expr]) -> list[str]:
     return list(map(expression, items))
 
 
@@ -93,6 +183,12 @@ def _write(node: Write) -> str:
     if channel and node.items:
         channel += ", "
     return _with("write", channel + _items(node.items))
+
+
+def _dump(node: Dump) -> str:
+    if node.what == "run":
+        return "dump run"
+    return "dump" if node.channel is None else f"dump #{expression(node.channel)}"
 
 
 def _channel(channel: Expr | None) -> str:
@@ -151,53 +247,3 @@ def _learn(node: Learn) -> str:
     mark = " #" if node.conscience else ""
     head = f"CLEARN {node.output} = {node.weights}({node.input})"
     return f"{head} {expression(node.rate)}, {expression(node.criterion)}{mark}"
-
-
-_WRITERS: dict[type[Node], Callable[..., str]] = {
-    Assign: lambda s: f"{expression(s.target)} = {expression(s.value)}",
-    Bare: lambda s: expression(s.value),
-    If: _if,
-    For: _for,
-    While: lambda s: f"while {condition(s.condition)}",
-    Until: lambda s: f"until {condition(s.condition)}",
-    Simple: lambda s: s.word,
-    FileCommand: _file,
-    Label: lambda s: f"label {s.name}",
-    GoTo: lambda s: f"go to {s.target}",
-    Procedure: lambda s: f"PROCEDURE {_call(s.name, s.values, s.references)}",
-    CallProcedure: lambda s: f"call {_call(s.name, _texts(s.values), _texts(s.references))}",
-    Submodel: lambda s: f"SUBMODEL {_call(s.name, s.dummies)}",
-    Invoke: lambda s: f"invoke {_call(s.name, _texts(s.args))}",
-    Function: lambda s: f"FUNCTION {_call(s.name, s.dummies)} = {expression(s.body)}",
-    Declare: _declare,
-    Data: lambda s: f"data {listed(s.items)}",
-    Read: lambda s: f"read {listed(s.targets)}",
-    Restore: lambda s: _with("restore", s.target),
-    Input: lambda s: f"input {_channel(s.channel)}{listed(s.targets)}",
-    Write: _write,
-    Connect: lambda s: f"connect {expression(s.file)} as {s.mode} {expression(s.channel)}",
-    Disconnect: lambda s: f"disconnect {listed(s.channels)}",
-    Dump: lambda s: _with("dump", "run" if s.what == "run" else s.channel and f"#{expression(s.channel)}"),
-    Note: lambda s: _with("note", _items(s.items)),
-    Irule: lambda s: _with("irule", s.rule and expression(s.rule)),
-    Seed: lambda s: f"SEED {expression(s.value)}",
-    Drun: _drun,
-    Fft: lambda s: f"FFT {s.kind}, {listed(s.args)}",
-    Display: _display,
-    Plot: lambda s: f"plot {listed(s.args)}",
-    Show: lambda s: f"SHOW {s.name}" + (f", {expression(s.columns)}" if s.columns is not None else ""),
-    MatrixAssign: _matrix,
-    VectorAssign: _vector,
-    Dot: lambda s: f"{'AVG' if s.average else 'DOT'} {expression(s.target)} = {expression(s.value)}",
-    Derivative: lambda s: f"d/dt {expression(s.target)} = {expression(s.value)}",
-    VectorDerivative: lambda s: f"Vectr d/dt {s.name} = {expression(s.value)}",
-    Store: lambda s: f"store {s.array} = {expression(s.variable)}",
-    Get: lambda s: f"get {expression(s.variable)} = {s.array}",
-    Delay: _delay,
-    TrackHold: lambda s: f"trkhld {listed((s.held, s.tracked))} = {listed((s.control, s.value))}",
-    FunctionTable: _table,
-    Term: lambda s: f"term {expression(s.value)}",
-    Sample: lambda s: f"SAMPLE {expression(s.every)}",
-    Request: lambda s: f"{s.kind} {_channel(s.channel)}{listed(s.items)}",
-    Learn: _learn,
-}

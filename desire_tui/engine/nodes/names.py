@@ -1,0 +1,102 @@
+"""Which names a statement gives a value or a meaning: the one place that knows it for every statement."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, assert_never
+
+from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
+from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
+from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
+from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
+from desire_tui.engine.nodes.display import Display, Plot, Request, Show
+from desire_tui.engine.nodes.expressions import Call, Element, Name
+from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
+from desire_tui.engine.nodes.segment import (
+    Delay,
+    Derivative,
+    FunctionTable,
+    Get,
+    Invoke,
+    Learn,
+    Sample,
+    Store,
+    Term,
+    TrackHold,
+    VectorDerivative,
+)
+
+if TYPE_CHECKING:
+    from desire_tui.engine.nodes.expressions import Expr, Target
+    from desire_tui.engine.nodes.statements import Statement
+
+
+class Assigned(NamedTuple):
+    """What a statement could give a value: scalars and elements, and arrays as a whole.
+
+    `read`, `input` and `call` may name whole arrays among their `targets`.
+    """
+
+    targets: tuple[Target, ...] = ()
+    arrays: tuple[str, ...] = ()
+
+
+_NOTHING = Assigned()
+
+
+def assigned(node: Statement) -> Assigned:
+    """Return what a statement could give a value. What a submodel assigns, the statements of its body do."""
+    match node:
+        case Assign(target) | Derivative(target) | Dot(target) | FunctionTable(target):
+            return Assigned((target,))
+        case VectorAssign(name) | MatrixAssign(name) | VectorDerivative(name):
+            return Assigned((), (name,))
+        case For(variable) | Get(variable):
+            return Assigned((variable,))
+        case Store(array):
+            return Assigned((), (array,))
+        case Delay(variable, buffer):
+            return Assigned((variable,), (buffer,))
+        case TrackHold(held, tracked):
+            return Assigned((held, tracked))
+        case Learn(_, output, weights):
+            return Assigned((), (output, weights))
+        case Request(kind, _, items):
+            return Assigned(items) if kind == "recover" else _NOTHING
+        case Read(targets) | Input(_, targets):
+            return Assigned(targets)
+        case CallProcedure(_, _, references):
+            return Assigned(tuple(part for part in references if isinstance(part, Name | Element)))
+        case Fft(_, args):
+            return Assigned((), tuple(part.name for part in args[1:] if isinstance(part, Name)))
+        case If() | While() | Until() | Label() | GoTo() | Simple() | Procedure():
+            return _NOTHING
+        case Declare() | Function() | Submodel() | Bare() | Invoke():
+            return _NOTHING
+        case Term() | Sample() | Show() | Plot() | Display() | Drun() | Irule() | Seed():
+            return _NOTHING
+        case Data() | Restore() | Write() | Note() | Dump() | Connect() | Disconnect() | FileCommand():
+            return _NOTHING
+    assert_never(node)
+
+
+def declared(node: Declare) -> tuple[str, ...]:
+    """Return the names that a declaration gives memory, those of wholes included."""
+    names: list[str] = []
+    for group in node.groups:
+        names += (part.name for part in group.parts)
+        if group.whole is not None:
+            names.append(group.whole)
+    return tuple(names)
+
+
+def dummies(node: Procedure | Function | Submodel) -> tuple[str, ...]:
+    """Return the names that stand for arguments in the body of a definition."""
+    return (*node.values, *node.references) if isinstance(node, Procedure) else node.dummies
+
+
+def invocation(node: Statement) -> tuple[str, tuple[Expr, ...]] | None:
+    """Return name and arguments of the submodel that a segment's statement invokes: `invoke s(a)`, `s(a)`."""
+    match node:
+        case Invoke(name, args) | Bare(Call(name, args)):
+            return name, args
+    return None
