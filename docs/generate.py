@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.commands import BY_ID
+from desire_tui.engine.integration.rules import markdown_table
 from desire_tui.help.example_catalogue import CHAPTERS, Example, examples
 from desire_tui.help.page_catalogue import topics
 from desire_tui.panes.key_names import key_names
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 DOCS = Path(__file__).parent
 EXAMPLES = DOCS.parent / "examples"
 NOTE = "<!-- made by python -m docs.generate; edit the tables it reads, not this page -->"
+
+RULES_BEGIN = "<!-- table of rules: made by python -m docs.generate from engine/integration/rules.py -->"
+RULES_END = "<!-- end of the table of rules -->"
 
 GALLERY = """\
 {count} programs, one for every system of the book and more. Open them with F11 in the app, or by name:
@@ -87,6 +91,13 @@ def desktop() -> str:
     return "\n\n".join(parts) + "\n"
 
 
+def rules() -> str:
+    """Return the page about integration rules, with the present table of rules; the rest is written there."""
+    before, _, rest = (DOCS / "rules.md").read_text(encoding="utf-8").partition(RULES_BEGIN)
+    _, _, after = rest.partition(RULES_END)
+    return f"{before}{RULES_BEGIN}\n{markdown_table()}\n{RULES_END}{after}"
+
+
 def gallery() -> str:
     """Every example with what it shows, and pictures of some."""
     every = examples(EXAMPLES)
@@ -117,6 +128,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "functions.md": functions,
     "errors.md": errors,
     "desktop.md": desktop,
+    "rules.md": rules,
     "examples.md": gallery,
     "coverage.md": coverage,
 }

@@ -110,8 +110,19 @@ def _written() -> list[Topic]:
     """Read the pages of `pages/*.toml`."""
     pages = []
     for name in ("script", "runs", "dynamic", "vectors", "display", "files", "commands", "desktop"):
-        pages += [_page(entry) for entry in tomllib.loads(_text_of(name))["page"]]
+        pages += [_page(entry) for entry in tomllib.loads(_with_rules(_text_of(name)))["page"]]
     return pages
+
+
+def _with_rules(text: str) -> str:
+    """Fill in what pages say about integration rules, from the table of rules."""
+    from desire_tui.engine.integration.rules import RULES, in_words, markdown_table, rules_of
+
+    text = text.replace("{table of rules}", markdown_table())
+    for kind in ("variable", "multistep"):
+        text = text.replace(f"{{{kind} rules}}", in_words(rules_of(kind)).replace(" … ", "–"))
+    numbers = [rule.number for rule in RULES.values() if rule.reads_jacobian]
+    return text.replace("{rules with a JACOBIAN}", " and ".join(map(str, numbers)))
 
 
 def _text_of(name: str) -> str:

@@ -5,6 +5,7 @@ import pytest
 
 from desire_tui.engine.codegen.jit.backend import NativeBackend
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.integration.rules import rules_of
 from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.source import Source
@@ -13,7 +14,7 @@ from desire_tui.engine.values import ERRMAX, T, Values
 from tests.codegen.conftest import advance_to_end, improve, memory_for, run
 
 LORENZ = "DYNAMIC\nd/dt x = a*(y - x)\nd/dt y = x*(r - z) - y\nd/dt z = x*y - b*z\nn = x + y\ndispt x, n, z\n"
-RULES = [1, 2, 3, 4, 5, 7, 8]
+RULES = rules_of("fixed", "variable")
 
 
 def made_of(text, rule, storage="quick", backend=None, **numbers):

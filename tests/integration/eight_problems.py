@@ -14,12 +14,13 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.integration.tableaus import TABLEAUS
+from desire_tui.engine.integration.rules import RULES as ALL_RULES
+from desire_tui.engine.integration.rules import rules_of
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
-EXPLICIT, VARIABLE, STIFF = (1, 2, 3, 5), (4, 7, 8), tuple(range(9, 17))
+EXPLICIT, VARIABLE, STIFF = rules_of("fixed"), rules_of("variable"), rules_of("multistep")
 RULES = (*EXPLICIT, *VARIABLE, *STIFF)
 
 
@@ -77,7 +78,7 @@ LIMITS = {1: 0.05, 2: 1e-3, 4: 1e-4}
 
 def limit(rule: int) -> float:
     """The error that a rule must not exceed."""
-    return LIMITS[TABLEAUS[rule].order] if rule in EXPLICIT else 10 * ERMAX
+    return LIMITS[ALL_RULES[rule].order] if rule in EXPLICIT else 10 * ERMAX
 
 
 def solve(problem: Problem, rule: int, ermax: float, backend: str = "native") -> Outcome:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.integration.rules import rules_of
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
-RULES = range(9, 17)
+RULES = rules_of("multistep")
 
 
 class Silent(Listener):

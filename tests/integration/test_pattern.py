@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from desire_tui.engine.integration.pattern import Pattern
-from desire_tui.engine.integration.plan import kind_of, plan
+from desire_tui.engine.integration.plan import plan
 from desire_tui.engine.integration.problem import Matrix
+from desire_tui.engine.integration.rules import RULES
 
 
 @st.composite
@@ -96,7 +97,7 @@ def test_two_fields_side_by_side_get_a_sparse_matrix():
      (15, "differences", "dense"), (16, "diagonal", "diagonal")],
 )  # fmt: skip
 def test_each_rule_has_its_way(rule, kind, linear):
-    assert kind_of(rule) == kind
+    assert RULES[rule].corrector == kind
     assert plan(rule, Pattern.full(3)).linear.kind == linear
 
 

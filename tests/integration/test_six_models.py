@@ -11,10 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from desire_tui.engine.integration.rules import rules_of
 from tests.integration.stiff_programs import run
 
 FOLDER = Path(__file__).parent / "six_models"
-RULES = (4, 7, 8, *range(9, 17))
+RULES = rules_of("variable", "multistep")
 ENDS = {
     "oregonator": {"x": 1.002489016, "y": 402.7724109, "z": 26144.94766},
     "clipper": {"v": -0.2078646756, "qr": 0.738696381},

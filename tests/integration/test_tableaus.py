@@ -8,6 +8,7 @@ from math import log2
 import numpy as np
 import pytest
 
+from desire_tui.engine.integration.rules import RULES as RULES_TABLE
 from desire_tui.engine.integration.tableaus import TABLEAUS
 
 RULES = sorted(TABLEAUS)
@@ -29,14 +30,14 @@ def step(rule, f, t, x, dt):
 def test_the_rules_are_the_explicit_ones():
     assert RULES == [1, 2, 3, 4, 5, 7, 8]
     assert [r for r in RULES if TABLEAUS[r].variable] == [4, 7, 8]
-    assert [r for r in RULES if not TABLEAUS[r].dt_may_change] == [1]
+    assert [r for r in RULES if not TABLEAUS[r].rule.dt_may_change] == [1]
 
 
 @pytest.mark.parametrize("rule", RULES)
 def test_rows_are_consistent(rule):
     row = TABLEAUS[rule]
-    assert row.rule == rule
-    assert row.stages == len(row.c) == len(row.a) == len(row.b)
+    assert row.rule is RULES_TABLE[rule]
+    assert row.stages == row.rule.stages == len(row.c) == len(row.a) == len(row.b)
     assert [len(a) for a in row.a] == list(range(row.stages))
     assert [sum(a, start=Fraction(0)) for a in row.a] == list(row.c)
     assert sum(row.b) == 1
@@ -67,7 +68,7 @@ def test_order_conditions(rule):
     met = 1
     while met + 1 in conditions and all(got == want for got, want in conditions[met + 1]):
         met += 1
-    assert met == row.order
+    assert met == row.rule.order
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -79,7 +80,7 @@ def test_observed_order(rule):
         for i in range(steps):
             x, _ = step(rule, lambda t, x: -2.0 * t * x, i * dt, x, dt)
         errors.append(abs(x - np.exp(-1.0)))
-    assert log2(errors[0] / errors[1]) == pytest.approx(TABLEAUS[rule].order, abs=0.15)
+    assert log2(errors[0] / errors[1]) == pytest.approx(TABLEAUS[rule].rule.order, abs=0.15)
 
 
 def test_test_differences_by_hand():

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.integration.rules import rules_of
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.session.status import State
 from desire_tui.engine.source import Source
@@ -16,7 +17,7 @@ from tests.runtime import running
 from tests.runtime.running import Kept, failure, ran, value
 from tests.runtime.test_run_control import PATIENCE
 
-RULES = range(9, 17)
+RULES = rules_of("multistep")
 
 MODEL = """irule {rule} | ERMAX = 1E-6 | x = 1 | v = 0 | DT = 0.001 | TMAX = 20 | NN = 401
 drun

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.integration.rules import RULES
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from desire_tui.engine.graph.model import Curve
     from desire_tui.engine.runtime.run_record import RunRecord
 
-_FIXED_STEP = frozenset({1, 2, 3, 5})
 _NAMED_MOST = 3
 """So many runs that share a colour are named in one key."""
 
@@ -46,6 +47,6 @@ def _setting(records: Iterable[RunRecord]) -> Callable[[RunRecord], str]:
         return lambda run: f"rule {run.rule}"
     if len({run.error_max for run in runs}) > 1:
         return lambda run: f"ERMAX {run.error_max:.3g}"
-    if len({run.dt for run in runs}) > 1 and all(run.rule in _FIXED_STEP for run in runs):
+    if len({run.dt for run in runs}) > 1 and all(RULES[run.rule].kind == "fixed" for run in runs):
         return lambda run: f"DT {run.dt:.3g}"
     return lambda _: ""

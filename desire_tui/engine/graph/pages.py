@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.graph.model import Curve, Frame, Graph, ShownArray
 from desire_tui.engine.graph.settings import DisplaySettings
+from desire_tui.engine.integration.rules import DUMMY
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -117,7 +118,7 @@ class GraphBook:
     ) -> Iterator[Curve]:
         first = 1 + record.first_column(request)
         names = [column.name for column in request.columns]
-        joined = record.rule != 0 or request.kind == "dispt"
+        joined = record.rule != DUMMY or request.kind == "dispt"
         if request.kind == "dispt":
             pairs = [(-1, i) for i in range(len(names))]
         elif request.kind == "dispxy":

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from desire_tui.engine.graph.model import Curve, Frame
+from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.runtime.run_record import RunRecord
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def array_chart(book: GraphBook, name: str, values: NDArray[Any]) -> Graph:
     bottom, top = _limits(table[:, 1:])
     frame = Frame("dispxy", 1.0, max(float(length), 2.0), bottom, top, _scale(bottom, top))
     record = RunRecord(
-        number=0, segment=None, line=0, requests=(), columns=(), overlay=False, rule=0, scale=frame.scale,
+        number=0, segment=None, line=0, requests=(), columns=(), overlay=False, rule=DUMMY, scale=frame.scale,
         t0=1.0, t_max=frame.right - 1.0, nn=length, dt=1.0, rows=table, count=length, ended="tmax",
     )  # fmt: skip
     curves = [

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import Diagnostic
-from desire_tui.engine.integration.plan import kind_of
+from desire_tui.engine.integration.rules import rule_numbered, with_corrector
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,11 +39,11 @@ def advice(rule: int, segment: Segment, probe: Probe) -> tuple[Diagnostic, ...]:
     """Return warnings 462 (J disagrees with differences) and 463 (far from diagonal), at most one."""
     if len(probe.states) > STATES_MOST:
         return ()
-    kind = kind_of(rule)
-    if kind == "diagonal":
+    corrector = rule_numbered(rule).corrector
+    if corrector == "diagonal":
         found = differences(probe)
         return _diagonal(rule, segment, found) if np.isfinite(found).all() else ()
-    if kind == "jacobian" and probe.jacobian is not None:
+    if corrector == "jacobian" and probe.jacobian is not None:
         given, found = probe.jacobian(), differences(probe)
         finite = np.isfinite(given).all() and np.isfinite(found).all()
         return _compare(segment, given, found) if finite else ()
@@ -89,7 +89,7 @@ def _diagonal(rule: int, segment: Segment, found: Array) -> tuple[Diagnostic, ..
     if not (others > _FAR * own).any():
         return ()
     where = segment.states[0].where
-    facts = {"rule": rule, "better": rule - 1}
+    facts = {"rule": rule, "better": with_corrector(rule_numbered(rule), "differences").number}
     return (Diagnostic("jacobian-not-diagonal", where.span, facts, segment.source, "warning"),)
 
 

@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.integration.problem import Matrix
+from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.sundials.library import superlu
 from desire_tui.engine.integration.sundials.linear import Linear, positions
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.pattern import Numbers, Pattern
     from desire_tui.engine.integration.problem import SolverProblem
-
-RULES = range(9, 17)
-"""The rules that are CVODE's."""
 
 DENSE_MOST = 30
 """Up to so many states a dense matrix is always best (measured: docs/rules.md)."""
@@ -54,28 +52,24 @@ class SolverPlan:
 
 def is_own(rule: int, n: int, plan: SolverPlan) -> bool:
     """Whether `bdf` can do it in CVODE's place: Newton's iteration for BDF with a dense matrix."""
-    return rule in {14, 15} and n <= DENSE_MOST and plan.tables is not None
-
-
-def kind_of(rule: int) -> str:
-    """Return what a rule does about the Jacobian: `fixed-point`, `jacobian`, `differences`, `diagonal`."""
-    return ("fixed-point", "jacobian", "differences", "diagonal")[(rule - 9) % 4]
+    return rule_numbered(rule).has_own_solver and n <= DENSE_MOST and plan.tables is not None
 
 
 def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = True) -> SolverPlan:
-    """Decide for a rule 9 … 16.
+    """Decide for a multistep rule.
 
     `pattern` is where the Jacobian is not zero. `program`: a JACOBIAN segment fills it. `tangent`: else exact
-    derivatives are at hand; without them rules 10 and 14 difference too (the reference back end).
+    derivatives are at hand; without them a rule with a Jacobian differences too (the reference back end).
     """
-    kind = kind_of(rule)
-    if kind == "fixed-point":
+    corrector = rule_numbered(rule).corrector
+    assert corrector is not None, f"rule {rule} solves no equations"
+    if corrector == "fixed-point":
         return SolverPlan(Linear("fixed-point"), Matrix.NONE, None)
-    if kind == "diagonal":
+    if corrector == "diagonal":
         return SolverPlan(Linear("diagonal"), Matrix.NONE, None)
     linear = _linear(pattern)
     method = Matrix.DIFFERENCES
-    if kind == "jacobian":
+    if corrector == "jacobian":
         method = Matrix.PROGRAM if program else Matrix.TANGENT if tangent else Matrix.DIFFERENCES
     return SolverPlan(linear, method, _tables(linear, pattern, method))
 

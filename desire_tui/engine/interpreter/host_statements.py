@@ -5,6 +5,7 @@ from __future__ import annotations
 import time as clock
 from typing import TYPE_CHECKING, NoReturn
 
+from desire_tui.engine.integration.rules import RULES
 from desire_tui.engine.interpreter.code_table import Finished
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.nodes.commands import Drun, FileCommand, Irule, Seed, Simple
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes.display import Display, Plot, Show
     from desire_tui.engine.nodes.files import Connect, Disconnect
-
-RULES = frozenset(range(17)) - {6}
 
 
 def drun(site: Site, node: Drun) -> Operation:

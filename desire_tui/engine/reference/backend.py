@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.reference.model import ReferenceModel
 
@@ -19,10 +20,9 @@ class ReferenceBackend:
     name = "reference"
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
-        """Prepare `segment` for an integration rule. DesireError 460, 461: rules 9 … 16 want SUNDIALS."""
-        tableau = TABLEAUS.get(rule)
-        if rule == 0 or tableau is not None:
-            return ReferenceModel(segment, tableau, values)
+        """Prepare `segment` for an integration rule. DesireError 460, 461: a multistep one wants SUNDIALS."""
+        if rule_numbered(rule).kind != "multistep":
+            return ReferenceModel(segment, TABLEAUS.get(rule), values)
         from desire_tui.engine.reference.stiff import StiffReferenceModel
 
         return StiffReferenceModel(segment, rule, values)

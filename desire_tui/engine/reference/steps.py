@@ -24,7 +24,7 @@ TOLERANCE = 1e-9
 def fixed_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> Ended | None:
     """Move the states by one step of DT: t = t_base + k·dt_base as long as DT does not change."""
     cells, states = model.cells, model.states
-    if tableau.dt_may_change and cells[DT] != memory.dt_base:
+    if tableau.rule.dt_may_change and cells[DT] != memory.dt_base:
         if not cells[DT] > 0.0:
             memory.phase = Phase.ENDED
             return Ended.STALLED

@@ -12,7 +12,7 @@ from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.bdf.solver import OwnSolver
 from desire_tui.engine.integration.callbacks import PythonCallbacks
 from desire_tui.engine.integration.pattern import Pattern
-from desire_tui.engine.integration.plan import is_own, kind_of, plan
+from desire_tui.engine.integration.plan import is_own, plan
 from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
     CHATTER_PART,
@@ -21,9 +21,10 @@ from desire_tui.engine.integration.problem import (
     STUCK_FLAG,
     STUCK_MOST,
 )
+from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
-from desire_tui.engine.integration.tableaus import TABLEAUS
+from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.lowered.jacobian_array import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
@@ -49,7 +50,7 @@ class StiffReferenceModel(ReferenceModel):
     """A segment under a rule 9 … 16. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
 
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
-        super().__init__(segment, TABLEAUS[2], values)
+        super().__init__(segment, EULER, values)
         self.values, self.data, self.order = values, values.data, segment.order
         self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._segment = segment
@@ -69,7 +70,7 @@ class StiffReferenceModel(ReferenceModel):
 
     def _plan(self, rule: int) -> SolverPlan:
         segment = self._segment
-        order, kind, given = segment.order, kind_of(rule), segment.jacobian
+        order, kind, given = segment.order, rule_numbered(rule).corrector, segment.jacobian
         program = tangent = False
         if kind == "jacobian" and given is not None:
             self._array, program = checked_array(segment, self.values), True

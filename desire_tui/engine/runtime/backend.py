@@ -24,5 +24,5 @@ class Backend(Protocol):
     name: str
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
-        """Prepare `segment` for integration rule `rule` (0 … 16)."""
+        """Prepare `segment` for an integration rule. DesireError 86: there is no such rule."""
         ...

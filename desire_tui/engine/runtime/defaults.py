@@ -7,7 +7,8 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP, RunPlan
+from desire_tui.engine.integration.rules import DUMMY, RULES, rule_numbered
+from desire_tui.engine.runtime.plan import ROUNDING, RunPlan
 from desire_tui.engine.values import (
     CHECKN,
     DT,
@@ -24,9 +25,10 @@ from desire_tui.engine.values import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
+    from desire_tui.engine.integration.rules import Rule
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.source import Source, Span
-from desire_tui.engine.values import Values
+    from desire_tui.engine.values import Values
 
 POINTS_DEFAULT = 251
 _ROUNDING_NN = 1e-6
@@ -64,7 +66,7 @@ class Defaults:
         self._generation = values.generation
 
     def plan(self, segment: Segment, rule: int, source: Source, at: Span | None) -> RunPlan:
-        """Return the plan of a run of `segment` under `irule` (1 if never set). Errors 87, 93, 110, 124."""
+        """Return the plan of a run of `segment` under `irule`. Errors 86, 87, 93, 110, 124."""
         if segment.row_chosen is not None and not self._values.cells[IROW] >= 1.0:
             facts = {"value": self._values.cells[IROW]}
             raise DesireError(Diagnostic("row-not-chosen", segment.row_chosen.span, facts, segment.source))
@@ -73,12 +75,12 @@ class Defaults:
             self._steps = Steps()
             self._generation = self._values.generation
         try:
-            return self._plan(segment, rule if segment.order else DUMMY)
+            return self._plan(segment, rule_numbered(rule) if segment.order else RULES[DUMMY])
         except DesireError as error:
             placed = [Diagnostic(d.key, at, d.facts, source) for d in error.diagnostics]
             raise DesireError(*placed) from None
 
-    def _plan(self, segment: Segment, rule: int) -> RunPlan:
+    def _plan(self, segment: Segment, rule: Rule) -> RunPlan:
         cells = self._values.cells
         t0 = self._own(T)
         if t0 is None:
@@ -94,12 +96,12 @@ class Defaults:
             raise _error("tmax-not-positive", value=t_max)
         comint = t_max / (nn - 1)
         dt = self._step(rule, comint)
-        step_rule = rule in VARIABLE_STEP
+        step_rule = rule.kind == "variable"
         least = self._steps.least(dt) if step_rule else 0.0
         error_max = self._tolerance(rule)
         every = self._own(MM)
         return RunPlan(
-            rule=rule, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
+            rule=rule.number, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
             dt_max=self._largest_step(rule, comint),
             dt_min=self._or_default(DTMIN, least / 16, supply=step_rule),
             error_max=error_max,
@@ -141,8 +143,8 @@ class Defaults:
         self._supply(NN, float(points))
         return points
 
-    def _step(self, rule: int, comint: float) -> float:
-        if rule == DUMMY:
+    def _step(self, rule: Rule, comint: float) -> float:
+        if rule.kind == "dummy":
             return comint
         dt = self._own(DT)
         if dt is None:
@@ -159,19 +161,19 @@ class Defaults:
         self._steps = Steps(wished=wished, begun=dt, left=dt if left else None)
         return dt
 
-    def _largest_step(self, rule: int, comint: float) -> float:
+    def _largest_step(self, rule: Rule, comint: float) -> float:
         own = self._own(DTMAX)
-        if own is not None and rule in VARIABLE_STEP | VARIABLE_ORDER and not own >= 0.0:
+        if own is not None and rule.controls_error and not own >= 0.0:
             raise _error("dtmax-not-positive", value=own)
-        return self._or_default(DTMAX, comint, supply=rule in VARIABLE_STEP)
+        return self._or_default(DTMAX, comint, supply=rule.kind == "variable")
 
-    def _tolerance(self, rule: int) -> float:
+    def _tolerance(self, rule: Rule) -> float:
         own = self._own(ERMAX)
-        if own is None and rule in VARIABLE_ORDER:
-            raise _error("ermax-missing", rule=rule)
-        if own is not None and rule in VARIABLE_STEP | VARIABLE_ORDER and not (isfinite(own) and own > 0.0):
+        if own is None and rule.needs_error_max:
+            raise _error("ermax-missing", rule=rule.number)
+        if own is not None and rule.controls_error and not (isfinite(own) and own > 0.0):
             raise _error("ermax-not-positive", value=own)
-        return self._or_default(ERMAX, 0.001, supply=rule in VARIABLE_STEP)
+        return self._or_default(ERMAX, 0.001, supply=rule.kind == "variable")
 
     def _checked(self, order: int) -> int:
         checked = self._own(CHECKN) or 0.0

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.rules import DUMMY, RULES
 from desire_tui.engine.library import LIBRARY, func1
 from desire_tui.engine.lowered.expressions import (
     Const,
@@ -36,7 +37,7 @@ from desire_tui.engine.lowered.statements import (
     UpdateTrackHold,
 )
 from desire_tui.engine.lowered.walk import simple_actions, walk_values
-from desire_tui.engine.runtime.plan import DUMMY, ROUNDING, VARIABLE_ORDER, VARIABLE_STEP
+from desire_tui.engine.runtime.plan import ROUNDING
 from desire_tui.engine.values import DT
 
 if TYPE_CHECKING:
@@ -123,7 +124,7 @@ def _lags(
     found: dict[int, int] = {}
     for known in lines:
         line = known.action
-        if line.per_step and (changes_dt or plan.rule in VARIABLE_STEP | VARIABLE_ORDER):
+        if line.per_step and (changes_dt or RULES[plan.rule].controls_error):
             raise _error("delay-variable-step", segment, line, rule=plan.rule)
         per_step = line.per_step and plan.rule != DUMMY
         tau = _time(known, values)

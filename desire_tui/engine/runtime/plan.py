@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from desire_tui.engine.integration.rules import RULES
+
 ROUNDING = 1e-9
 """Relative tolerance wherever steps are counted: 0.1 + 0.2 must not be one step longer than 0.3."""
-
-DUMMY = 0
-VARIABLE_STEP = frozenset({4, 7, 8})
-VARIABLE_ORDER = frozenset(range(9, 17))
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +37,7 @@ class RunPlan:
     @property
     def tolerance(self) -> float:
         """ERMAX if the rule looks at it, else 0."""
-        return self.error_max if self.rule in VARIABLE_STEP | VARIABLE_ORDER else 0.0
+        return self.error_max if RULES[self.rule].controls_error else 0.0
 
     @property
     def rows_most(self) -> int:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.statements import Assignment, Deriv, DerivVec
 from desire_tui.engine.lowered.walk import walk_actions
-from desire_tui.engine.runtime.plan import DUMMY
 from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.values import DT, ERRMAX, T
 

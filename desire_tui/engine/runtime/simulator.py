@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.runtime.heartbeat import Ticker
 from desire_tui.engine.runtime.history import RunHistory
-from desire_tui.engine.runtime.plan import DUMMY
 from desire_tui.engine.runtime.run_faults import exhausted, fault
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
 from desire_tui.engine.values import DT, T

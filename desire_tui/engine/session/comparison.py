@@ -7,6 +7,7 @@ from math import ceil
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.rules import DUMMY, rule_numbered
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.lowered.segment import SampleColumn
 from desire_tui.engine.lowered.statements import Where
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.script_host import ScriptHost
     from desire_tui.engine.session.session import Session
     from desire_tui.engine.session.workspace import Workspace
-
-RULES = (*range(6), *range(7, 17))
 
 
 @dataclass(frozen=True)
@@ -46,9 +45,7 @@ class Variation:
         if not found or 2 * len(found) != len(words) or not found.keys() <= {"rule", "DT", "ERMAX"}:
             raise DesireError(Diagnostic("compare-form"))
         rule = found.get("rule")
-        if rule is not None and rule not in RULES:
-            raise DesireError(Diagnostic("no-such-rule", facts={"rule": f"{rule:g}"}))
-        return cls(None if rule is None else int(rule), found.get("DT"), found.get("ERMAX"))
+        return cls(None if rule is None else rule_numbered(rule).number, found.get("DT"), found.get("ERMAX"))
 
     def named(self, record: RunRecord) -> str:
         """Return a run's settings of those that change: `rule 3, DT 0.001`."""
@@ -122,7 +119,7 @@ def run_again(
     rule = last.rule if change.rule is None else change.rule
     program, script = desk.runnable()
     segment = desk.segments.lowered(program, script, last.segment, rule)
-    if (rule == 0) != (segment.order == 0):
+    if (rule == DUMMY) != (segment.order == 0):
         why = "has differential equations" if segment.order else "has no differential equations"
         raise DesireError(Diagnostic("compare-not-integrated", facts={"what": f"rule {rule}", "why": why}))
     if segment.recover:

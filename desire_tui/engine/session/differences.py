@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.integration.rules import RULES
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -15,7 +17,6 @@ if TYPE_CHECKING:
 
 _SAME_TIME = 1e-6
 """Of COMINT: samples so near stand at one time."""
-_FIXED_STEP = frozenset({1, 2, 3, 5})
 _SAMPLES_MOST = 200_000
 
 
@@ -26,13 +27,13 @@ def needs_steps_of(one: RunRecord, other: RunRecord) -> tuple[RunRecord, float] 
     """
     if 2 * len(common(one, other)[0]) >= min(one.count, other.count):
         return None
-    fixed = [run for run in (one, other) if run.rule in _FIXED_STEP]
+    fixed = [run for run in (one, other) if RULES[run.rule].kind == "fixed"]
     if not fixed:
         return None
     coarse = max(fixed, key=lambda run: run.dt)
     again = other if coarse is one else one
     ratio = coarse.dt / again.dt
-    if again.rule in _FIXED_STEP and abs(ratio - round(ratio)) > 1e-9 * ratio:
+    if RULES[again.rule].kind == "fixed" and abs(ratio - round(ratio)) > 1e-9 * ratio:
         return None
     return (again, coarse.dt) if coarse.t_max / coarse.dt < _SAMPLES_MOST else None
 

@@ -13,6 +13,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.rules import DEFAULT_RULE
 from desire_tui.engine.interpreter.host import Interrupted
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ class DryHost:
         labels: set[str | None],
         seconds: float = SECONDS_MOST,
     ) -> None:
-        self.rule = 1
+        self.rule = DEFAULT_RULE
         self.found: list[Diagnostic] = []
         self._program, self._structure, self._values = program, structure, values
         self._wanted = labels

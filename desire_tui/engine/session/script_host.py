@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from desire_tui.engine.integration.rules import DEFAULT_RULE
 from desire_tui.engine.session.runs import Runs
 from desire_tui.engine.session.status import State
 from desire_tui.engine.session.type_output import TypeOutput
@@ -37,7 +38,7 @@ class ScriptHost:
         self._graphs = graphs
         self._values: Values = desk.values
         self.runs = Runs(desk, listener, control, graphs)
-        self.rule = 1
+        self.rule = DEFAULT_RULE
         self.state = State.IDLE
         self.stop_here: Callable[[], None] = _nothing
         self.step_allowed = False

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.integration.rules import DEFAULT_RULE
 from desire_tui.engine.runtime.pause_and_stop import Control
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.notebook import Notebook
@@ -202,7 +203,7 @@ class Session:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
         self._desk.program = self._desk.structure = None
         self._script.forget()
-        self._world.rule = 1
+        self._world.rule = DEFAULT_RULE
 
     # ------------------------------------------------------------------ running
 
@@ -213,7 +214,7 @@ class Session:
             raise DesireError(Diagnostic("no-program"))
         with self._journal.task("" if self._desk.overrides else "zz", lambda: self.graph):
             self.accept(source)
-            self._world.rule = 1
+            self._world.rule = DEFAULT_RULE
             self._script.run(scale=1.0)
 
     def run(self) -> None:

@@ -13,6 +13,7 @@ from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.native_model import NativeModel
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop
 from desire_tui.engine.gc_pause import undisturbed_allocation
+from desire_tui.engine.integration.rules import MOST_USED_FIRST, rule_numbered
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Segment
@@ -20,10 +21,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 _MODELS_MOST = 32
-_RULES_BY_USE = (1, 3, 0, 2, 4, 5, 7, 8)
 _SETTLED_SECONDS = 0.4
 """A process that lives longer than this may run more programs: a headless run is over by then."""
-STIFF_RULES = range(9, 17)
 _STORE = CodeCache()
 """One for all back ends of a process: code depends on nothing but its text."""
 _IMPROVER = Improver()
@@ -59,7 +58,7 @@ class NativeBackend:
         machine()
         if _ENDING.wait(_SETTLED_SECONDS):
             return
-        for rule in _RULES_BY_USE:
+        for rule in MOST_USED_FIRST:
             if _ENDING.is_set():
                 return
             self.store.quick([array_loop(rule, contiguous=True)])
@@ -81,7 +80,7 @@ class NativeBackend:
         return made
 
     def _make(self, segment: Segment, rule: int, values: Values) -> Model:
-        if rule in STIFF_RULES and segment.order:
+        if rule_numbered(rule).kind == "multistep" and segment.order:
             from desire_tui.engine.codegen.stiff.stiff_model import StiffModel
 
             return StiffModel(self, segment, rule, values)

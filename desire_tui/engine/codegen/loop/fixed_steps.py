@@ -25,7 +25,7 @@ class FixedStep:
     def write(self) -> None:
         """Write everything from the saved states to the next pass."""
         driver, tableau, storage = self.driver, self.tableau, self.driver.storage
-        if tableau.dt_may_change:
+        if tableau.rule.dt_may_change:
             self._follow_step()
         else:
             driver.put("h", driver.get("dt_base"))

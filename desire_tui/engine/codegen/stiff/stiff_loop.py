@@ -8,7 +8,7 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
 from desire_tui.engine.codegen.loop.compiled_loops import named
 from desire_tui.engine.codegen.loop.run_loop import Driver
-from desire_tui.engine.integration.tableaus import TABLEAUS
+from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 
 if TYPE_CHECKING:
@@ -45,9 +45,7 @@ class StiffDriver(Driver):
 def stiff_loop() -> Piece:
     """Write the loop; it is the same for all models and all eight rules."""
     text = IrText()
-    tableau = TABLEAUS[
-        2
-    ]  # one stage: what the loop wants to know is only that there are steps of constant rule
     storage = ArrayStorage(text, 1, 1, contiguous=False)
-    StiffDriver(text, storage, tableau).write()
+    # one stage: what the loop wants to know is only that there are steps without error control
+    StiffDriver(text, storage, EULER).write()
     return named(text)

@@ -16,7 +16,8 @@ from desire_tui.engine.codegen.stiff.fixed_functions import StiffFunctions, fast
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
-from desire_tui.engine.integration.plan import is_own, kind_of, plan
+from desire_tui.engine.integration.plan import is_own, plan
+from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
 from desire_tui.engine.lowered.jacobian_array import checked_array
 from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
@@ -164,7 +165,7 @@ def _jacobian_passes(
     segment: Segment, rule: int, values: Values
 ) -> tuple[dict[str, tuple[Action, ...]], int, int]:
     """Return the pass that a rule with a Jacobian needs, and the slots of the directions and of the array."""
-    if kind_of(rule) != "jacobian":
+    if not rule_numbered(rule).reads_jacobian:
         return {}, 0, 0
     if segment.jacobian is not None:
         slot = checked_array(segment, values)
@@ -178,7 +179,7 @@ def _jacobian_passes(
 
 def _plan(segment: Segment, rule: int, extra: Mapping[str, object]) -> SolverPlan:
     order = segment.order
-    if kind_of(rule) in {"fixed-point", "diagonal"}:
+    if rule_numbered(rule).corrector in ("fixed-point", "diagonal"):
         pattern = Pattern.of(order, np.zeros(0, np.int32), np.zeros(0, np.int32))
     elif "jacobian" in extra:
         assert segment.jacobian is not None

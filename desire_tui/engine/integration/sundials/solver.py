@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.linear import Attached, Linear
 from desire_tui.engine.integration.sundials.signatures import ADAMS, BDF, ONE_STEP, SUCCESS
@@ -54,11 +55,12 @@ class Counts:
 class Solver:
     """CVODE for `n` states at `states` (an address: the solution is written there, nothing is copied).
 
-    `rule` 9 … 12 is Adams, 13 … 16 BDF. Start it with `restart`, then call `step` again and again, or let
+    `rule` is a multistep one. Start it with `restart`, then call `step` again and again, or let
     native code call `CVode` with `memory` and `vector`.
     """
 
     def __init__(self, rule: int, n: int, states: int, callbacks: Callbacks, linear: Linear) -> None:
+        is_adams = rule_numbered(rule).solver == "Adams"
         self.n = n
         self._library = library = libraries().cvode
         core = libraries().core
@@ -66,7 +68,7 @@ class Solver:
         core.SUNContext_Create(0, ctypes.byref(context))
         core.SUNContext_ClearErrHandlers(context)  # they would write to the terminal; flags tell us enough
         self.vector: int = library.N_VMake_Serial(n, states, context)
-        self.memory: int = library.CVodeCreate(ADAMS if rule <= 12 else BDF, context)
+        self.memory: int = library.CVodeCreate(ADAMS if is_adams else BDF, context)
         parts = _Parts(core, library, context, self.memory, self.vector)
         self._free = weakref.finalize(self, parts.free)
         self._set("CVodeInit", callbacks.rhs, 0.0, self.vector)
@@ -78,7 +80,7 @@ class Solver:
         self._set("CVodeSetMaxHnilWarns", -1)
         if linear.kind == "diagonal":
             self._set("CVodeSetNonlinConvCoef", _DIAGONAL_CONVERGENCE)
-        elif linear.kind != "fixed-point" and rule > 12:  # Adams: no gain
+        elif linear.kind != "fixed-point" and not is_adams:  # Adams: no gain
             self._set("CVodeSetNonlinConvCoef", MATRIX_CONVERGENCE)
         parts.attached = Attached(libraries(), context, self.memory, self.vector, n, linear)
         self._reached = ctypes.c_double()
