@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 import numpy as np
 
@@ -12,43 +12,47 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.lowered.statements import SetDot, SetMat, SetVec
-    from desire_tui.engine.reference.statements import StatementClosures
+    from desire_tui.engine.reference.evaluation_context import EvaluationContext
 
     Run = Callable[[], None]
 
 
-def vector(statements: StatementClosures, action: SetVec) -> Run:
+def vector(context: EvaluationContext, action: SetVec) -> Run:
     """Return the closure of `Vector` or `Vectr delta`."""
-    target = statements.data[action.slot : action.slot + action.count]
+    target = context.data[action.slot : action.slot + action.count]
     mask = None
     if action.mask_slot is not None:
-        mask = statements.data[action.mask_slot : action.mask_slot + action.count]
-    value = statements.value(action.value, action.count)
+        mask = context.data[action.mask_slot : action.mask_slot + action.count]
+    value = context.value(action.value, action.count)
     mode = action.mode
 
     def run() -> None:
         new = value()
         if mask is not None:
             new = np.where(mask != 0.0, 0.0, new)
-        if mode == "add":
-            new = target + new
-        elif mode == "largest":
-            new = np.broadcast_to(new, target.shape)
-            winner = len(target) - 1 - int(np.argmax(new[::-1]))
-            kept = new[winner]
-            new = np.zeros(len(target))
-            new[winner] = kept
-        target[:] = new
+        match mode:
+            case "set":
+                target[:] = new
+            case "add":
+                target[:] = target + new
+            case "largest":
+                new = np.broadcast_to(new, target.shape)
+                winner = len(target) - 1 - int(np.argmax(new[::-1]))
+                largest = new[winner]
+                target[:] = 0.0
+                target[winner] = largest
+            case _:
+                assert_never(mode)
 
     return run
 
 
-def matrix(statements: StatementClosures, action: SetMat) -> Run:
+def matrix(context: EvaluationContext, action: SetMat) -> Run:
     """Return the closure of `MATRIX` or `DELTA`."""
     count = action.rows * action.cols
-    target = statements.data[action.slot : action.slot + count]
-    mask = None if action.mask_slot is None else statements.data[action.mask_slot : action.mask_slot + count]
-    expressions = ExpressionClosures(statements.values, statements.sequence, count)
+    target = context.data[action.slot : action.slot + count]
+    mask = None if action.mask_slot is None else context.data[action.mask_slot : action.mask_slot + count]
+    expressions = ExpressionClosures(context.values, context.sequence, count)
     value = expressions.compile(action.value)
     lower = None if action.lower is None else expressions.compile(action.lower)
     upper = None if action.upper is None else expressions.compile(action.upper)
@@ -68,15 +72,15 @@ def matrix(statements: StatementClosures, action: SetMat) -> Run:
     return run
 
 
-def dot(statements: StatementClosures, action: SetDot) -> Run:
+def dot(context: EvaluationContext, action: SetDot) -> Run:
     """Return the closure of `DOT` or `AVG`."""
     terms = []
     for term in action.terms:
-        left = statements.value(term.left)
-        right = None if term.right is None else statements.value(term.right)
+        left = context.value(term.left)
+        right = None if term.right is None else context.value(term.right)
         terms.append((term.sign, left, right))
     length = float(action.terms[0].left.count) if action.average and action.terms else 1.0
-    cells, slot = statements.cells, action.slot
+    cells, slot = context.cells, action.slot
 
     def run() -> None:
         total = 0.0

@@ -11,17 +11,17 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.lowered.statements import GetHistory
-    from desire_tui.engine.reference.statements import StatementClosures
+    from desire_tui.engine.reference.evaluation_context import EvaluationContext
     from desire_tui.engine.runtime.run_memory import RunMemory
 
     Run = Callable[[], None]
 
 
-def sampled(statements: StatementClosures, every: int, body: Run) -> Run:
+def sampled(context: EvaluationContext, every: int, body: Run) -> Run:
     """Return what carries `body` out at every m-th communication point (`SAMPLE m`)."""
 
     def run() -> None:
-        memory = statements.memory
+        memory = context.memory
         assert memory is not None
         if (memory.points_before + memory.point + 1) % every == 0 and _is_fresh(memory):
             body()
@@ -30,12 +30,12 @@ def sampled(statements: StatementClosures, every: int, body: Run) -> Run:
 
 
 def history(
-    statements: StatementClosures, action: StoreHistory | GetHistory | DelayLine | UpdateTrackHold
+    context: EvaluationContext, action: StoreHistory | GetHistory | DelayLine | UpdateTrackHold
 ) -> Run:
     """Return the closure of a statement that remembers."""
-    cells = statements.cells
+    cells = context.cells
     if isinstance(action, UpdateTrackHold):
-        control, value = statements.value(action.control), statements.value(action.value)
+        control, value = context.value(action.control), context.value(action.value)
         held, tracked = action.held_slot, action.tracked_slot
 
         def track() -> None:
@@ -46,13 +46,13 @@ def history(
 
         return track
     if isinstance(action, DelayLine):
-        return _delay(statements, action)
+        return _delay(context, action)
     array = action.array_slot
     count, counter, slot = action.count, action.counter, action.slot
     stores = isinstance(action, StoreHistory)
 
     def move() -> None:
-        memory = statements.memory
+        memory = context.memory
         assert memory is not None
         positions = _integers(memory.counters, counter + 1)
         fresh = _is_fresh(memory)
@@ -68,13 +68,13 @@ def history(
     return move
 
 
-def _delay(statements: StatementClosures, action: DelayLine) -> Run:
-    source = statements.value(action.source)
-    cells, buffer, count = statements.cells, action.buffer_slot, action.count
+def _delay(context: EvaluationContext, action: DelayLine) -> Run:
+    source = context.value(action.source)
+    cells, buffer, count = context.cells, action.buffer_slot, action.count
     slot, counter = action.slot, action.counter
 
     def delay() -> None:
-        memory = statements.memory
+        memory = context.memory
         assert memory is not None
         x = source()
         positions, lags = _integers(memory.counters, counter + 1), _integers(memory.lags, counter + 1)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action
-    from desire_tui.engine.reference.statements import StatementClosures
+    from desire_tui.engine.reference.evaluation_context import EvaluationContext
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2)}
 _ATOM, _SIGNED = 4, 3
@@ -33,13 +33,14 @@ class CannotWriteError(Exception):
 
 
 class PassText:
-    """Writes the function of one pass."""
+    """Writes the function of one pass; `closure` makes the closure of a statement that is not written out."""
 
-    def __init__(self, statements: StatementClosures) -> None:
-        self.statements = statements
+    def __init__(self, context: EvaluationContext, closure: Callable[[Action], Callable[[], None]]) -> None:
+        self.context = context
+        self._closure = closure
         self.lines: list[str] = []
         self.names: dict[str, Any] = {
-            "c": statements.cells, "d": statements.derivatives.data, "s": statements,
+            "c": context.cells, "d": context.derivatives.data, "s": context,
             "wrong": (ArithmeticError, ValueError), "whole_power": whole_power, "power": power,
             "func1": func1,
         }  # fmt: skip
@@ -69,10 +70,10 @@ class PassText:
             elif isinstance(action, Guard) and action.kind == "if" and action.condition is not None:
                 self._choice(action, action.condition, depth)
             else:
-                self._line(depth, f"{self._name('f', self.statements.statement(action))}()")
+                self._line(depth, f"{self._name('f', self._closure(action))}()")
 
     def _scalar(self, action: Set | Deriv | Terminate, depth: int) -> None:
-        closure = self._name("f", self.statements.statement(action))
+        closure = self._name("f", self._closure(action))
         try:
             text = _Expression(self).write(action.value)
         except CannotWriteError:
@@ -88,7 +89,7 @@ class PassText:
         self._line(depth, f"except wrong: {closure}()")
 
     def _choice(self, guard: Guard, condition: Value, depth: int) -> None:
-        test = self._name("f", self.statements.value(condition))
+        test = self._name("f", self.context.value(condition))
         self._line(depth, f"if {test}() > 0.0:")
         self._write(guard.body, depth + 1)
         if not guard.body:
@@ -137,7 +138,7 @@ class _Expression:
 
     def _made(self, value: Value, depth: int) -> tuple[str, int]:
         if isinstance(value, Table1):
-            table = self.text.statements.cells[value.slot : value.slot + 2 * value.count]
+            table = self.text.context.cells[value.slot : value.slot + 2 * value.count]
             x = self._written(value.x, depth + 1)[0]
             return f"func1({x}, {self.text._name('a', table)})", _ATOM  # noqa: SLF001 - as above
         if not isinstance(value, Op) or value.name in DRAWS:

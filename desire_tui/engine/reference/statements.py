@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, assert_never
 
-import numpy as np
-
 from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
@@ -22,59 +20,26 @@ from desire_tui.engine.lowered.statements import (
     UpdateTrackHold,
 )
 from desire_tui.engine.reference.array_statements import dot, matrix, vector
-from desire_tui.engine.reference.expressions import ExpressionClosures
+from desire_tui.engine.reference.evaluation_context import EvaluationContext
 from desire_tui.engine.reference.histories import history, sampled
 from desire_tui.engine.reference.learning import learn
-from desire_tui.engine.reference.random import Sequence
+from desire_tui.engine.reference.python_source import PassText
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from numpy.typing import NDArray
-
-    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action
-    from desire_tui.engine.runtime.run_memory import RunMemory
-    from desire_tui.engine.values import Values
 
-    Array = NDArray[np.float64]
     Thunk = Callable[[], Any]
     Run = Callable[[], None]
 
 
-class StatementClosures:
-    """Compiles statements.
-
-    `memory` is the run's, `derivatives` the array that passes write to, `fired` the first `term` that fired
-    in this pass (None: none).
-    """
-
-    def __init__(self, values: Values, order: int) -> None:
-        self.values = values
-        self.cells, self.data = values.cells, values.data
-        self.derivatives: Array = np.zeros(order)
-        self.sequence = Sequence(values.random)
-        self.memory: RunMemory | None = None
-        self.fired: int | None = None
+class StatementClosures(EvaluationContext):
+    """Compiles statements."""
 
     def compile(self, actions: Iterable[Action]) -> Run:
         """Return a pass as one function."""
-        from desire_tui.engine.reference.python_source import PassText
-
-        return PassText(self).function(actions)
-
-    def value(self, value: Value, count: int | None = None) -> Thunk:
-        """Return the closure of an expression over a number or `count` elements."""
-        expressions = ExpressionClosures(self.values, self.sequence, count)
-        thunk = expressions.compile(value)
-        if expressions.is_plain:
-            return thunk
-
-        def prepared() -> Any:
-            expressions.begin()
-            return thunk()
-
-        return prepared
+        return PassText(self, self.statement).function(actions)
 
     def statement(self, action: Action) -> Run:
         """Return the closure of one statement."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -15,13 +15,24 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from desire_tui.engine.integration.tableaus import Tableau
-    from desire_tui.engine.reference.model import ReferenceModel
+    from desire_tui.engine.reference.states import States
     from desire_tui.engine.runtime.run_memory import RunMemory
 
 TOLERANCE = 1e-9
 
 
-def fixed_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> Ended | None:
+class SteppedModel(Protocol):
+    """What a step asks of a model: its numbers, its states, the stages behind the first and their passes."""
+
+    cells: memoryview[float]
+    states: States
+    nodes: list[tuple[int, float]]
+
+    def run_stage(self, stage: int, memory: RunMemory) -> None:
+        """Make a pass with both flags off; its derivatives are k[stage]."""
+
+
+def fixed_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> Ended | None:
     """Move the states by one step of DT: t = t_base + k·dt_base as long as DT does not change."""
     cells, states = model.cells, model.states
     if tableau.rule.dt_may_change and cells[DT] != memory.dt_base:
@@ -45,7 +56,7 @@ def fixed_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> En
     return None
 
 
-def variable_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) -> Ended | None:
+def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> Ended | None:
     """Try, judge, halve or double; a step ends on every communication point."""
     cells, states = model.cells, model.states
     assert tableau.test is not None
@@ -89,7 +100,7 @@ def variable_step(model: ReferenceModel, tableau: Tableau, memory: RunMemory) ->
 
 
 def _difference(
-    model: ReferenceModel, tableau: Tableau, dt: float, start: Sequence[float], checked: int
+    model: SteppedModel, tableau: Tableau, dt: float, start: Sequence[float], checked: int
 ) -> tuple[float, int]:
     """Return the largest test difference, and the number of its state.
 

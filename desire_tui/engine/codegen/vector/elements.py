@@ -96,9 +96,13 @@ class StripExpressions(IrExpressions):
         at = text.op(f"getelementptr double, ptr {u_base}, i64 {strip.row}")
         u = lanes.splat(text.op(f"load double, ptr {at}"))
         v = strip.fetch(v_base, strip.column)
-        if node.op == "mul":
-            return lanes.mul(u, v)
-        return lanes.choose(lanes.compare("olt", v, u), v, u)
+        match node.op:
+            case "mul":
+                return lanes.mul(u, v)
+            case "min":
+                return lanes.choose(lanes.compare("olt", v, u), v, u)
+            case _:
+                assert_never(node.op)
 
     def next_state(self) -> str:
         """Move each element's part of the sequence on."""

@@ -120,11 +120,15 @@ class _Writer:
         statements, action = self._statements, self._action
         if not isinstance(action, SetVec):
             return
-        if action.mode == "largest":
-            statements.text.needs.add(products.largest())
-            target = statements.at(action.slot)
-            arguments = f"ptr {self._target}, ptr {target}, i64 {action.count}"
-            statements.text.do(f"call void @largest({arguments})")
-        elif self._copy:
-            statements.move(self._target, statements.at(action.slot), action.count)
+        match action.mode:
+            case "largest":
+                statements.text.needs.add(products.largest())
+                target = statements.at(action.slot)
+                arguments = f"ptr {self._target}, ptr {target}, i64 {action.count}"
+                statements.text.do(f"call void @largest({arguments})")
+            case "set" | "add":
+                if self._copy:
+                    statements.move(self._target, statements.at(action.slot), action.count)
+            case _:
+                assert_never(action.mode)
         statements.cells.forget(action.slot, action.count)
