@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from desire_tui import __version__
+from desire_tui.engine.outputs.formats import FORMATS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_Command = TypeVar("_Command", bound="Callable[..., Any]")
 
 
 class _FilesOrCommand(click.Group):
@@ -60,16 +66,16 @@ def _settings(_: click.Context, __: click.Parameter, values: tuple[str, ...]) ->
         ) from None
 
 
+def _output_options(command: _Command) -> _Command:
+    """Add an option for each format that results can be written in."""
+    for known in reversed(FORMATS):
+        command = click.option(f"--{known.name}", metavar="F", help=known.about)(command)
+    return command
+
+
 @main.command()
 @click.argument("file")
-@click.option("--png", metavar="F", help="Write the graph as PNG; several graphs: F-1.png, F-2.png …")
-@click.option("--svg", metavar="F", help="Write the graph as SVG.")
-@click.option("--pdf", metavar="F", help="Write the graph as PDF.")
-@click.option("--csv", metavar="F", help="Write all samples: one row each, columns run, t, names ….")
-@click.option("--json", metavar="F", help="Write everything the program produced.")
-@click.option(
-    "--npz", metavar="F", help="Write samples (1/t, 1/x … of run 1) and final values for numpy.load."
-)
+@_output_options
 @click.option("--plot", is_flag=True, help="Print the last graph as text.")
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", callback=_settings,
               help="Override the script's own values: a=3, v[2]=3, v=1,2,3, A=1,2;3,4.")  # fmt: skip
@@ -94,17 +100,17 @@ def run(file: str, **options: Any) -> None:
 
 def _run(file: str, **options: Any) -> int:
     from desire_tui.batch.cli_commands import run_file
-    from desire_tui.batch.output_files import OutputFiles
+    from desire_tui.batch.output_files import STANDARD_OUTPUT, OutputFiles
     from desire_tui.batch.runner import RunOptions
 
-    kinds = ("png", "svg", "pdf", "csv", "json", "npz")
-    if sum(options[kind] == "-" for kind in kinds) > 1:
+    files = {known.name: options[known.name] for known in FORMATS if options[known.name] is not None}
+    if sum(name == STANDARD_OUTPUT for name in files.values()) > 1:
         raise click.UsageError("only one file can go to standard output")
     orders = RunOptions(
         settings=options["settings"], answer_stops=options["go"], timeout=options["timeout"],
         backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
     )  # fmt: skip
-    wanted = OutputFiles(**{kind: options[kind] for kind in kinds}, plot=options["plot"])
+    wanted = OutputFiles(files, plot=options["plot"])
     return run_file(file, orders, wanted, options["answers"], quiet=options["quiet"])
 
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from desire_tui.actions import Controller
 from desire_tui.common.dialogs import LineDialog
 from desire_tui.common.paths import full
-from desire_tui.engine.atomic_file import replace_text
+from desire_tui.engine.atomic_file import replacing
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.outputs.formats import CSV, PICTURES, PNG, endings
 
 if TYPE_CHECKING:
     from desire_tui.engine.session.quantity_plots import Charted
@@ -103,13 +104,15 @@ class GraphActions(Controller):
             stem = Path((app.editor.active or app.editor.front).buffer.name).stem
             typed = await app.push_screen_wait(
                 LineDialog(
-                    "Save the graph as", f"{stem}.png", "the ending .png, .svg or .pdf chooses the kind"
+                    "Save the graph as",
+                    f"{stem}{PNG.ending}",
+                    f"the ending {endings(PICTURES)} chooses the kind",
                 )
             )
             if not typed:
                 return
             name = typed
-        path = full(Path(name) if Path(name).suffix else Path(f"{name}.png"), app.session.folder)
+        path = full(Path(name) if Path(name).suffix else Path(f"{name}{PNG.ending}"), app.session.folder)
         page = app.graph.page
 
         def write() -> None:
@@ -140,12 +143,14 @@ class GraphActions(Controller):
         if not app.session.runs:
             app.notify("No run yet: press F5.", timeout=2)
             return
-        name = argument or await app.push_screen_wait(LineDialog("Save the samples as", "samples.csv"))
+        ask = LineDialog("Save the samples as", f"samples{CSV.ending}")
+        name = argument or await app.push_screen_wait(ask)
         if not name:
             return
-        path = full(Path(name) if Path(name).suffix else Path(f"{name}.csv"), app.session.folder)
+        path = full(Path(name) if Path(name).suffix else Path(f"{name}{CSV.ending}"), app.session.folder)
         try:
-            replace_text(path, app.samples(","))
+            with replacing(path, make_folder=True) as file:
+                app.write_samples(file)
         except OSError as error:
             app.complain(f"cannot write {path}: {error.strerror}", code=106)
             return

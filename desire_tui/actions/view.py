@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import StringIO
 from typing import TYPE_CHECKING
 
 from textual.widgets import Input, TextArea
@@ -123,7 +124,9 @@ class ViewActions(Controller):
         """Copy the last run's samples, tab-separated."""
         del argument
         if self.app.session.runs:
-            self.copy(self.app.samples("\t"))
+            table = StringIO()
+            self.app.write_samples(table, delimiter="\t")
+            self.copy(table.getvalue())
         else:
             self.app.notify("No run yet: press F5.", timeout=2)
 

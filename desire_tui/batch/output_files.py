@@ -3,128 +3,98 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.files import write_bytes, write_file
+from desire_tui.engine.outputs.formats import DATA, PICTURES
+from desire_tui.engine.outputs.picture_files import write_pictures
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.outputs.formats import DataFormat, PictureFormat
     from desire_tui.engine.outputs.results import Result
     from desire_tui.engine.session.session import Session
 
 STANDARD_OUTPUT = "-"
 _PLOT_ROWS = 24
-_COPY, _TEXT = 1, 16
-"""Numbers' worth of memory that a number takes on its way into a file: copied, and as text in one piece."""
 
 
 @dataclass(frozen=True)
 class OutputFiles:
-    """Files asked for on the command line; `-` is standard output."""
+    """Files asked for on the command line, by the format's name; `-` is standard output."""
 
-    png: str | None = None
-    svg: str | None = None
-    pdf: str | None = None
-    csv: str | None = None
-    json: str | None = None
-    npz: str | None = None
+    files: Mapping[str, str] = field(default_factory=dict)
     plot: bool = False
+    """Whether the last graph is to be printed as text."""
 
     @property
     def takes_stdout(self) -> bool:
         """Whether standard output belongs to a file, so that console text has to go elsewhere."""
-        return STANDARD_OUTPUT in (self.png, self.svg, self.pdf, self.csv, self.json, self.npz)
+        return STANDARD_OUTPUT in self.files.values()
 
     def write(self, session: Session, result: Callable[[], Result]) -> None:
         """Write everything.
 
         DesireError 106: something cannot be written; 471: no graph for a picture; 40: too much for a file.
         """
-        for kind in ("png", "svg", "pdf"):
-            name = getattr(self, kind)
-            if name is not None:
-                _pictures(session, name, f".{kind}")
-        if self.csv is not None:
-            from desire_tui.engine.outputs.data_files import write_csv
-
-            _needs_room(session, _COPY)
-            _text(self.csv, lambda file: write_csv(result(), file))
-        if self.json is not None:
-            from desire_tui.engine.outputs.data_files import as_json
-
-            _needs_room(session, _TEXT)
-            _text(self.json, lambda file: file.write(as_json(result())))
-        if self.npz is not None:
-            _needs_room(session, _COPY)
-            _archive(self.npz, result())
+        for picture in PICTURES:
+            if picture.name in self.files:
+                _write_pictures(session, self.files[picture.name], picture)
+        for data in DATA:
+            if data.name in self.files:
+                _check_memory(session, data)
+                _write_data(result(), self.files[data.name], data)
         if self.plot:
-            _plot(session)
+            _print_plot(session)
 
 
-def _needs_room(session: Session, each: int) -> None:
-    """Refuse to copy quantities that would fill the machine's memory."""
+def _check_memory(session: Session, data: DataFormat) -> None:
+    """DesireError 40: the quantities' way into a file would fill the machine's memory."""
     numbers = sum(quantity.size for quantity in session.values)
-    if each * numbers > session.values.spare:
+    if data.memory * numbers > session.values.spare:
         raise DesireError(Diagnostic("out-of-memory", facts={"elements": numbers}))
 
 
-def _text(name: str, write) -> None:  # type: ignore[no-untyped-def]  # noqa: ANN001
-    from desire_tui.engine.files import write_file
-
+def _write_data(result: Result, name: str, data: DataFormat) -> None:
     if name == STANDARD_OUTPUT:
-        write(sys.stdout)
+        data.write(result, sys.stdout if data.is_text else sys.stdout.buffer)
         sys.stdout.flush()
-    else:
-        write_file(Path(name), write)
+        return
+    write = write_file if data.is_text else write_bytes
+    write(Path(name), lambda file: data.write(result, file))
 
 
-def _archive(name: str, result: Result) -> None:
-    from desire_tui.engine.files import write_bytes
-    from desire_tui.engine.outputs.data_files import write_npz
-
-    if name == STANDARD_OUTPUT:
-        write_npz(result, sys.stdout.buffer)
-        sys.stdout.buffer.flush()
-    else:
-        write_bytes(Path(name), lambda file: write_npz(result, file))
-
-
-def _pages(session: Session) -> list[Graph]:
-    pages = [page for page in session.graphs if not page.is_empty]
-    if not pages:
-        raise DesireError(Diagnostic("no-graph"))
-    return pages
-
-
-def _pictures(session: Session, name: str, ending: str) -> None:
+def _write_pictures(session: Session, name: str, picture: PictureFormat) -> None:
     """One graph: NAME; several: NAME-1, NAME-2 …; on standard output: the last one."""
-    from desire_tui.engine.outputs.picture_file import picture_of, write_picture
-
-    pages = _pages(session)
+    graphs = _graphs(session)
     if name == STANDARD_OUTPUT:
-        sys.stdout.buffer.write(picture_of(pages[-1], ending[1:]))
-        sys.stdout.buffer.flush()
+        sys.stdout.buffer.write(picture.content(graphs[-1]))
+        sys.stdout.flush()
         return
     path = Path(name)
-    if path.suffix.lower() != ending:
-        path = path.with_name(path.name + ending)
-    if len(pages) == 1:
-        write_picture(pages[0], path)
-        return
-    for number, page in enumerate(pages, 1):
-        write_picture(page, path.with_name(f"{path.stem}-{number}{path.suffix}"))
+    if path.suffix.lower() != picture.ending:
+        path = path.with_name(path.name + picture.ending)
+    write_pictures(graphs, path)
 
 
-def _plot(session: Session) -> None:
+def _print_plot(session: Session) -> None:
     import shutil
 
     from desire_tui.engine.outputs.text_plot import text_plot
 
     columns, rows = shutil.get_terminal_size((80, _PLOT_ROWS + 2))
     rows = max(min(rows - 2, columns // 3), 12)
-    sys.stdout.write(text_plot(_pages(session)[-1], columns, rows, colored=sys.stdout.isatty()))
+    sys.stdout.write(text_plot(_graphs(session)[-1], columns, rows, colored=sys.stdout.isatty()))
     sys.stdout.flush()
+
+
+def _graphs(session: Session) -> list[Graph]:
+    graphs = [page for page in session.graphs if not page.is_empty]
+    if not graphs:
+        raise DesireError(Diagnostic("no-graph"))
+    return graphs

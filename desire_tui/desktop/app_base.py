@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
 
 from textual import events
 from textual.app import App
@@ -187,12 +187,12 @@ class AppBase(App[None]):
         self.command.console.add(f"{path}", "notice")
         self.notify(f"Saved {path}", markup=False, timeout=3)
 
-    def samples(self, separator: str) -> str:
-        """Return the last run's samples as a table: t, then every column."""
-        record = self.session.runs[-1]
-        head = separator.join(("t", *(column.name for column in record.columns)))
-        rows = record.rows[: record.count].tolist()
-        return "\n".join((head, *(separator.join(f"{value:.17g}" for value in row) for row in rows))) + "\n"
+    def write_samples(self, file: IO[str], delimiter: str = ",") -> None:
+        """Write the last run's samples as a table: t, then every variable that it recorded."""
+        from desire_tui.engine.outputs.csv_file import write_csv
+        from desire_tui.engine.outputs.results import run_data
+
+        write_csv([run_data(self.session.runs[-1])], file, numbered=False, delimiter=delimiter)
 
     def write_up(self, summary: str, details: str) -> None:
         """Keep a fault of ours in a file and say so; the session goes on."""

@@ -186,7 +186,7 @@ class PictureScreen(Question[bool]):
 
 
 def _png(page: Graph, how: Graphics, columns: int, rows: int) -> bytes:
-    from desire_tui.engine.outputs.picture_file import png_of
+    from desire_tui.engine.outputs.matplotlib_figure import png_of
 
     width, height = how.cell if how.kind != "none" else (2 * BLOCK_DOTS, 4 * BLOCK_DOTS)
     return png_of(page, columns * width, rows * height)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import math
 
 import numpy as np
@@ -196,6 +197,18 @@ async def test_snapshot_and_export(program, tmp_path):
         table = np.genfromtxt(tmp_path / "g.csv", delimiter=",", names=True)
         assert table.dtype.names == ("t", "x", "v")
         assert np.allclose(table["x"], np.cos(table["t"]), atol=1e-6)
+
+
+async def test_an_exported_array_element_is_one_column(program, tmp_path):
+    text = "ARRAY A[1,2]\nNN = 3 | TMAX = 1 | t = 0\ndrun\nDYNAMIC\nA[1,2] = t / 3\ndispt A[1,2]\n"
+    async with desktop(program(text)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        await desk.line("export 'g.csv'")
+        await desk.until((tmp_path / "g.csv").exists)
+        head, *rows = csv.reader((tmp_path / "g.csv").read_text().splitlines())
+        assert head == ["t", "A[1,2]"]
+        assert [[float(cell) for cell in row] for row in rows] == [[0.0, 0.0], [0.5, 0.5 / 3], [1.0, 1 / 3]]
 
 
 async def test_full_screen_and_back(program):

@@ -65,11 +65,11 @@ def test_problems_to_stderr_and_status_1(tmp_path):
 
 def test_each_csv_column_stands_once():
     import desire_tui
-    from desire_tui.engine.outputs.data_files import write_csv
+    from desire_tui.engine.outputs.csv_file import write_csv
 
     text = "NN = 2\ndrun\ndrun b\nDYNAMIC\ny = 2*t\ndispxy t, y, y\nlabel b\nz = 3*t\nDISPXY z, t, y, z\n"
     file = StringIO()
-    write_csv(desire_tui.run(text), file)
+    write_csv(desire_tui.run(text).runs, file)
     assert file.getvalue().split("\n")[:3] == ["run,t,y,z", "1,1.0,2.0,", "1,2.0,4.0,"]
 
 
@@ -164,7 +164,7 @@ def test_json_of_problems_has_places(tmp_path):
 
 
 def test_inf_in_a_curve_is_a_string():
-    from desire_tui.engine.outputs.data_files import as_json
+    from desire_tui.engine.outputs.json_file import as_json
     from desire_tui.engine.outputs.results import Result
 
     result = Result("0", "p", quantities={"a": float("inf"), "b": float("nan"), "c": -float("inf")})

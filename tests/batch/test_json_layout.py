@@ -8,7 +8,7 @@ from math import exp
 import pytest
 
 import desire_tui
-from desire_tui.engine.outputs.data_files import as_json
+from desire_tui.engine.outputs.json_file import as_json
 
 NUMBER, WHOLE, TEXT, TRUTH = "number", "whole number", "text", "truth"
 

@@ -8,7 +8,7 @@ import pytest
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.graph.colors import rgb
 from desire_tui.engine.graph.pages import GraphBook
-from desire_tui.engine.outputs.picture_file import write_picture
+from desire_tui.engine.outputs.picture_files import write_picture
 from tests.graph.graphing import displayed, page_of, record_of
 
 T = np.linspace(0, 1, 200)

@@ -144,8 +144,8 @@ def run_data(record: RunRecord) -> RunData:
     return RunData(
         segment=record.segment, line=record.line, request=shown or ("type" if "type" in requests else "none"),
         overlay=record.overlay, rule=record.rule, scale=record.scale, t0=record.t0, tmax=record.t_max,
-        nn=record.nn, dt=record.dt, t=record.t.copy(), curves=tuple(curves.values()), ended=record.ended,
-        end_time=record.end_time, steps=record.steps, rejected=record.rejected,
+        nn=record.nn, dt=record.dt, t=rows[:count, 0].copy(), curves=tuple(curves.values()),
+        ended=record.ended, end_time=record.end_time, steps=record.steps, rejected=record.rejected,
         derivative_calls=record.derivative_calls, jacobian_calls=record.jacobian_calls,
         dt_least=record.dt_least, dt_most=record.dt_most, order=record.order, seconds=record.seconds,
     )  # fmt: skip

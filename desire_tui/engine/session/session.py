@@ -283,7 +283,7 @@ class Session:
         graph = graph or self.graph
         if graph is None:
             raise DesireError(Diagnostic("no-graph"))
-        from desire_tui.engine.outputs.picture_file import write_picture
+        from desire_tui.engine.outputs.picture_files import write_picture
 
         write_picture(graph, path)
         self._journal.picture(path)
@@ -305,6 +305,6 @@ class Session:
 
 
 def _draw(graph: Graph, path: Path) -> None:
-    from desire_tui.engine.outputs.picture_file import write_picture
+    from desire_tui.engine.outputs.picture_files import write_picture
 
     write_picture(graph, path)

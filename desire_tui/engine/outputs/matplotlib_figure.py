@@ -1,4 +1,4 @@
-"""A graph as a picture file: PNG, SVG, PDF, drawn by matplotlib (Figure + Agg, never pyplot)."""
+"""A graph as a picture, drawn by matplotlib (its Figure, never pyplot)."""
 
 from __future__ import annotations
 
@@ -8,14 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.files import write_bytes
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
 from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, to_unit
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -23,7 +19,6 @@ if TYPE_CHECKING:
 
     Tint = tuple[float, float, float]
 
-KINDS = (".png", ".svg", ".pdf")
 _INCHES = (8.0, 5.0)
 _DOTS_PER_INCH = 150
 _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
@@ -31,15 +26,6 @@ _SPINE = 2 * 72 / _DOTS_PER_INCH  # two dots: crisp
 _COLUMNS = 4000  # finer than any printer shows at this size
 _FONT = 11
 _drawing = Lock()  # the settings are matplotlib's own, and two threads may want pictures
-
-
-def write_picture(graph: Graph, path: Path) -> None:
-    """Write a graph. DesireError 34: an ending that is no picture's; 106: the file cannot be written."""
-    kind = path.suffix.lower()
-    if kind not in KINDS:
-        raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
-    content = picture_of(graph, kind[1:])
-    write_bytes(path, lambda file: file.write(content))
 
 
 def png_of(graph: Graph, width: int, height: int) -> bytes:
@@ -54,7 +40,7 @@ def picture_of(
     inches: tuple[float, float] = _INCHES,
     dots_per_inch: float = _DOTS_PER_INCH,
 ) -> bytes:
-    """Return a graph as the content of a picture file of a kind (png, svg, pdf).
+    """Return a graph as the content of a picture file; `kind` is a format of matplotlib (png, svg, pdf).
 
     It is drawn in memory: matplotlib's PDF writer cannot cope with a disk that is full.
     """

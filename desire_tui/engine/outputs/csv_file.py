@@ -1,0 +1,40 @@
+"""Samples of runs as CSV."""
+
+from __future__ import annotations
+
+import csv
+from itertools import repeat
+from typing import IO, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from desire_tui.engine.outputs.results import RunData
+
+_ROWS = 10_000  # turned into text at a time
+
+
+def write_csv(runs: Sequence[RunData], file: IO[str], *, numbered: bool = True, delimiter: str = ",") -> None:
+    """Write one row for each sample: `run, t, names…`, without `run` unless `numbered`.
+
+    A variable that a run did not record is empty there. Numbers read back as the same floats.
+    """
+    shown = dict.fromkeys(curve.name for run in runs for curve in run.curves)
+    names = [name for name in shown if name != "t"]  # it has its column
+    header = csv.writer(file, delimiter=delimiter, lineterminator="\n")
+    header.writerow([*(["run"] if numbered else []), "t", *names])
+    for number, run in enumerate(runs, 1):
+        first = [repeat(str(number))] if numbered else []
+        for columns in _texts(run, names):
+            # numbers need no quotes: `csv` would look for something to quote, in a third more time
+            rows = map(delimiter.join, zip(*first, *columns, strict=False))  # what is repeated has no end
+            file.writelines(f"{row}\n" for row in rows)
+
+
+def _texts(run: RunData, names: Sequence[str]) -> Iterator[list[Iterable[str]]]:
+    """Return the columns of a run as texts, t first, some rows at a time."""
+    recorded = {curve.name: curve.values for curve in run.curves}
+    columns = [run.t, *(recorded.get(name) for name in names)]
+    for start in range(0, len(run.t), _ROWS):
+        rows = slice(start, start + _ROWS)
+        yield [map(repr, column[rows].tolist()) if column is not None else repeat("") for column in columns]

@@ -1,0 +1,113 @@
+"""The formats that results are written in: a new one is an entry here and its writer."""
+
+from __future__ import annotations
+
+from typing import IO, TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.outputs.results import Result
+
+
+# Every start of the program reads this list: what draws and writes is imported when it is needed, and these
+# are plain classes, since dataclasses take a millisecond each to define
+
+
+class OutputFormat:
+    """A file format. `name` is its option of `desire run` and the ending of its files."""
+
+    def __init__(self, name: str, title: str, about: str) -> None:
+        self.name, self.title, self.about = name, title, about
+
+    @property
+    def ending(self) -> str:
+        """Ending of a file's name, with its dot."""
+        return f".{self.name}"
+
+
+class PictureFormat(OutputFormat):
+    """A format for one graph: `content` returns what its file holds."""
+
+    def __init__(self, name: str, title: str, about: str, content: Callable[[Graph], bytes]) -> None:
+        super().__init__(name, title, about)
+        self.content = content
+
+
+class DataFormat(OutputFormat):
+    """A format for everything that a program produced.
+
+    `write` gets a text file if `is_text`, else a binary one. `memory`: how many numbers' worth of memory a
+    number takes on its way into the file.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        title: str,
+        about: str,
+        write: Callable[[Result, IO[Any]], object],
+        *,
+        is_text: bool,
+        memory: int,
+    ) -> None:
+        super().__init__(name, title, about)
+        self.write, self.is_text, self.memory = write, is_text, memory
+
+
+def _picture(kind: str) -> Callable[[Graph], bytes]:
+    def content(graph: Graph) -> bytes:
+        from desire_tui.engine.outputs.matplotlib_figure import picture_of
+
+        return picture_of(graph, kind)
+
+    return content
+
+
+def _csv(result: Result, file: IO[str]) -> None:
+    from desire_tui.engine.outputs.csv_file import write_csv
+
+    write_csv(result.runs, file)
+
+
+def _json(result: Result, file: IO[str]) -> None:
+    from desire_tui.engine.outputs.json_file import as_json
+
+    file.write(as_json(result))
+
+
+def _npz(result: Result, file: IO[bytes]) -> None:
+    from desire_tui.engine.outputs.npz_file import write_npz
+
+    write_npz(result, file)
+
+
+PNG = PictureFormat(
+    "png", "PNG", "Write the graph as PNG; several graphs: F-1.png, F-2.png …", _picture("png")
+)
+CSV = DataFormat(
+    "csv", "CSV", "Write all samples: one row each, columns run, t, names ….", _csv, is_text=True, memory=1
+)
+
+PICTURES = (
+    PNG,
+    PictureFormat("svg", "SVG", "Write the graph as SVG.", _picture("svg")),
+    PictureFormat("pdf", "PDF", "Write the graph as PDF.", _picture("pdf")),
+)
+DATA = (
+    CSV,
+    # the whole text is made in one piece
+    DataFormat("json", "JSON", "Write everything the program produced.", _json, is_text=True, memory=16),
+    DataFormat(
+        "npz", "NPZ", "Write samples (1/t, 1/x … of run 1) and final values for numpy.load.", _npz,
+        is_text=False, memory=1,
+    ),
+)  # fmt: skip
+FORMATS: tuple[OutputFormat, ...] = (*PICTURES, *DATA)
+
+
+def endings(formats: Sequence[OutputFormat]) -> str:
+    """Return the endings as a sentence names them: `.png, .svg or .pdf`."""
+    *others, last = (known.ending for known in formats)
+    return f"{', '.join(others)} or {last}" if others else last

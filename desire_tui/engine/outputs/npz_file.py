@@ -1,0 +1,19 @@
+"""Results as an archive of NumPy arrays."""
+
+from __future__ import annotations
+
+from typing import IO, TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from desire_tui.engine.outputs.results import Result
+
+
+def write_npz(result: Result, file: IO[bytes]) -> None:
+    """Write an archive for `numpy.load`: `1/t`, `1/x` … are samples of run 1, `final/x` … final values."""
+    arrays = {f"final/{name}": np.asarray(value) for name, value in result.quantities.items()}
+    for number, run in enumerate(result.runs, 1):
+        arrays[f"{number}/t"] = run.t
+        arrays |= {f"{number}/{curve.name}": curve.values for curve in run.curves}
+    np.savez(file, **arrays)  # type: ignore[arg-type]  # its stub takes the first name for allow_pickle

@@ -1,0 +1,33 @@
+"""Graphs as picture files."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.files import write_bytes
+from desire_tui.engine.outputs.formats import PICTURES
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from desire_tui.engine.graph.model import Graph
+
+
+def write_picture(graph: Graph, path: Path) -> None:
+    """Write a graph. DesireError 34: an ending that is no picture's; 106: the file cannot be written."""
+    known = next((known for known in PICTURES if known.ending == path.suffix.lower()), None)
+    if known is None:
+        raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
+    content = known.content(graph)
+    write_bytes(path, lambda file: file.write(content))
+
+
+def write_pictures(graphs: Sequence[Graph], path: Path) -> None:
+    """Write one graph to `path`, several to `NAME-1.png`, `NAME-2.png` …. DesireError as `write_picture`."""
+    if len(graphs) == 1:
+        write_picture(graphs[0], path)
+        return
+    for number, graph in enumerate(graphs, 1):
+        write_picture(graph, path.with_name(f"{path.stem}-{number}{path.suffix}"))
