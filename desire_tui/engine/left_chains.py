@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.nodes.expressions import Binary
+from desire_tui.engine.nodes.expressions import Binary, Unary
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr
@@ -33,6 +33,20 @@ def chain(node: Expr) -> tuple[Expr, list[Binary]]:
         node = node.left
     steps.reverse()
     return node, steps
+
+
+def signed_terms(node: Expr, sign: float = 1.0) -> list[tuple[float, Expr]]:
+    """Split a sum into its terms with their signs (1 or −1), from left to right."""
+    if isinstance(node, Unary):
+        return signed_terms(node.operand, -sign if node.op == "-" else sign)
+    following: list[tuple[float, Expr]] = []
+    first, steps = chain(node)
+    while steps and steps[-1].op in "+-":
+        step = steps.pop()
+        following += signed_terms(step.right, sign if step.op == "+" else -sign)[::-1]
+    if not following:
+        return [(sign, node)]
+    return [*signed_terms(steps[-1] if steps else first, sign), *following[::-1]]
 
 
 def is_long(node: Node) -> bool:

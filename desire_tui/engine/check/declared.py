@@ -10,14 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.left_chains import chain
-from desire_tui.engine.library import power
+from desire_tui.engine.lowering.constant_values import evaluate
 from desire_tui.engine.lowering.scope import SYSTEM_SLOTS, UNKNOWN, StaticScope
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.commands import Drun, Simple
 from desire_tui.engine.nodes.control import GoTo, Procedure
 from desire_tui.engine.nodes.declarations import Declare
-from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
+from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.names import assigned, dummies, invocation
 from desire_tui.engine.values import Kind, Quantity
 
@@ -190,38 +189,8 @@ def _constants(script: Iterable[Placed]) -> dict[str, float]:
 
 
 def _evaluate(node: Expr, known: dict[str, float]) -> float | None:
-    if isinstance(node, Number):
-        return node.value
-    if isinstance(node, Name):
-        return known.get(node.name)
-    if isinstance(node, Unary):
-        value = _evaluate(node.operand, known)
-        return None if value is None else -value if node.op == "-" else value
-    if not isinstance(node, Binary):
-        return None
-    first, steps = chain(node) if node.op != "^" else (node.left, [node])
-    result = _evaluate(first, known)
-    for step in steps:
-        right = _evaluate(step.right, known)
-        if result is None or right is None:
-            return None
-        result = _computed(step.op, result, right)
-    return result
-
-
-def _computed(op: str, left: float, right: float) -> float | None:
+    """Return the value of an expression of numbers and known scalars, None of any other."""
     try:
-        match op:
-            case "+":
-                return left + right
-            case "-":
-                return left - right
-            case "*":
-                return left * right
-            case "/":
-                return left / right
-            case "^":
-                return power(left, right)
+        return evaluate(node, lambda part: known.get(part.name) if isinstance(part, Name) else None)
     except (ArithmeticError, ValueError):
         return None
-    return None

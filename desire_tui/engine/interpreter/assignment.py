@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.expression_translation import literal
 from desire_tui.engine.interpreter.name_resolution import Reference
 from desire_tui.engine.interpreter.python_ast import at
 from desire_tui.engine.nodes.expressions import Name
-from desire_tui.engine.nodes.record import Node
+from desire_tui.engine.nodes.signs import literal
+from desire_tui.engine.nodes.walk import walk
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes.assignments import Assign
     from desire_tui.engine.nodes.expressions import Expr, Target
+    from desire_tui.engine.nodes.record import Node
 
 
 def assign(site: Site, node: Assign) -> Operation:
@@ -95,19 +96,9 @@ def store_code(site: Site, target: Target, slot: ast.expr, kind: Kind, value: Ex
     return body
 
 
-def _mentions(node: object, name: str) -> bool:
+def _mentions(node: Node, name: str) -> bool:
     """Whether an expression reads a name."""
-    rest = [node]
-    while rest:
-        part = rest.pop()
-        if isinstance(part, tuple):
-            rest.extend(part)
-        elif isinstance(part, Node):
-            if getattr(part, "name", None) == name:
-                return True
-            slots: tuple[str, ...] = type(part).__slots__
-            rest.extend(getattr(part, slot) for slot in slots)
-    return False
+    return any(getattr(part, "name", None) == name for part in walk(node))
 
 
 def storer(site: Site, target: Target) -> Callable[[complex], None]:

@@ -11,9 +11,9 @@ from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
 from desire_tui.engine.interpreter.entries import Entries
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.expression_translation import literal
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.files import Data, Input, Read, Restore
+from desire_tui.engine.nodes.signs import literal
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:

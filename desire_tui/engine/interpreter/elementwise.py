@@ -12,12 +12,13 @@ import numpy as np
 
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.expression_translation import Translator, literal
+from desire_tui.engine.interpreter.expression_translation import Translator
 from desire_tui.engine.interpreter.name_resolution import Local, Meaning
-from desire_tui.engine.interpreter.user_functions import is_used_as_array
+from desire_tui.engine.interpreter.user_functions import NUMBERS_OF_TABLE_FUNCTIONS, is_used_as_array
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.nodes.declarations import Function
 from desire_tui.engine.nodes.expressions import Binary, Call, Element, Name, RowOf, Shifted, Transposed, Unary
+from desire_tui.engine.nodes.signs import literal
 from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.values import Kind, Quantity
 
@@ -32,8 +33,6 @@ if TYPE_CHECKING:
 
 ELEMENTS_AT_ONCE = 10_000
 """Elements that a function is applied to before the user is let in."""
-_TABLES = {"func1": 1, "func2": 2}
-"""Table functions, with how many arguments are not tables."""
 
 
 class Shapes:
@@ -61,7 +60,7 @@ class Shapes:
                     shape = self._joined(step.op, shape, self.of(step.right))
                 return shape
             case Call(name, args):
-                shapes = [self.of(arg) for arg in args[: _TABLES.get(name, len(args))]]
+                shapes = [self.of(arg) for arg in args[: NUMBERS_OF_TABLE_FUNCTIONS.get(name, len(args))]]
                 shape = next(filter(None, shapes), ())
                 return shape[::-1] if name == "$Tr" else shape
         return ()
@@ -98,7 +97,9 @@ class ElementwiseExpressions:
                     body = placed.node.body if isinstance(placed.node, Function) else None
                     if body is not None and name not in within and self._special(body, (*within, name)):
                         return True
-                elif name in DRAWS or (name in _TABLES and not within and self._shapes.of(node)):
+                elif name in DRAWS or (
+                    name in NUMBERS_OF_TABLE_FUNCTIONS and not within and self._shapes.of(node)
+                ):
                     return True
                 return any(self._special(arg, within) for arg in args)
             case Element(_, subscripts):
@@ -168,7 +169,7 @@ class ElementwiseExpressions:
         """Return which arguments of a call are arrays as such: tables, and what a FUNCTION uses as one."""
         placed = self._site.machine.functions.definitions.get(name)
         if placed is None or not isinstance(placed.node, Function):
-            return range(_TABLES.get(name, count), count)
+            return range(NUMBERS_OF_TABLE_FUNCTIONS.get(name, count), count)
         body = placed.node.body
         return [at for at, dummy in enumerate(placed.node.dummies) if is_used_as_array(dummy, body)]
 

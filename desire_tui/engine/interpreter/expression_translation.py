@@ -29,6 +29,7 @@ from desire_tui.engine.nodes.expressions import (
     Relation,
     Unary,
 )
+from desire_tui.engine.nodes.signs import whole_literal
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -176,7 +177,7 @@ class Translator:
 
     def _power(self, node: Binary) -> Typed:
         base, kind = self.finite(node.left)
-        exponent = whole_constant(node.right)
+        exponent = whole_literal(node.right)
         if exponent is not None and abs(exponent) < _WHOLE_POWER_LIMIT:
             if exponent == 1:
                 return Typed(base, kind)
@@ -189,24 +190,6 @@ class Translator:
         if kind is Kind.COMPLEX:
             raise ScriptFault("complex-power", node)
         return Typed(at(py.call("power", base, self.real(node.right)), node), Kind.REAL)
-
-
-def whole_constant(node: Expr) -> int | None:
-    """Return the value of a whole number literal with or without a sign, None for anything else."""
-    if isinstance(node, Unary):
-        value = whole_constant(node.operand)
-        return value if value is None or node.op == "+" else -value
-    return int(node.value) if isinstance(node, Number) and node.value.is_integer() else None
-
-
-def literal(node: Expr) -> float | None:
-    """Return the value of a number literal with or without a sign, None for anything else."""
-    if isinstance(node, Number):
-        return node.value
-    if isinstance(node, Unary):
-        value = literal(node.operand)
-        return value if value is None or node.op == "+" else -value
-    return None
 
 
 def scalar_quantity(scope: NameScope, node: Expr) -> Quantity | None:

@@ -9,8 +9,9 @@ import numpy as np
 from desire_tui.engine.interpreter.array_expressions import ArrayExpressions, conform
 from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.left_chains import chain
-from desire_tui.engine.nodes.expressions import Expr, Name, Number, Transposed, Unary
+from desire_tui.engine.left_chains import chain, signed_terms
+from desire_tui.engine.nodes.expressions import Expr, Name, Number, Transposed
+from desire_tui.engine.nodes.signs import unsigned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -94,7 +95,7 @@ def _largest_only(vector: Array) -> Array:
 
 def dot(site: Site, node: Dot) -> Operation:
     """`DOT s = u*v + u*1 + u*A*v + u*A%*v`; `AVG` divides by the vectors' length."""
-    terms = [_DotTerm(site, sign, term) for sign, term in _terms(node.value, 1.0)]
+    terms = [_DotTerm(site, sign, term) for sign, term in signed_terms(node.value)]
     store = storer(site, node.target)
 
     @np.errstate(all="ignore")  # the result is looked at
@@ -103,20 +104,6 @@ def dot(site: Site, node: Dot) -> Operation:
         store(float(total / terms[0].length if node.average else total))
 
     return site.then(action)
-
-
-def _terms(node: Expr, sign: float) -> list[tuple[float, Expr]]:
-    """Split a sum into signed terms, from left to right."""
-    if isinstance(node, Unary):
-        return _terms(node.operand, sign if node.op == "+" else -sign)
-    following: list[tuple[float, Expr]] = []
-    first, steps = chain(node)
-    while steps and steps[-1].op in {"+", "-"}:
-        step = steps.pop()
-        following += _terms(step.right, sign if step.op == "+" else -sign)[::-1]
-    if not following:
-        return [(sign, node)]
-    return [*_terms(steps[-1] if steps else first, sign), *following[::-1]]
 
 
 def _factors(node: Expr) -> list[Expr]:
@@ -136,10 +123,9 @@ class _DotTerm:
         factors = _factors(node)
         if not 2 <= len(factors) <= 3:
             raise ScriptFault("script-dot-term", node)
-        while isinstance(first := factors[0], Unary):  # `-u*v`
-            sign, factors[0] = sign if first.op == "+" else -sign, first.operand
-        self._sign = sign
-        left = self._vector(site, factors[0])
+        own, first = unsigned(factors[0])  # `-u*v`
+        self._sign = sign * own
+        left = self._vector(site, first)
         self._left = site.numbers(left)
         self.length = left.size
         last = factors[-1]

@@ -14,6 +14,7 @@ from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.commands import Drun
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, Procedure
 from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
+from desire_tui.engine.nodes.signs import literal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -134,8 +135,8 @@ class _Survey:
     def _passes(self, node: object, closing: int) -> int:
         if not isinstance(node, For) or self._is_left(closing):
             raise _Unknown
-        first, last = _literal(node.first), _literal(node.last)
-        step = _literal(node.by) if node.by is not None else 1.0
+        first, last = _known(node.first), _known(node.last)
+        step = _known(node.by) if node.by is not None else 1.0
         return max(floor((last - first) / step + ROUNDING) + 1, 0) if step else 0
 
     def _runs_of(self, name: str) -> int:
@@ -163,10 +164,8 @@ def _names(bound: Expr | None) -> frozenset[str]:
     return frozenset({_ANY})
 
 
-def _literal(bound: Expr) -> float:
-    match bound:
-        case Number(value=value):
-            return value
-        case Unary(op=op, operand=operand):
-            return -_literal(operand) if op == "-" else _literal(operand)
-    raise _Unknown
+def _known(bound: Expr) -> float:
+    value = literal(bound)
+    if value is None:
+        raise _Unknown
+    return value

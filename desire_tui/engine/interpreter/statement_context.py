@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.expression_translation import literal, scalar_quantity
+from desire_tui.engine.interpreter.expression_translation import scalar_quantity
 from desire_tui.engine.interpreter.name_resolution import Reference
 from desire_tui.engine.interpreter.python_ast import at
 from desire_tui.engine.interpreter.subscripts import element_slot
 from desire_tui.engine.nodes.expressions import Element, Name
+from desire_tui.engine.nodes.signs import literal
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.name_resolution import Local, Meaning, NameScope
 from desire_tui.engine.interpreter.python_ast import Typed, at
-from desire_tui.engine.left_chains import chain
 from desire_tui.engine.nodes.declarations import Function
-from desire_tui.engine.nodes.expressions import Binary, Call, Element, Name, Pair, Unary
+from desire_tui.engine.nodes.expressions import Call, Element, Name
+from desire_tui.engine.nodes.walk import walk
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
+
+NUMBERS_OF_TABLE_FUNCTIONS = {"func1": 1, "func2": 2}
+"""Table functions, with how many of their arguments are numbers: the others are tables."""
 
 
 class UserFunctions:
@@ -123,38 +126,18 @@ class UserFunctions:
 
     def _calls_in(self, body: Expr) -> int:
         """Return how often an expression calls the program's FUNCTIONs."""
-        match body:
-            case Call(name, args):
-                return (name in self.definitions) + sum(map(self._calls_in, args))
-            case Element(_, subscripts):
-                return sum(map(self._calls_in, subscripts))
-            case Binary():
-                first, steps = chain(body)
-                parts = [body.left, body.right] if not steps else [first, *(step.right for step in steps)]
-                return sum(map(self._calls_in, parts))
-            case Pair(left, right):
-                return self._calls_in(left) + self._calls_in(right)
-            case Unary(_, operand):
-                return self._calls_in(operand)
-        return 0
+        return sum(isinstance(part, Call) and part.name in self.definitions for part in walk(body))
 
 
 def is_used_as_array(dummy: str, body: Expr) -> bool:
     """Whether an expression subscripts a name or passes it to a table function."""
-    match body:
-        case Element(name, subscripts):
-            return name == dummy or any(is_used_as_array(dummy, part) for part in subscripts)
-        case Call(name, args):
-            tables = args[{"func1": 1, "func2": 2}.get(name, len(args)) :]
-            return Name(dummy) in tables or any(is_used_as_array(dummy, part) for part in args)
-        case Binary():
-            first, steps = chain(body)
-            parts = [body.left, body.right] if not steps else [first, *(step.right for step in steps)]
-            return any(is_used_as_array(dummy, part) for part in parts)
-        case Pair(left, right):
-            return is_used_as_array(dummy, left) or is_used_as_array(dummy, right)
-        case Unary(_, operand):
-            return is_used_as_array(dummy, operand)
+    for part in walk(body):
+        if isinstance(part, Element) and part.name == dummy:
+            return True
+        if isinstance(part, Call):
+            numbers = NUMBERS_OF_TABLE_FUNCTIONS.get(part.name, len(part.args))
+            if Name(dummy) in part.args[numbers:]:
+                return True
     return False
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.left_chains import chain
+from desire_tui.engine.left_chains import signed_terms
 from desire_tui.engine.lowered.expressions import Vec
 from desire_tui.engine.lowered.statements import DotTerm, SetDot, SetMat, SetVec
-from desire_tui.engine.lowering.expressions import lower
-from desire_tui.engine.lowering.products import array, matrix_vector, nonconformable, note_read, unsigned
+from desire_tui.engine.lowering.products import array, matrix_vector, nonconformable, note_read
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.lowering.targets import mark_array, mark_set, matrix, scalar_slot, vector
-from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
+from desire_tui.engine.nodes.expressions import Binary, Name, Number
+from desire_tui.engine.nodes.signs import unsigned
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowering.builder import SegmentBuilder
@@ -34,7 +34,7 @@ def vector_assign(builder: SegmentBuilder, node: VectorAssign) -> None:
     context.target = (quantity.slot, count)
     if node.delta:
         context.flow.read_range(quantity.slot, count)
-    value = lower(context, node.value, (count,))
+    value = context.lower(node.value, (count,))
     context.target = None
     mode: Literal["set", "add", "largest"] = "add" if node.delta else "largest" if node.largest else "set"
     made = SetVec(quantity.slot, count, value, context.where(node), mode, mask)
@@ -50,7 +50,7 @@ def vector_derivative(builder: SegmentBuilder, node: VectorDerivative) -> None:
     if quantity is None:
         return
     count = quantity.shape[0]
-    value = lower(context, node.value, (count,))
+    value = context.lower(node.value, (count,))
     if count != UNKNOWN:
         if builder.is_second(quantity.slot, count):
             context.report("state-twice", node, name=quantity.name)
@@ -63,7 +63,7 @@ def _target(context: LoweringContext, node: VectorAssign | VectorDerivative) -> 
     """Return the vector that a statement assigns; None: there is none, its right side has been checked."""
     quantity = vector(context, node, node.name)
     if quantity is None:
-        lower(context, node.value, (UNKNOWN,))
+        context.lower(node.value, (UNKNOWN,))
     return quantity
 
 
@@ -79,9 +79,9 @@ def matrix_assign(builder: SegmentBuilder, node: MatrixAssign) -> None:
     context.target = (quantity.slot, size)
     if node.delta or mask is not None:
         context.flow.read_range(quantity.slot, size)
-    value = lower(context, node.value, (rows, cols))
-    lower_bound = None if node.lower is None else lower(context, node.lower, (rows, cols))
-    upper_bound = None if node.upper is None else lower(context, node.upper, (rows, cols))
+    value = context.lower(node.value, (rows, cols))
+    lower_bound = None if node.lower is None else context.lower(node.lower, (rows, cols))
+    upper_bound = None if node.upper is None else context.lower(node.upper, (rows, cols))
     context.target = None
     made = SetMat(
         quantity.slot, rows, cols, value, context.where(node), "add" if node.delta else "set",
@@ -97,7 +97,7 @@ def dot(builder: SegmentBuilder, node: Dot) -> None:
     context = builder.context
     slot = scalar_slot(context, node.target)
     terms: list[DotTerm] = []
-    for sign, term in _terms(node.value, 1.0):
+    for sign, term in signed_terms(node.value):
         made = _dot_term(builder, sign, term)
         if made is not None:
             terms.append(made)
@@ -111,20 +111,6 @@ def dot(builder: SegmentBuilder, node: Dot) -> None:
         builder.body.append(done)
         context.flow.assignments.append(done)
         mark_set(context, node.target, slot)
-
-
-def _terms(node: Expr, sign: float) -> list[tuple[float, Expr]]:
-    """Split a sum into signed terms, from left to right."""
-    if isinstance(node, Unary):
-        return _terms(node.operand, -sign if node.op == "-" else sign)
-    following: list[tuple[float, Expr]] = []
-    first, steps = chain(node)
-    while steps and steps[-1].op in "+-":
-        step = steps.pop()
-        following += _terms(step.right, sign if step.op == "+" else -sign)[::-1]
-    if not following:
-        return [(sign, node)]
-    return [*_terms(steps[-1] if steps else first, sign), *following[::-1]]
 
 
 def _dot_term(builder: SegmentBuilder, sign: float, node: Expr) -> DotTerm | None:

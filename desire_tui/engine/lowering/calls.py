@@ -8,7 +8,6 @@ from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowered.expressions import Op, Table1, Table2
 from desire_tui.engine.lowered.walk import operands
-from desire_tui.engine.lowering import expressions
 from desire_tui.engine.lowering.lowering_context import (
     BAD,
     DEPTH_MAX,
@@ -23,8 +22,7 @@ from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowering.expressions import Extent
-    from desire_tui.engine.lowering.lowering_context import LoweringContext
+    from desire_tui.engine.lowering.lowering_context import Extent, LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
 
 LEVELS_MOST = 200
@@ -52,7 +50,7 @@ def call(context: LoweringContext, node: Call, extent: Extent) -> Value:
         return table2(context, node, extent)
     if node.name in DRAWS:
         return Op(node.name, ())
-    return Op(node.name, tuple([expressions.lower(context, argument, extent) for argument in node.args]))
+    return Op(node.name, tuple([context.lower(argument, extent) for argument in node.args]))
 
 
 def _expanded(context: LoweringContext, node: Call, extent: Extent) -> Value:
@@ -74,7 +72,7 @@ def _expanded(context: LoweringContext, node: Call, extent: Extent) -> Value:
     arguments = {d: Argument(a, frame) for d, a in zip(dummies, node.args, strict=True)}
     invoked, called = (*frame.invoked, context.span(node)), (*frame.calls, node.name)
     context.enter(ExpansionFrame(function.at, {}, arguments, invoked, called))
-    value = expressions.lower(context, function.node.body, extent)
+    value = context.lower(function.node.body, extent)
     context.enter(frame)
     if not frame.calls and levels_of(value) > LEVELS_MOST:
         return context.report("expression-too-deep", node, limit=LEVELS_MOST)
@@ -117,7 +115,7 @@ def _array(context: LoweringContext, node: Expr) -> Quantity | None:
 
 def table1(context: LoweringContext, node: Call, extent: Extent) -> Value:
     """Lower `func1(x; F)`: F is a vector of 2n elements, breakpoints first."""
-    x = expressions.lower(context, node.args[0], extent)
+    x = context.lower(node.args[0], extent)
     table = _array(context, node.args[1])
     if table is None:
         return BAD
@@ -129,8 +127,8 @@ def table1(context: LoweringContext, node: Call, extent: Extent) -> Value:
 
 def table2(context: LoweringContext, node: Call, extent: Extent) -> Value:
     """Lower `func2(x, y; F, X, Y)`: F[n, m] over X[n] and Y[m]."""
-    x = expressions.lower(context, node.args[0], extent)
-    y = expressions.lower(context, node.args[1], extent)
+    x = context.lower(node.args[0], extent)
+    y = context.lower(node.args[1], extent)
     f, xs, ys = (_array(context, argument) for argument in node.args[2:])
     if f is None or xs is None or ys is None:
         return BAD

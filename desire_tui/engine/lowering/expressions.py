@@ -1,17 +1,14 @@
-"""Expressions of a segment: names become slots, FUNCTIONs are expanded, arrays are checked.
-
-The *extent* says what is being computed: a scalar (`()`), a vector of n elements (`(n,)`) or a matrix
-(`(m, n)`).
-"""
+"""Expressions of a segment: names become slots, FUNCTIONs are expanded, arrays are checked."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.left_chains import LONG
 from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowering import calls, long_chains, products
-from desire_tui.engine.lowering.lowering_context import BAD
+from desire_tui.engine.lowering.lowering_context import BAD, SCALAR, Extent, LoweringContext
+from desire_tui.engine.lowering.operators import OPERATIONS, power
 from desire_tui.engine.lowering.subscripts import element
 from desire_tui.engine.nodes.expressions import (
     Binary,
@@ -19,62 +16,63 @@ from desire_tui.engine.nodes.expressions import (
     Element,
     Name,
     Number,
+    Pair,
     RowOf,
     Shifted,
+    Text,
     Transposed,
     Unary,
 )
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
 
-Extent = tuple[int, ...]
-SCALAR: Extent = ()
 
-OPERATIONS = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
+class ExpressionLowering(LoweringContext):
+    """The context that knows how to lower every kind of expression."""
+
+    def lower(self, node: Expr, extent: Extent = SCALAR) -> Value:
+        """Return the value of an expression over `extent`; problems are noted.
+
+        Errors 200, 70, 69, 2, 19, 59, 74, 75, 218 and those of FUNCTION calls (56, 52).
+        """
+        # `type(…) is` takes half the time of isinstance, for every node
+        if type(node) is Name:
+            if self.plain:
+                self.reads.append(node.name)
+                load = self.flow.ready.get(node.name)
+                if load is not None:
+                    return load
+            return _name(self, node, extent)
+        if type(node) is Number:
+            return Const(node.value)
+        if type(node) is Binary:
+            return _binary(self, node, extent)
+        if type(node) is Call:
+            return calls.call(self, node, extent)
+        if type(node) is Unary:
+            operand = self.lower(node.operand, extent)
+            if node.op == "+":
+                return operand
+            return Const(-operand.value) if isinstance(operand, Const) else Op("neg", (operand,))
+        if type(node) is Element:
+            return _subscripted(self, node)
+        if isinstance(node, Shifted | RowOf | Transposed):
+            return products.operand(self, node, extent)
+        if isinstance(node, Pair | Text):
+            return self.report("complex-in-dynamic", node, name="[…]")
+        assert_never(node)
 
 
-def lower(context: LoweringContext, node: Expr, extent: Extent = SCALAR) -> Value:
-    """Return the value of an expression over `extent`; problems go to the context.
-
-    Errors 200, 70, 69, 2, 19, 59, 74, 75, 218 and those of FUNCTION calls (56, 52).
-    """
-    kind = node.__class__  # half the time of isinstance, for every node; mypy does not follow it
-    if kind is Name:
-        if context.plain:
-            context.reads.append(node.name)  # type: ignore[union-attr]
-            load = context.flow.ready.get(node.name)  # type: ignore[union-attr]
-            if load is not None:
-                return load
-        return name(context, node, extent)  # type: ignore[arg-type]
-    if kind is Number:
-        return Const(node.value)  # type: ignore[union-attr, arg-type]
-    if kind is Binary:
-        return binary(context, node, extent)  # type: ignore[arg-type]
-    if kind is Call:
-        return calls.call(context, node, extent)  # type: ignore[arg-type]
-    if kind is Unary:
-        operand = lower(context, node.operand, extent)  # type: ignore[union-attr]
-        if node.op == "+":  # type: ignore[union-attr]
-            return operand
-        return Const(-operand.value) if isinstance(operand, Const) else Op("neg", (operand,))
-    if kind is Element:
-        return subscripted(context, node)  # type: ignore[arg-type]
-    if isinstance(node, Shifted | RowOf | Transposed):
-        return products.operand(context, node, extent)
-    return context.report("complex-in-dynamic", node, name="[…]")
-
-
-def name(context: LoweringContext, node: Name, extent: Extent) -> Value:
+def _name(context: LoweringContext, node: Name, extent: Extent) -> Value:
     """Lower a name: a scalar, a FUNCTION's dummy, or a whole array where the extent allows it."""
     frame = context.frame
     argument = frame.arguments.get(node.name)
     if argument is not None:
         if argument.value is None:
             context.enter(argument.outer)
-            argument.value = lower(context, argument.node, extent)
+            argument.value = context.lower(argument.node, extent)
             context.enter(frame)
         return argument.value
     if extent:
@@ -87,7 +85,7 @@ def name(context: LoweringContext, node: Name, extent: Extent) -> Value:
     return context.read(node)
 
 
-def subscripted(context: LoweringContext, node: Element) -> Value:
+def _subscripted(context: LoweringContext, node: Element) -> Value:
     """Lower `A[i, k]`."""
     context.reads.append("")
     slot, _ = element(context, node)
@@ -98,25 +96,18 @@ def subscripted(context: LoweringContext, node: Element) -> Value:
     return Load(slot)
 
 
-def binary(context: LoweringContext, node: Binary, extent: Extent) -> Value:
+def _binary(context: LoweringContext, node: Binary, extent: Extent) -> Value:
     """Lower an operation; products over an extent may hold matrix/vector products."""
     op = node.op
     if node.end - node.start >= LONG and op != "^":
         return long_chains.lower_long(context, node, extent)
     if extent and op in "*/&":
         return products.product(context, node, extent)
-    left = lower(context, node.left, extent)
-    right = lower(context, node.right, extent)
+    left = context.lower(node.left, extent)
+    right = context.lower(node.right, extent)
     operation = OPERATIONS.get(op)
     if operation is not None:
         return Op(operation, (left, right))
     if op == "^":
         return power(left, right)
     return context.report("ampersand-here", node)
-
-
-def power(left: Value, right: Value) -> Op:
-    """Lower `left ^ right`: whole constant powers are products (language.md 4)."""
-    if isinstance(right, Const) and right.value == int(right.value) and abs(right.value) <= 1024:
-        return Op("ipow", (left, right))
-    return Op("pow", (left, right))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.segment import Jacobian, JacobianEntry
-from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.lowering.statements import assign
 from desire_tui.engine.lowering.subscripts import constant
@@ -47,7 +46,7 @@ def lower_jacobian(builder: SegmentBuilder, lines: Sequence[Line]) -> Jacobian |
         if len(target.subscripts) != 2:
             context.report("subscript-count", target, name=matrix, count=2)
             continue
-        value = lower(context, node.value)
+        value = context.lower(node.value)
         builder.body += context.before
         context.before.clear()
         row, column = (constant(context, s) for s in target.subscripts)

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.expressions import Const
 from desire_tui.engine.lowered.statements import LearningStep
-from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.products import array, nonconformable
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.lowering.targets import mark_array
@@ -27,8 +26,8 @@ def learn(builder: SegmentBuilder, node: Learn) -> None:
     out = _ranked(builder, node, node.output, 1)
     weights = _ranked(builder, node, node.weights, 2)
     given = _ranked(builder, node, node.input, 1)
-    rate = lower(context, node.rate)
-    criterion = None if node.criterion is None else lower(context, node.criterion)
+    rate = context.lower(node.rate)
+    criterion = None if node.criterion is None else context.lower(node.criterion)
     if out is None or weights is None or given is None:
         return
     for quantity, wanted in ((out, weights.shape[0]), (given, weights.shape[1])):

@@ -13,15 +13,15 @@ from desire_tui.engine.left_chains import PIECE, chain, is_long
 from desire_tui.engine.lowered.effects import count_draws
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Vec
 from desire_tui.engine.lowered.statements import Set, SetMat, SetVec
-from desire_tui.engine.lowering import expressions, products
+from desire_tui.engine.lowering import products
 from desire_tui.engine.lowering.calls import LEVELS_MOST, levels_of
 from desire_tui.engine.lowering.lowering_context import BAD
+from desire_tui.engine.lowering.operators import OPERATIONS
 from desire_tui.engine.lowering.scope import UNKNOWN
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowering.expressions import Extent
-    from desire_tui.engine.lowering.lowering_context import LoweringContext
+    from desire_tui.engine.lowering.lowering_context import Extent, LoweringContext
     from desire_tui.engine.nodes.expressions import Binary, Expr
 
 
@@ -37,19 +37,19 @@ def lower_long(context: LoweringContext, node: Binary, extent: Extent) -> Value:
         result = products.product(context, steps[count - 1], extent, keep)
         steps = steps[count:]
     else:
-        result = expressions.lower(context, first, extent)
+        result = context.lower(first, extent)
         if is_long(first):
             result = keep(result)
     for number, step in enumerate(steps, 1):
         deep = is_long(step.right)
         if deep or number % PIECE == 0:
             result = keep(result)  # first, so that random numbers are drawn from left to right
-        right = expressions.lower(context, step.right, extent)
+        right = context.lower(step.right, extent)
         if deep:
             right = keep(right)
         if step.op == "&":
             return context.report("ampersand-here", step)
-        result = Op(expressions.OPERATIONS[step.op], (result, right))
+        result = Op(OPERATIONS[step.op], (result, right))
     return _bounded(context, node, result) if extent and count_draws(result) else result
 
 

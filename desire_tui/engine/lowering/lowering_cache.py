@@ -1,4 +1,4 @@
-"""Lowered scalar expressions, kept by the node they came from: a one-line edit lowers one line anew.
+"""Lowered scalar expressions, cached by the node they came from: a one-line edit lowers one line anew.
 
 The parser returns the same node for the same text. What an expression of names, numbers and library functions
 becomes depends on nothing but the slots its names stand for: if all of them can be read without more ado
@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from desire_tui.engine.lowering.expressions import lower
 from desire_tui.engine.lowering.scope import LiveScope
 
 if TYPE_CHECKING:
@@ -17,11 +16,11 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
 
-KEPT_MOST = 100_000
-"""Expressions kept before the store is emptied."""
+CACHED_MOST = 100_000
+"""Expressions in a cache before it is emptied."""
 
 
-class _Kept(NamedTuple):
+class _Cached(NamedTuple):
     """`node` is held so that its id stays taken."""
 
     node: Expr
@@ -29,18 +28,18 @@ class _Kept(NamedTuple):
     value: Value
 
 
-_live: dict[int, _Kept] = {}
-_looking: dict[int, _Kept] = {}
+_live: dict[int, _Cached] = {}
+_checked: dict[int, _Cached] = {}
 """Checks number the slots in their own way."""
 
 
-def lower_kept(context: LoweringContext, node: Expr) -> Value:
-    """Return `expressions.lower(context, node)`, from the store if it must be the same."""
+def lower_cached(context: LoweringContext, node: Expr) -> Value:
+    """Return `context.lower(node)`, from the cache if it must be the same."""
     if not context.plain or context.redefines_library:
-        return lower(context, node)
-    store = _live if isinstance(context.scope, LiveScope) else _looking
+        return context.lower(node)
+    cache = _live if isinstance(context.scope, LiveScope) else _checked
     ready = context.flow.ready
-    known = store.get(id(node))
+    known = cache.get(id(node))
     if known is not None:
         for name, slot in known.reads:
             load = ready.get(name)
@@ -50,18 +49,18 @@ def lower_kept(context: LoweringContext, node: Expr) -> Value:
             return known.value
     context.reads.clear()
     before = len(context.problems)
-    value = lower(context, node)
+    value = context.lower(node)
     if len(context.problems) == before:
         loads = [(name, ready.get(name)) for name in context.reads]
         reads = tuple([(name, load.slot) for name, load in loads if load is not None])
         if len(reads) == len(loads):
-            if len(store) >= KEPT_MOST:
-                store.clear()
-            store[id(node)] = _Kept(node, reads, value)
+            if len(cache) >= CACHED_MOST:
+                cache.clear()
+            cache[id(node)] = _Cached(node, reads, value)
     return value
 
 
 def forget() -> None:
-    """Empty the stores."""
+    """Empty the caches."""
     _live.clear()
-    _looking.clear()
+    _checked.clear()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -23,6 +24,11 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.declarations import Function
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.record import Node
+
+Extent = tuple[int, ...]
+"""What is computed: a scalar `()`, a vector of n elements `(n,)` or a matrix `(m, n)`."""
+
+SCALAR: Extent = ()
 
 BAD = Const(0.0)
 """Stands for an expression that has been complained about."""
@@ -76,8 +82,10 @@ class FunctionText:
     at: int
 
 
-class LoweringContext:
+class LoweringContext(ABC):
     """State shared by everything that lowers one segment.
+
+    What lowers parts of an expression calls `lower` for the operands (see `expressions`).
 
     `assigned` holds the place of the first assignment to each scalar of the segment.
     """
@@ -107,6 +115,10 @@ class LoweringContext:
         self.before: list[Action] = []
         """What the present statement computes first: the pieces of its long chains (`long_chains`)."""
         self.redefines_library = not functions.keys().isdisjoint(LIBRARY)
+
+    @abstractmethod
+    def lower(self, node: Expr, extent: Extent = SCALAR) -> Value:
+        """Return the value of an expression over `extent`; problems are noted."""
 
     def enter(self, frame: ExpansionFrame) -> None:
         """Go on in another text."""

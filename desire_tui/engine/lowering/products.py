@@ -13,24 +13,22 @@ from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.left_chains import PIECE, is_long
 from desire_tui.engine.library import rounded
 from desire_tui.engine.lowered.expressions import MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
-from desire_tui.engine.lowering import expressions
 from desire_tui.engine.lowering.lowering_context import BAD
+from desire_tui.engine.lowering.operators import OPERATIONS
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.lowering.subscripts import constant
-from desire_tui.engine.nodes.expressions import Binary, Name, Transposed, Unary
+from desire_tui.engine.nodes.expressions import Binary, Name, Transposed
 from desire_tui.engine.nodes.expressions import RowOf as RowOfNode
 from desire_tui.engine.nodes.expressions import Shifted as ShiftedNode
+from desire_tui.engine.nodes.signs import unsigned
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowering.expressions import Extent
-    from desire_tui.engine.lowering.lowering_context import LoweringContext
+    from desire_tui.engine.lowering.lowering_context import Extent, LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
-
-_OPERATIONS = {"*": "mul", "/": "div"}
 
 
 def product(
@@ -60,14 +58,14 @@ def product(
             long = keep is not None and is_long(factor)
             if long and keep is not None and result is not None:
                 result = keep(result)
-            value = expressions.lower(context, factor, extent)
+            value = context.lower(factor, extent)
             if long and keep is not None:
                 value = keep(value)
         else:
             at += 1
         if keep is not None and result is not None and at % PIECE == 0:
             result = keep(result)
-        result = value if result is None else Op(_OPERATIONS.get(op, "mul"), (result, value))
+        result = value if result is None else Op(OPERATIONS.get(op, "mul"), (result, value))
         at += 1
     assert result is not None
     return result
@@ -179,15 +177,6 @@ def _signed_unit(
     (sign, first), (other, second) = unsigned(factor), unsigned(right)
     value = _unit(context, first, (op, second), extent)
     return value if value is None or sign * other > 0 else Op("neg", (value,))
-
-
-def unsigned(node: Expr) -> tuple[float, Expr]:
-    """Return the sign before an operand, and the operand."""
-    sign = 1.0
-    while isinstance(node, Unary):
-        sign = -sign if node.op == "-" else sign
-        node = node.operand
-    return sign, node
 
 
 def _unit(

@@ -13,8 +13,8 @@ from desire_tui.engine.lowered.segment import Segment, StateRange
 from desire_tui.engine.lowering import arrays, learning, requests, statements, targets
 from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
+from desire_tui.engine.lowering.expressions import ExpressionLowering
 from desire_tui.engine.lowering.jacobian import lower_jacobian
-from desire_tui.engine.lowering.lowering_context import LoweringContext
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.lowering.states import StateTable
 from desire_tui.engine.lowering.submodels import expand
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.lowering.lowering_context import FunctionText
+    from desire_tui.engine.lowering.lowering_context import FunctionText, LoweringContext
     from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.lowering.submodels import Line
     from desire_tui.engine.nodes.program import SegmentText
@@ -64,7 +64,7 @@ def lower_segment(
     rule: int | None = None,
 ) -> tuple[Segment, list[Diagnostic]]:
     """Return the lowered segment and every problem found in it."""
-    context = LoweringContext(scope, source, functions)
+    context = ExpressionLowering(scope, source, functions)
     lines = expand(context, text.body, submodels)
     jacobian_lines = expand(context, text.jacobian, submodels)
     _collect_targets(context, lines)

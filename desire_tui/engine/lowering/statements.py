@@ -13,8 +13,7 @@ from desire_tui.engine.lowered.statements import (
     Terminate,
     UpdateTrackHold,
 )
-from desire_tui.engine.lowering.expressions import lower
-from desire_tui.engine.lowering.lowering_cache import lower_kept
+from desire_tui.engine.lowering.lowering_cache import lower_cached
 from desire_tui.engine.lowering.lowering_context import BAD
 from desire_tui.engine.lowering.products import array
 from desire_tui.engine.lowering.scope import UNKNOWN, size_of
@@ -47,7 +46,7 @@ def assign(builder: SegmentBuilder, node: Assign) -> None:
     target = node.target
     context.own = context.actual(target.name) if isinstance(target, Name) else None
     slot = scalar_slot(context, target)
-    value = lower_kept(context, node.value)
+    value = lower_cached(context, node.value)
     context.own = None
     if slot is not None:
         made = Set(slot, value, context.where(node))
@@ -60,7 +59,7 @@ def derivative(builder: SegmentBuilder, node: Derivative) -> None:
     """`d/dt x = e`, `d/dt x[i] = e`. Error 101 for a second one."""
     context = builder.context
     slot = scalar_slot(context, node.target)
-    value = lower_kept(context, node.value)
+    value = lower_cached(context, node.value)
     if slot is None:
         return
     array_of = context.quantity(node.target.name) if isinstance(node.target, Element) else None
@@ -77,7 +76,7 @@ def derivative(builder: SegmentBuilder, node: Derivative) -> None:
 def term(builder: SegmentBuilder, node: Term) -> None:
     """`term e`."""
     context = builder.context
-    builder.body.append(Terminate(lower(context, node.value), builder.terms, context.where(node)))
+    builder.body.append(Terminate(context.lower(node.value), builder.terms, context.where(node)))
     builder.terms += 1
 
 
@@ -87,7 +86,7 @@ def condition(builder: SegmentBuilder, node: If) -> None:
     if node.value is None:
         context.report("then-in-segment", node)
         return
-    value = lower_kept(context, node.value)
+    value = lower_cached(context, node.value)
     builder.open("if", context.where(node), value)
 
 
@@ -128,7 +127,7 @@ def store(builder: SegmentBuilder, node: Store) -> None:
     """`store X = x`."""
     context = builder.context
     quantity = history(builder, node, node.array)
-    value = lower(context, node.variable)
+    value = context.lower(node.variable)
     if quantity is not None and isinstance(value, Load):
         count = size_of(quantity)
         context.flow.set_ranges.add(quantity.slot, max(count, 1))
@@ -153,8 +152,8 @@ def delay(builder: SegmentBuilder, node: Delay) -> None:
     context = builder.context
     buffer = history(builder, node, node.buffer)
     slot = scalar_slot(context, node.variable)
-    source = lower(context, node.source)
-    tau = lower(context, node.tau)
+    source = context.lower(node.source)
+    tau = context.lower(node.tau)
     if buffer is not None and slot is not None:
         builder.names[buffer.slot] = buffer.name
         made = DelayLine(
@@ -174,7 +173,7 @@ def delay(builder: SegmentBuilder, node: Delay) -> None:
 def track_hold(builder: SegmentBuilder, node: TrackHold) -> None:
     """`trkhld y, y0 = p, x`: both keep their values from pass to pass, 0 at first."""
     context = builder.context
-    control, value = lower(context, node.control), lower(context, node.value)
+    control, value = context.lower(node.control), context.lower(node.value)
     held, tracked = scalar_slot(context, node.held), scalar_slot(context, node.tracked)
     if held is not None and tracked is not None:
         builder.body.append(UpdateTrackHold(held, tracked, control, value, context.where(node)))
@@ -186,7 +185,7 @@ def table(builder: SegmentBuilder, node: FunctionTable) -> None:
     """`func y = F(x`, `func2 f = F(x, y; X, Y`."""
     context = builder.context
     slot = scalar_slot(context, node.target)
-    value = lower(context, node.call)
+    value = context.lower(node.call)
     if slot is not None and value is not BAD:
         made = Set(slot, value, context.where(node))
         builder.body.append(made)

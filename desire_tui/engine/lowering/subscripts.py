@@ -6,30 +6,35 @@ Subscripts are real expressions of the script's values, checked against the boun
 
 from __future__ import annotations
 
-from operator import add, mul, sub, truediv
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.diagnostics import closest
-from desire_tui.engine.left_chains import chain
-from desire_tui.engine.library import LIBRARY, power
+from desire_tui.engine.library import LIBRARY
+from desire_tui.engine.lowering.constant_values import evaluate
 from desire_tui.engine.lowering.lowering_context import Argument, ExpansionFrame
 from desire_tui.engine.lowering.scope import UNKNOWN
-from desire_tui.engine.nodes.expressions import Binary, Call, Element, Name, Number, Unary
+from desire_tui.engine.nodes.expressions import (
+    Binary,
+    Call,
+    Element,
+    Name,
+    Number,
+    Pair,
+    RowOf,
+    Shifted,
+    Text,
+    Transposed,
+    Unary,
+)
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
 
-_OPERATIONS: dict[str, Callable[[float, float], float]] = {
-    "+": add, "-": sub, "*": mul, "/": truediv, "^": power,
-}  # fmt: skip
-
 
 def constant(context: LoweringContext, node: Expr) -> float | None:
-    """Return the present value of an expression; None where it cannot be told, or was complained about."""
+    """Return the present value of an expression; None where it is not known, or was reported."""
     if isinstance(node, Number):
         return node.value
     try:
@@ -86,35 +91,26 @@ def element(context: LoweringContext, node: Element) -> tuple[int | None, str]:
 
 
 def _value(context: LoweringContext, node: Expr) -> float | None:
-    if isinstance(node, Number):
-        return node.value
-    if isinstance(node, Name):
-        return _named(context, node)
-    if isinstance(node, Unary):
-        value = _value(context, node.operand)
-        return None if value is None else -value if node.op == "-" else value
-    if isinstance(node, Binary) and node.op in _OPERATIONS:
-        first, steps = chain(node) if node.op != "^" else (node.left, [node])
-        result = _value(context, first)
-        for step in steps:
-            right = _value(context, step.right)
-            if step.op not in _OPERATIONS:
-                context.report("constant-not-computable", step)
+    return evaluate(node, lambda part: _part(context, part))
+
+
+def _part(context: LoweringContext, node: Expr) -> float | None:
+    """Return the value of what is no arithmetic of numbers."""
+    match node:
+        case Name():
+            return _named(context, node)
+        case Element():
+            slot, _ = element(context, node)
+            quantity = context.quantity(node.name)
+            if slot is None or quantity is None:
                 return None
-            result = None if result is None or right is None else _OPERATIONS[step.op](result, right)
-        return result
-    if isinstance(node, Element):
-        slot, _ = element(context, node)
-        quantity = context.quantity(node.name)
-        return (
-            None
-            if slot is None or quantity is None
-            else context.scope.constant(quantity, slot - quantity.slot)
-        )
-    if isinstance(node, Call):
-        return _called(context, node)
-    context.report("constant-not-computable", node)
-    return None
+            return context.scope.constant(quantity, slot - quantity.slot)
+        case Call():
+            return _called(context, node)
+        case Number() | Unary() | Binary() | Text() | Pair() | Transposed() | Shifted() | RowOf():
+            context.report("constant-not-computable", node)
+            return None
+    assert_never(node)
 
 
 def _named(context: LoweringContext, node: Name) -> float | None:

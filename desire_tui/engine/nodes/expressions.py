@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, final
 
 from desire_tui.engine.nodes.record import Node, node
 
 
+@final
 @node
 class Number(Node):
     """A numeric literal (decimal, `&` octal, `&&` hexadecimal)."""
@@ -16,6 +17,7 @@ class Number(Node):
     end: int = 0
 
 
+@final
 @node
 class Text(Node):
     """A quoted string, without its quotes."""
@@ -25,6 +27,7 @@ class Text(Node):
     end: int = 0
 
 
+@final
 @node
 class Name(Node):
     """A name read or assigned: scalar or whole array."""
@@ -34,6 +37,7 @@ class Name(Node):
     end: int = 0
 
 
+@final
 @node
 class Element(Node):
     """A subscripted name, `A[i, k]`."""
@@ -44,6 +48,7 @@ class Element(Node):
     end: int = 0
 
 
+@final
 @node
 class Call(Node):
     """`f(a, b)`: library function, FUNCTION, or (as a statement in a segment) a submodel invocation.
@@ -57,6 +62,7 @@ class Call(Node):
     end: int = 0
 
 
+@final
 @node
 class Unary(Node):
     """A sign."""
@@ -67,6 +73,7 @@ class Unary(Node):
     end: int = 0
 
 
+@final
 @node
 class Binary(Node):
     """Two operands; `&` only in MATRIX and DELTA terms (`u & v`)."""
@@ -78,6 +85,7 @@ class Binary(Node):
     end: int = 0
 
 
+@final
 @node
 class Transposed(Node):
     """`A%`."""
@@ -87,6 +95,7 @@ class Transposed(Node):
     end: int = 0
 
 
+@final
 @node
 class Shifted(Node):
     """`x{k}`: element i is x[i+k], 0 outside."""
@@ -97,6 +106,7 @@ class Shifted(Node):
     end: int = 0
 
 
+@final
 @node
 class RowOf(Node):
     """`P#`: the row of P that iRow selects."""
@@ -106,6 +116,7 @@ class RowOf(Node):
     end: int = 0
 
 
+@final
 @node
 class Pair(Node):
     """`[a, b]`, a complex number."""
@@ -120,6 +131,7 @@ Expr = Number | Text | Name | Element | Call | Unary | Binary | Transposed | Shi
 Target = Name | Element
 
 
+@final
 @node
 class Relation(Node):
     """`a <= b`."""
@@ -131,6 +143,7 @@ class Relation(Node):
     end: int = 0
 
 
+@final
 @node
 class Logical(Node):
     """`C and D`, `C or D`."""
@@ -142,6 +155,7 @@ class Logical(Node):
     end: int = 0
 
 
+@final
 @node
 class Not(Node):
     """`not C`."""
