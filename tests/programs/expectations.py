@@ -1,7 +1,8 @@
 """Expectations in a program's comments: what a program must show when it is run.
 
     --? x = 1.193253129                    final value of a quantity
-    --? run 2: max(X) + scale = 1.5887     samples of a run; X and t are arrays (0-based), nth, at, last … below
+    --? run 2: max(X) + scale = 1.5887     samples of a run; X and t are arrays (0-based), nth, at, last … below;
+                                           steps, rejected, calls, jacobians count, least and most are steps
     --? x = 1.19 +- 1e-6                   absolute tolerance; `+- 1e-6 rel` relative; `<` and `>` need none
     --? with ERMAX = 1e-8 | NN = 11: …     the same, checked on another run with these values overridden
     --? runs = 18        --? points = 100  how many runs were made, points plotted
