@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: run test check lint types contracts bench pictures help clean
+.PHONY: run test check lint types contracts bench mutants pictures help clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -29,6 +29,9 @@ contracts: $(STAMP)
 
 bench: $(STAMP)  ## every benchmark, each side by side with its yardstick
 	$(BIN)/python -m benchmarks
+
+mutants: $(STAMP)  ## put deliberate faults into a copy of the engine and see which of them no test notices
+	$(BIN)/python -m tests.mutants
 
 pictures: $(STAMP)  ## the screenshots in docs/
 	$(BIN)/python -m tests.app.pictures

@@ -1,14 +1,15 @@
 """`make mutants`: put each deliberate fault of the table into a copy of the tree and see whether a test fails.
 
-    python -m tests.mutants [--jobs N] [--first-only] [words of the faults wanted …]
+    python -m tests.mutants [--jobs N] [words of the faults wanted …]
 
-The tests that should see a fault first are run first, then all others of the engine. What survives them all is a
-place that no test guards; every survivor is listed at the end.
+The tests that should see a fault are run first, then all others of its room (`anchors.ROOM_TESTS`). What survives
+them is a place that no test guards; all survivors are listed at the end.
 """
 
 from __future__ import annotations
 
 import argparse
+import compileall
 import os
 import shutil
 import subprocess
@@ -29,10 +30,6 @@ if TYPE_CHECKING:
 
     from tests.mutants.anchors import Mutant
 
-ENGINE_TESTS = (
-    "tests/lowering", "tests/passes", "tests/check", "tests/structure", "tests/numerics", "tests/programs",
-    "tests/reference", "tests/codegen", "tests/integration", "tests/runtime", "tests/interpreter",
-)  # fmt: skip
 SECONDS_MOST = 400
 """A fault that makes a loop endless is seen too."""
 _COPIED = ("desire_tui", "tests", "examples", "docs", "pyproject.toml", "README.md", "CHANGELOG.md")
@@ -67,6 +64,7 @@ class Trees:
                     shutil.copytree(source, tree / name, ignore=shutil.ignore_patterns("__pycache__"))
                 else:
                     shutil.copy(source, tree / name)
+            compileall.compile_dir(tree, quiet=1)
             self._own.tree = tree
         made: Path = self._own.tree
         return made
@@ -79,7 +77,13 @@ def run_tests(tree: Path, targets: Sequence[str]) -> str:
     environment = os.environ | {"PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
     try:
         ran = subprocess.run(
-            command, cwd=tree, env=environment, capture_output=True, text=True, timeout=SECONDS_MOST, check=False
+            command,
+            cwd=tree,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=SECONDS_MOST,
+            check=False,
         )
     except subprocess.TimeoutExpired:
         return "the time limit"
@@ -87,11 +91,13 @@ def run_tests(tree: Path, targets: Sequence[str]) -> str:
         return ""
     if ran.returncode in _NO_TESTS:
         raise SystemExit(f"{targets}: {ran.stdout}{ran.stderr}")
-    failed = [line.split(" ")[1] for line in ran.stdout.splitlines() if line.startswith(("FAILED ", "ERROR "))]
+    failed = [
+        line.split(" ")[1] for line in ran.stdout.splitlines() if line.startswith(("FAILED ", "ERROR "))
+    ]
     return failed[0] if failed else f"pytest's end with {ran.returncode}"
 
 
-def try_mutant(mutant: Mutant, trees: Trees, *, first_only: bool) -> Result:
+def try_mutant(mutant: Mutant, trees: Trees) -> Result:
     """Put a fault in, run tests until one fails, take it out again."""
     began = time.perf_counter()
     tree = trees.mine()
@@ -99,42 +105,48 @@ def try_mutant(mutant: Mutant, trees: Trees, *, first_only: bool) -> Result:
     sound = path.read_text(encoding="utf-8")
     path.write_text(text, encoding="utf-8")
     try:
-        seen = run_tests(tree, mutant.first)
-        if not seen and not first_only:
-            seen = run_tests(tree, ENGINE_TESTS)
+        seen = run_tests(tree, mutant.tests)
     finally:
         path.write_text(sound, encoding="utf-8")
     return Result(mutant, seen, time.perf_counter() - began)
 
 
-def results(wanted: Sequence[Mutant], jobs: int, *, first_only: bool) -> Iterator[Result]:
+def results(wanted: Sequence[Mutant], jobs: int) -> Iterator[Result]:
     """Try faults, several at a time."""
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
         trees = Trees(Path(folder))
-        yield from pool.map(lambda mutant: try_mutant(mutant, trees, first_only=first_only), wanted)
+        yield from pool.map(lambda mutant: try_mutant(mutant, trees), wanted)
+
+
+def report(line: str) -> None:
+    """Show a line at once, in a pipe too."""
+    sys.stdout.write(line + "\n")
+    sys.stdout.flush()
 
 
 def main() -> None:
     """Report each fault as it has been tried, then the score."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("words", nargs="*", help="only faults whose titles hold one of these words")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
-    parser.add_argument("--first-only", action="store_true", help="only the tests that should see a fault first")
     options = parser.parse_args()
     words = options.words
     wanted = [m for m in MUTANTS if not words or any(word in m.title for word in words)]
     began = time.perf_counter()
     survivors = []
-    for number, result in enumerate(results(wanted, options.jobs, first_only=options.first_only), 1):
+    for number, result in enumerate(results(wanted, options.jobs), 1):
         how = f"seen by {result.seen}" if result.seen else "SURVIVED"
-        print(f"{number:3} {result.seconds:5.0f} s  {result.mutant.title}\n{'':12}{how}", flush=True)
+        report(f"{number:3} {result.seconds:5.0f} s  {result.mutant.title}\n{'':12}{how}")
         if not result.seen:
             survivors.append(result.mutant)
     killed = len(wanted) - len(survivors)
     seconds = time.perf_counter() - began
-    print(f"\n{killed} of {len(wanted)} faults seen ({100 * killed / max(len(wanted), 1):.0f} %) in {seconds:.0f} s")
+    share = 100 * killed / max(len(wanted), 1)
+    report(f"\n{killed} of {len(wanted)} faults seen ({share:.0f} %) in {seconds:.0f} s")
     for mutant in survivors:
-        print(f"survived: {mutant.title}")
+        report(f"survived: {mutant.title}")
 
 
 if __name__ == "__main__":

@@ -8,12 +8,27 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 ENGINE = Path("desire_tui/engine")
-PROGRAMS = "tests/programs/test_programs.py"
+PROGRAMS = "tests/programs/test_programs.py::test_program"
+"""Every program with its expectations, on both back ends."""
+
+ROOM_TESTS = {
+    ".": ("tests/codegen/test_random.py", "tests/interpreter/test_library.py", PROGRAMS),
+    "lowering": ("tests/lowering", "tests/check/test_problems.py", "tests/passes", PROGRAMS),
+    "passes": ("tests/passes", "tests/reference/test_jacobian_check.py", PROGRAMS, "tests/integration/test_stiff_runs.py"),
+    "codegen": (PROGRAMS, "tests/codegen", "tests/numerics", "tests/integration"),
+    "reference": (PROGRAMS, "tests/reference", "tests/integration/test_both_back_ends.py"),
+    "runtime": (PROGRAMS, "tests/runtime"),
+    "integration": ("tests/integration", PROGRAMS),
+    "interpreter": ("tests/interpreter", PROGRAMS),
+    "check": ("tests/check/test_problems.py", PROGRAMS),
+    "structure": ("tests/structure", "tests/interpreter/test_script_programs.py", PROGRAMS),
+}  # fmt: skip
+"""The tests that guard a room; what survives them is taken to survive all."""
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """A fault: `old` becomes `new` in one file of the folder `room`; the tests in `first` should see it first.
+    """A fault: `old` becomes `new` in one file of the folder `room`; the tests in `first` should see it.
 
     `old` must stand exactly once in all of the room. Line breaks and indentation in it are of no account, so that
     a formatter may change them; names are, so it should hold as few as it can.
@@ -22,7 +37,12 @@ class Mutant:
     room: str
     old: str
     new: str
-    first: tuple[str, ...] = (PROGRAMS,)
+    first: tuple[str, ...] = ()
+
+    @property
+    def tests(self) -> tuple[str, ...]:
+        """The tests to run, in this order."""
+        return (*self.first, *ROOM_TESTS[self.room.split("/")[0]])
 
     @property
     def title(self) -> str:
@@ -62,3 +82,8 @@ def with_fault(mutant: Mutant, root: Path) -> tuple[Path, str]:
     path = root / place.path
     text = path.read_text(encoding="utf-8")
     return path, text[: place.start] + mutant.new + text[place.end :]
+
+
+def program(*names: str) -> tuple[str, ...]:
+    """Return the tests of some programs, named as `dynamic/mm`."""
+    return tuple(f"{PROGRAMS}[tests/programs/{name}.src]" for name in names)

@@ -78,7 +78,9 @@ class Names(dict[str, object]):
         for column in run.columns:
             self[column.name] = run.values(column.name)
         t = run.t
-        self.update(t=t, scale=run.scale, ended=run.ended, count=len(t), steps=run.steps, rejected=run.rejected)
+        self.update(
+            t=t, scale=run.scale, ended=run.ended, count=len(t), steps=run.steps, rejected=run.rejected
+        )
         self.update(calls=run.derivative_calls, jacobians=run.jacobian_calls)
         self.update(least=run.dt_least, most=run.dt_most)
         self["peak"] = lambda x: peak(x, t)

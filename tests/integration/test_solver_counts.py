@@ -1,0 +1,49 @@
+"""Runs with our own BDF count as those with CVODE do: steps, derivatives, Jacobians, failures.
+
+Short runs: rounding grows from step to step, and after some 150 of them a step may be one more.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from desire_tui.engine.codegen.stiff import stiff_model
+from desire_tui.engine.reference import stiff
+from tests.integration.stiff_programs import run
+
+VAN_DER_POL = """
+TMAX = 2 | NN = 21 | DT = 1e-4 | ERMAX = 1e-5 | irule {rule}
+x = 2 | y = 0
+drun
+DYNAMIC
+d/dt x = y
+d/dt y = 100*((1 - x^2)*y) - x
+dispt x, y
+"""
+KICKED = """
+TMAX = 0.9 | NN = 10 | DT = 1e-3 | ERMAX = 1e-5 | irule {rule}
+x = 2 | y = 0
+drun
+DYNAMIC
+d/dt x = -50*(x - cos(t)) - y
+d/dt y = x - y
+dispt x, y
+OUT
+y = y + swtch(t - 0.55)*swtch(0.65 - t)
+"""
+COUNTED = ("steps", "rejected", "derivative_calls", "jacobian_calls", "order")
+
+
+@pytest.mark.parametrize("backend", ["native", "reference"])
+@pytest.mark.parametrize("text", [VAN_DER_POL, KICKED], ids=["Van der Pol", "kicked"])
+@pytest.mark.parametrize("rule", [14, 15])
+def test_counts_are_cvodes(rule, text, backend, monkeypatch):
+    mine = run(text.format(rule=rule), backend)[0].runs[-1]
+    for module in (stiff_model, stiff):
+        monkeypatch.setattr(module, "is_own", lambda *_: False)
+    its = run(text.format(rule=rule), backend)[0].runs[-1]
+    assert [getattr(mine, name) for name in COUNTED] == [getattr(its, name) for name in COUNTED]
+    assert 0 < mine.jacobian_calls < mine.steps / 5
+    assert mine.dt_least == pytest.approx(its.dt_least, rel=1e-6)
+    assert mine.dt_most == pytest.approx(its.dt_most, rel=1e-3)
+    assert 0 < mine.dt_least < mine.dt_most

@@ -1,0 +1,76 @@
+"""Faults in the native code: fusion, rerolling, strips, tables, random numbers, the run loop, steps, callbacks."""
+
+from __future__ import annotations
+
+from tests.mutants.anchors import Mutant, program
+
+
+def _vector(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("codegen/vector", old, new, first)
+
+
+def _scalar(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("codegen/scalar", old, new, first)
+
+
+def _loop(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("codegen/loop", old, new, first)
+
+
+def _stiff(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("codegen/stiff", old, new, first)
+
+
+CODEGEN = (
+    # which array statements share a loop
+    _vector("and not touches(reach.writes, total.other)", "", "tests/codegen/test_fusion.py"),
+    _vector("and not touches(reach.other, total.writes)", "", "tests/codegen/test_fusion.py"),
+    _vector("and not _crosses(reach.same | reach.writes, total.writes)", "", "tests/codegen/test_fusion.py"),
+    _vector("and not _crosses(reach.writes, total.same)", "", "tests/codegen/test_fusion.py"),
+    _vector("touches(reach.writes, reach.other) or _crosses(reach.writes, reach.same)",
+            "touches(reach.writes, reach.other)", "tests/reference/test_arrays.py", *program("vectors/write_after_read", "vectors/vector_forms")),
+    _vector("touches(reach.writes, reach.other) or _crosses(reach.writes, reach.same)",
+            "_crosses(reach.writes, reach.same)", "tests/reference/test_arrays.py", *program("vectors/write_after_read", "vectors/vector_forms")),
+    # strips and elements
+    _vector("icmp ult i64 {index}, {count}", "icmp ule i64 {index}, {count}", *program("vectors/shifted_out", "vectors/vector_forms")),
+    _vector("low, high = min(below, count), max(count - above, 0)", "low, high = min(below, count), count", *program("vectors/shifted_out", "vectors/write_after_read")),
+    _vector("-self.strip.active * self.prepared.per_element", "-self.lanes.width * self.prepared.per_element", "tests/codegen/test_random.py", *program("vectors/random_order")),
+    _vector("(count - 1 - lane) * per_element", "(count - lane) * per_element", "tests/codegen/test_random.py"),
+    _vector("lanes.choose(free, value, strip.fetch(own))", "lanes.choose(free, value, lanes.const(0.0))", *program("vectors/masked_matrix_keeps")),
+    _vector('needs_copy(statement_reach(action)) or action.mode == "largest"', "needs_copy(statement_reach(action))", *program("vectors/vector_forms")),
+    _vector("op(f\"select i1 {op(f'icmp slt i64 {rest}, 0')}, i64 {lifted}, i64 {rest}\")", "rest", *program("vectors/vector_forms")),
+    # scalar statements as loops
+    _scalar("a == b and type(a) is type(b) and (a != 0 or str(a) == str(b))", "a == b and type(a) is type(b)", "tests/codegen/test_minus_zero.py"),
+    _scalar("operand != first and operand < first + count and first < operand + count",
+            "operand > first and operand < first + count", "tests/codegen/test_rerolling.py"),
+    _scalar("first <= slot < first + count for slot in operand", "first < slot < first + count for slot in operand", "tests/codegen/test_rerolling.py"),
+    _scalar('frozenset((*OUTSIDE, "sinc", "sigmoid"))', "frozenset(())", "tests/codegen/test_rerolling.py"),
+    _scalar("if any(slot <= s < slot + count", "if any(slot < s < slot + count", *program("vectors/elements_overridden")),
+    _scalar('f"or i1 {later}, {alone}"', 'f"or i1 {alone}, {alone}"', *program("dynamic/last_of_thinned")),
+    _scalar("icmp ne i64 {lag}, {count}", "icmp ne i64 {lag}, -1", *program("dynamic/tdelay_continued", "dynamic/delay_continued")),
+    # tables and random numbers
+    Mutant("codegen/ir", "%k2 = call i64 @llvm.smin.i64(i64 %knext, i64 %m1)",
+           "%k2 = call i64 @llvm.smin.i64(i64 %knext, i64 %n1)", ("tests/codegen/test_functions.py",)),
+    Mutant(".", "(_INVERSE, -_INVERSE * INCREMENT & MASK)", "(_INVERSE, INCREMENT)", ("tests/codegen/test_random.py",)),
+    # points, samples, steps
+    _loop('text.branch(text.op(f"or i1 {last}, {due}"), "sample"', 'text.branch(due, "sample"', *program("dynamic/last_of_thinned")),
+    _loop('return lanes.compare("oge", self.storage.load(T), lanes.sub(end, slack))',
+          'return lanes.compare("oge", self.storage.load(T), end)', "tests/numerics"),
+    _loop("self.storage.keep_first_stage()", "pass", "tests/codegen/test_run_loop.py"),
+    _loop('driver.put("t_base", driver.storage.load(T))', "pass", "tests/numerics"),
+    _loop('limit = lanes.sub(self.driver.get("t_next"), slack)', 'limit = self.driver.get("t_next")', "tests/numerics"),
+    _loop('driver.put("cut", "0")', "pass", "tests/numerics"),
+    _loop("lanes.compare('olt', dt, least)", "lanes.compare('ogt', dt, least)", *program("dynamic/least_step")),
+    _loop('stuck = lanes.compare("olt", half', 'stuck = lanes.compare("ole", half', "tests/codegen/test_run_loop.py", "tests/numerics"),
+    _loop('lanes.choose(lanes.compare("olt", doubled, most), doubled, most)', "doubled", "tests/numerics"),
+    _loop('mine = text.op(f"icmp eq i64 {checked}, {number + 1}")',
+          'mine = text.op(f"icmp eq i64 {checked}, {number}")', "tests/numerics"),
+    # stiff rules
+    _stiff('f.outside(f"{stepper.prefix}_sync", VOID, [problem]) build.branch(go)', "build.branch(go)", "tests/integration/test_stiff_runs.py"),
+    _stiff("f.build.or_(first, other)", "other", "tests/integration/test_stiff_runs.py"),
+    _stiff('f.add(problem, "jacobian_calls", INT(1))', 'f.add(problem, "jacobian_calls", INT(2))', "tests/integration/test_both_back_ends.py"),
+    _stiff("f.store(directions, f.load(seeds, i, INT32), REAL(0.0))", "pass", "tests/integration/test_stiff_runs.py"),
+    _stiff("f.store(largest, i, size)", "pass", "tests/integration/test_both_back_ends.py"),
+    _stiff("f.store(moved, state, f.load(y, state))", "pass", "tests/integration/test_both_back_ends.py"),
+    _stiff("f.build.select(own, INT32(GIVE_UP), INT32(GO_BACK))", "INT32(GO_BACK)", "tests/integration/test_stiff_runs.py"),
+)  # fmt: skip

@@ -1,0 +1,49 @@
+"""Faults in what is done with a lowered segment: slices, dead code, the last sample, patterns, derivatives."""
+
+from __future__ import annotations
+
+from tests.mutants.anchors import Mutant, program
+
+
+def _fault(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("passes", old, new, first)
+
+
+PASSES = (
+    # which statements a pass executes
+    _fault('elif action.kind == "if" or comm:', "else:", "tests/passes/test_slices.py"),
+    _fault("if step if action.per_step else comm:", "if comm:", "tests/passes/test_slices.py"),
+    _fault("kept.append(with_bodies(action, _pure(action.body), _pure(action.orelse)))", "pass", "tests/passes/test_jacobian_pass.py"),
+    _fault("needed(pure + given.body + wanted)", "needed(given.body + wanted)", "tests/passes/test_jacobian_pass.py"),
+    _fault("return needed(actions, early(actions))", "return needed(actions)", "tests/passes/test_slices.py"),
+    _fault("or action.persistent or draws(action): return True", "or action.persistent:\n        return True", "tests/passes/test_slices.py"),
+    # the last sample
+    _fault("elif computes(action) and id(action) not in known:", "elif computes(action):", *program("dynamic/output_lag"), *program("dynamic/term_and_relay")),
+    _fault("if _reads_any(action, changed): found.update", "if False:\n                found.update", *program("dynamic/term_and_relay")),
+    _fault("kept.extend(tail(action.body, known))", "pass", "tests/passes/test_slices.py"),
+    _fault("elif not isinstance(action, Deriv | DerivVec | Terminate):", "elif computes(action):", *program("dynamic/term_with_thinned_samples")),
+    # which derivatives depend on which states
+    _fault("certain = certain and not action.persistent and not adds", "certain = certain and not action.persistent", "tests/passes/test_differentiate.py"),
+    _fault("self.run(action.body, certain=False) self.run(action.orelse, certain=False)",
+           "self.run(action.body, certain=certain)\n                self.run(action.orelse, certain=certain)", "tests/passes/test_differentiate.py"),
+    _fault('first = b.first + by if b.kind == "diagonal" else b.first', "first = b.first", "tests/passes/test_differentiate.py"),
+    _fault("| _spread(self.of(value.y), count)", "", "tests/passes/test_differentiate.py"),
+    # derivatives
+    _fault("yield DotTerm(term.sign, term.left, moved)", "yield DotTerm(1.0, term.left, moved)", "tests/passes/test_differentiate.py"),
+    _fault("yield MatVec(matrix, value.rows, value.cols, value.transposed,",
+           "yield MatVec(matrix, value.rows, value.cols, False,", "tests/passes/test_differentiate.py"),
+    _fault("yield SetVec(slot, action.count, value, action.where, mask_slot=action.mask_slot)",
+           "yield SetVec(slot, action.count, value, action.where)", "tests/passes/test_differentiate.py"),
+    _fault("if action.persistent or draws(action): raise", "if draws(action):\n                raise", "tests/passes/test_differentiate.py"),
+    _fault("return plus(by_x, _slope(", "return plus(None, _slope(", "tests/passes/test_differentiate.py"),
+    _fault("made.extend(self._assignment(action)) made.append(action)",
+           "made.append(action)\n            made.extend(self._assignment(action))", "tests/passes/test_differentiate.py"),
+    _fault('return plus(base, times(op("mul", op("pow", *x), op("ln", x[0])), d[1]))', "return base", "tests/passes/test_differentiate.py"),
+    _fault('"sat": _of(lambda x: op("rect", x))', '"sat": _flat', "tests/passes/test_differentiate.py"),
+    _fault('choose(op("sub", x[0], x[1]), d[0], d[1])', 'choose(op("sub", x[0], x[1]), d[1], d[0])', "tests/passes/test_differentiate.py"),
+    _fault('"recip": _over(lambda x: op("neg", _square(x)))', '"recip": _over(_square)', "tests/passes/test_differentiate.py"),
+    # regions of memory and intervals
+    _fault("ends[-1] = max(ends[-1], slot + count)", "ends[-1] = slot + count", "tests/passes/test_differentiate.py"),
+    _fault("last = bisect_right(self.starts, end)", "last = bisect_left(self.starts, end)", "tests/passes/test_intervals.py"),
+    _fault("return at >= 0 and self.ends[at] > slot", "return at >= 0 and self.ends[at] >= slot", "tests/passes/test_intervals.py"),
+)  # fmt: skip

@@ -1,0 +1,56 @@
+"""Faults in what surrounds the code of a segment: the reference back end, defaults, delays, runs, integration."""
+
+from __future__ import annotations
+
+from tests.mutants.anchors import Mutant, program
+
+
+def _reference(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("reference", old, new, first)
+
+
+def _runtime(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("runtime", old, new, first)
+
+
+def _solver(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("integration", old, new, first)
+
+
+RUNS = (
+    # the reference back end
+    _reference("if (last or memory.point % memory.every == 0)", "if (memory.point % memory.every == 0)", *program("dynamic/last_of_thinned")),
+    _reference("if not fresh and (at < 0 or lag == count):", "if not fresh and at < 0:", *program("dynamic/tdelay_continued", "dynamic/delay_continued")),
+    _reference("np.where(mask != 0.0, new, target)", "np.where(mask != 0.0, new, 0.0)", *program("vectors/masked_matrix_keeps")),
+    _reference("len(target) - 1 - int(np.argmax(new[::-1]))", "int(np.argmax(new))", "tests/reference/test_arrays.py"),
+    _reference("lands = cut = False", "lands = False", "tests/reference/test_rules.py"),
+    _reference("cells[DT] if memory.steps == 0 else min(memory.dt_least, cells[DT])",
+               "min(memory.dt_least, cells[DT])", "tests/integration/test_solver_counts.py"),
+    _reference("total += sign * float(", "total += float(", "tests/reference/test_arrays.py"),
+    # defaults of a run
+    _runtime("t_max / dt * (1 + ROUNDING) + 1.0", "t_max / dt + 1.0", *program("dynamic/nn_from_dt"), "tests/runtime/test_plan_defaults.py"),
+    _runtime("least / 16", "least / 8", "tests/runtime/test_plan_defaults.py"),
+    _runtime("self._supplied.pop(slot, None)", "pass", "tests/runtime/test_plan_defaults.py"),
+    _runtime("if dt is not None and dt == self._steps.left:", "if False:", *program("dynamic/dt_left_by_rule", "dynamic/dt_between_runs")),
+    # delays
+    _runtime("yield from _lines(action.body, before.copy())", "yield from _lines(action.body, before)", *program("dynamic/delay_time_under_if")),
+    _runtime("if lag > line.count:", "if lag >= line.count:", "tests/reference/test_timing.py"),
+    _runtime("plan.comint) + ROUNDING)", "plan.comint))", *program("dynamic/tdelay", "dynamic/delay_time_in_segment")),
+    # runs and what connects them
+    _runtime("record.pictures[::2]", "record.pictures[1::2]", "tests/runtime/test_pictures.py"),
+    _runtime("positions.points -= 1", "pass", *program("dynamic/last_of_thinned")),
+    _runtime("values.cells[T] if sampled and plan.rule != DUMMY", "values.cells[T] if plan.rule != DUMMY", "tests/runtime/test_run_semantics.py"),
+    _runtime("(first, max(length, slot + count - first))", "(first, slot + count - first)", "tests/runtime/test_run_semantics.py"),
+    _runtime("self.positions[start.segment] = start.positions.copy()", "pass", "tests/reference/test_timing.py"),
+    # rules and solvers
+    _solver("test=_row(6, 1, -4, 2, 1)", "test=_row(6, 1, -3, 1, 1)", "tests/integration/test_tableaus.py"),
+    _solver("_BIAS_DOWN, _BIAS_SAME, _BIAS_UP = 6.0, 6.0, 10.0", "_BIAS_DOWN, _BIAS_SAME, _BIAS_UP = 6.0, 6.0, 6.0", "tests/integration/test_bdf.py"),
+    _solver("if s.order == 1 and s.steps > 1:", "if s.order == 1 and s.steps > 2:", "tests/integration/test_bdf.py"),
+    _solver("_FACTORS_SERVE_STEPS = 20", "_FACTORS_SERVE_STEPS = 21", "tests/integration/test_bdf.py"),
+    _solver("_JACOBIAN_SERVES_STEPS = 51", "_JACOBIAN_SERVES_STEPS = 50", "tests/integration/test_bdf.py"),
+    _solver("s.rate = max(_RATE_FORGETS * s.rate, now / before)", "s.rate = now / before", "tests/integration/test_bdf.py"),
+    _solver("scale = 2.0 / (1.0 + ratio)", "scale = 1.0", "tests/integration/test_bdf.py"),
+    _solver("if tests >= 2: s.ratio", "if tests > 2:\n            s.ratio", "tests/integration/test_bdf.py"),
+    _solver('Linear("band", lower=lower, upper=upper)', 'Linear("band", lower=upper, upper=lower)', "tests/integration/test_pattern.py"),
+    _solver("if width <= max(self.count // n, 8):", "if width <= max(self.count // n, 8) + 8:", "tests/integration/test_pattern.py"),
+)  # fmt: skip
