@@ -14,6 +14,7 @@ PROGRAMS = "tests/programs/test_programs.py::test_program"
 ROOM_TESTS = {
     ".": ("tests/codegen/test_random.py", "tests/interpreter/test_library.py", PROGRAMS),
     "lowering": ("tests/lowering", "tests/check/test_problems.py", "tests/passes", PROGRAMS),
+    "lowered": ("tests/passes", "tests/lowering", PROGRAMS),
     "passes": ("tests/passes", "tests/reference/test_jacobian_check.py", PROGRAMS, "tests/integration/test_stiff_runs.py"),
     "codegen": (PROGRAMS, "tests/codegen", "tests/numerics", "tests/integration"),
     "reference": (PROGRAMS, "tests/reference", "tests/integration/test_both_back_ends.py"),

@@ -11,17 +11,33 @@ def _fault(old: str, new: str, *first: str) -> Mutant:
 
 PASSES = (
     # which statements a pass executes
-    _fault('elif action.kind == "if" or comm:', "else:", "tests/passes/test_slices.py"),
-    _fault("if step if action.per_step else comm:", "if comm:", "tests/passes/test_slices.py"),
-    _fault("kept.append(with_bodies(action, _pure(action.body), _pure(action.orelse)))", "pass", "tests/passes/test_jacobian_pass.py"),
-    _fault("needed(pure + given.body + wanted)", "needed(given.body + wanted)", "tests/passes/test_jacobian_pass.py"),
+    _fault('if comm or action.kind == "if":', "if True:", "tests/passes/test_slices.py"),
+Mutant(
+        "lowered",
+        'return "step" if action.per_step else "point"',
+        'return "point"',
+        ("tests/passes/test_slices.py",),
+    ),
+    _fault("kept.append(with_bodies(action, _definitions(action.body), _definitions(action.orelse)))", "pass", "tests/passes/test_jacobian_pass.py"),
+    _fault("needed(definitions + given.body + wanted)", "needed(given.body + wanted)", "tests/passes/test_jacobian_pass.py"),
     _fault("return needed(actions, early(actions))", "return needed(actions)", "tests/passes/test_slices.py"),
-    _fault("or action.persistent or draws(action): return True", "or action.persistent:\n        return True", "tests/passes/test_slices.py"),
+    Mutant(
+        "lowered",
+        "action.persistent or count_draws(*expressions(action))",
+        "action.persistent",
+        ("tests/passes/test_slices.py",),
+    ),
+    Mutant(
+        "lowered",
+        "action.persistent or count_draws(*expressions(action))",
+        "count_draws(*expressions(action))",
+        ("tests/passes/test_slices.py",),
+    ),
     # the last sample
-    _fault("elif computes(action) and id(action) not in known:", "elif computes(action):", *program("dynamic/output_lag"), *program("dynamic/term_and_relay")),
+    _fault('(role(action) == "definition" and id(action) not in known)', 'role(action) == "definition"', *program("dynamic/output_lag"), *program("dynamic/term_and_relay")),
     _fault("if _reads_any(action, changed): found.update", "if False:\n                found.update", *program("dynamic/term_and_relay")),
     _fault("kept.extend(tail(action.body, known))", "pass", "tests/passes/test_slices.py"),
-    _fault("elif not isinstance(action, Deriv | DerivVec | Terminate):", "elif computes(action):", *program("dynamic/term_with_thinned_samples")),
+    _fault( 'elif timing(action) != "step" and role(action) != "derivative":', 'elif role(action) == "definition":' , *program("dynamic/term_with_thinned_samples")),
     # which derivatives depend on which states
     _fault("certain = certain and not action.persistent and not adds", "certain = certain and not action.persistent", "tests/passes/test_differentiate.py"),
     _fault("self.run(action.body, certain=False) self.run(action.orelse, certain=False)",
@@ -34,10 +50,14 @@ PASSES = (
            "yield MatVec(matrix, value.rows, value.cols, False,", "tests/passes/test_differentiate.py"),
     _fault("yield SetVec(slot, action.count, value, action.where, mask_slot=action.mask_slot)",
            "yield SetVec(slot, action.count, value, action.where)", "tests/passes/test_differentiate.py"),
-    _fault("if action.persistent or draws(action): raise", "if draws(action):\n                raise", "tests/passes/test_differentiate.py"),
+    _fault(
+        'if role(action) != "definition": raise',
+        'if role(action) == "derivative":\n                    raise',
+        "tests/passes/test_differentiate.py",
+    ),
     _fault("return plus(by_x, _slope(", "return plus(None, _slope(", "tests/passes/test_differentiate.py"),
     _fault("made.extend(self._assignment(action)) made.append(action)",
-           "made.append(action)\n            made.extend(self._assignment(action))", "tests/passes/test_differentiate.py"),
+           "made.append(action)\n                made.extend(self._assignment(action))", "tests/passes/test_differentiate.py"),
     _fault('return plus(base, times(op("mul", op("pow", *x), op("ln", x[0])), d[1]))', "return base", "tests/passes/test_differentiate.py"),
     _fault('"sat": _of(lambda x: op("rect", x))', '"sat": _flat', "tests/passes/test_differentiate.py"),
     _fault('choose(op("sub", x[0], x[1]), d[0], d[1])', 'choose(op("sub", x[0], x[1]), d[1], d[0])', "tests/passes/test_differentiate.py"),
