@@ -1,7 +1,8 @@
 """LALR tables of `desire.lark`: made by lark once, kept in the user's cache, read back without lark.
 
 lark takes 50 ms to import and 250 ms to build the tables; reading them back takes 2 ms, and then
-`automaton` steps through them. lark stays the only thing that understands the grammar file.
+`automaton` steps through them. lark stays the only thing that understands the grammar file (`lalr_builder`);
+its own `cache` option would save the 250 ms, but not the import.
 """
 
 # ruff: noqa: PTH118, PTH120, PTH123 - pathlib would add 5 ms to every start
@@ -53,7 +54,9 @@ def tables() -> LalrTables:
     key = f"{FORMAT}-{sys.hexversion:x}-{crc32(grammar.encode()):08x}"
     stored = _read(key)
     if stored is None:
-        stored = _build(grammar)
+        from desire_tui.engine.syntax.lalr_builder import build
+
+        stored = build(grammar)
         _write(key, stored)
     return _unpack(stored)
 
@@ -83,52 +86,3 @@ def _read(key: str) -> dict[str, Any] | None:
 
 def _write(key: str, stored: dict[str, Any]) -> None:
     disk_cache.write(f"grammar-{key}.tables", marshal.dumps(stored))
-
-
-def _build(grammar: str) -> dict[str, Any]:
-    """Let lark build the tables; terminals are renamed to the tokenizer's kinds (their own text)."""
-    from lark import Lark
-    from lark.lexer import Lexer
-    from lark.parsers.lalr_analysis import Shift
-
-    class NoLexer(Lexer):
-        """Tokens come from `tokens.scan`: two lexers would be two truths, and lark's cannot see context."""
-
-        def __init__(self, _: object) -> None: ...
-
-        def lex(self, *_: object) -> Any:
-            return iter(())
-
-    parser = Lark(grammar, parser="lalr", lexer=NoLexer, keep_all_tokens=True, maybe_placeholders=False)
-    table = parser.parser.parser._parse_table  # noqa: SLF001 - lark publishes the tables in no other way
-    kinds = {t.name: t.pattern.value.replace("\\", "") for t in parser.terminals if t.pattern.type == "str"}
-    kinds["$END"] = "$END"
-    rules: list[Any] = []
-    numbers: dict[Any, int] = {}
-    number_of_state = {state: i for i, state in enumerate(table.states)}
-    actions: list[dict[str, int]] = []
-    gotos: list[dict[str, int]] = []
-    for moves in table.states.values():
-        action: dict[str, int] = {}
-        goto: dict[str, int] = {}
-        for symbol, (kind, target) in moves.items():
-            if kind is Shift:
-                rule_name = symbol.islower() or (symbol.startswith("__") and symbol not in kinds)
-                (goto if rule_name else action)[kinds.get(symbol, symbol)] = number_of_state[target]
-                continue
-            if target not in numbers:
-                numbers[target] = len(rules)
-                origin = str(target.origin.name)
-                single = target.options.expand1 and len(target.expansion) == 1
-                method = str(target.alias or ("" if single or origin.startswith("_") else origin))
-                rules.append((origin, len(target.expansion), method, origin.startswith("_")))
-            action[kinds.get(symbol, symbol)] = -1 - numbers[target]
-        actions.append(action)
-        gotos.append(goto)
-    return {
-        "start": number_of_state[table.start_states["start"]],
-        "accept": number_of_state[table.end_states["start"]],
-        "actions": actions,
-        "gotos": gotos,
-        "rules": rules,
-    }
