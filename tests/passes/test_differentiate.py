@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import derivative_slice
-from desire_tui.engine.passes.sparsity import dependence
+from desire_tui.engine.passes.sparsity import sparsity_pattern
+from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.reference.backend import ReferenceBackend
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.values import T
@@ -71,7 +72,7 @@ def program(script, body):
 
 def compare(text, *, tolerance=1e-7, seed=1, scale=1.0):
     model = Model(text)
-    rows, columns = dependence(model.segment)
+    rows, columns = sparsity_pattern(model.segment)
     pattern = np.zeros((model.n, model.n), dtype=bool)
     pattern[rows, columns] = True
     generator = np.random.default_rng(seed)
@@ -215,7 +216,7 @@ def test_nothing_but_the_states_moves():
 def test_what_a_statement_leaves_as_it_was_still_depends_on_what_it_depended_on(script, body):
     """Where derivatives have no exact tangent, differences fill the pattern: it must hold all they touch."""
     model = Model(program(script, body))
-    rows, columns = dependence(model.segment)
+    rows, columns = sparsity_pattern(model.segment)
     pattern = np.zeros((model.n, model.n), dtype=bool)
     pattern[rows, columns] = True
     x = np.random.default_rng(2).uniform(0.2, 0.9, model.n)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from desire_tui.engine.lowered.statements import Deriv, Guard, Set
 from desire_tui.engine.lowered.walk import walk_actions
-from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
+from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from tests.lowering.programs import segment
 
 
@@ -48,7 +48,7 @@ def test_each_pass():
     ]  # fmt: skip
     assert names(step_slice(lowered), values) == ["used", "relay", "noise", "d0", "Terminate"]
     assert names(derivative_slice(lowered), values) == ["used", "relay", "noise", "d0"]
-    assert names(tail_pass(lowered), values) == ["shown", "used", "out"]
+    assert names(final_sample_pass(lowered), values) == ["shown", "used", "out"]
 
 
 def test_an_if_stays_where_something_needs_it():
@@ -68,7 +68,7 @@ def test_history_statements():
     assert names(full_pass(lowered), values) == ["GetHistory", "d0", "DelayLine", "DelayLine", "StoreHistory"]
     assert names(step_slice(lowered), values) == ["d0", "DelayLine"]
     assert names(derivative_slice(lowered), values) == ["d0"]
-    assert names(tail_pass(lowered), values) == ["GetHistory", "DelayLine", "StoreHistory"]
+    assert names(final_sample_pass(lowered), values) == ["GetHistory", "DelayLine", "StoreHistory"]
 
 
 def test_vectors_are_sliced_too():

@@ -1,1 +1,1 @@
-"""Passes."""
+"""Passes over a lowered segment: what to run when, what depends on what, derivatives."""

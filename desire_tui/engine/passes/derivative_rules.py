@@ -1,8 +1,8 @@
 """Derivatives of the library functions, as lowered expressions of their arguments.
 
-Each entry of `SLOPES` takes the arguments x, … and their tangents x', … (None where a tangent is 0) and
-returns the tangent of the function's value, None for 0. Where a function has a kink, the derivative is that
-of one of its sides.
+Each of the `DERIVATIVE_RULES` takes the arguments x, … and their tangents x', … (None where a tangent is 0)
+and returns the tangent of the function's value, None for 0. Where a function has a kink, the derivative is
+that of one of its sides.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
 
     Tangent = Value | None
-    Slope = Callable[[Sequence[Value], Sequence[Tangent]], Tangent]
+    DerivativeRule = Callable[[Sequence[Value], Sequence[Tangent]], Tangent]
 
 ZERO, ONE, TWO = Const(0.0), Const(1.0), Const(2.0)
 
@@ -76,21 +76,21 @@ def _power(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
     return plus(base, times(op("mul", op("pow", *x), op("ln", x[0])), d[1]))
 
 
-def _of(factor: Callable[[Value], Value]) -> Slope:
-    """Make a slope out of f'(x)."""
+def _factor(factor: Callable[[Value], Value]) -> DerivativeRule:
+    """Make a rule out of f'(x)."""
     return lambda x, d: None if d[0] is None else op("mul", factor(x[0]), d[0])
 
 
-def _over(divisor: Callable[[Value], Value]) -> Slope:
-    """Make a slope out of 1/f'(x)."""
+def _divisor(divisor: Callable[[Value], Value]) -> DerivativeRule:
+    """Make a rule out of 1/f'(x)."""
     return lambda x, d: None if d[0] is None else op("div", d[0], divisor(x[0]))
 
 
-def _negative(slope: Slope) -> Slope:
-    return lambda x, d: minus(None, slope(x, d))
+def _negative(rule: DerivativeRule) -> DerivativeRule:
+    return lambda x, d: minus(None, rule(x, d))
 
 
-def _flat(_x: Sequence[Value], _d: Sequence[Tangent]) -> Tangent:
+def _zero(_x: Sequence[Value], _d: Sequence[Tangent]) -> Tangent:
     return None
 
 
@@ -102,11 +102,11 @@ def _difference(_x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
     return minus(d[0], d[1])
 
 
-def _opposite(_x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
+def _negation(_x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
     return minus(None, d[0])
 
 
-def _angle(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
+def _atan2(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
     top = minus(times(x[1], d[0]), times(x[0], d[1]))
     return None if top is None else op("div", top, op("add", _square(x[0]), _square(x[1])))
 
@@ -119,8 +119,8 @@ def choose(control: Value, negative: Tangent, positive: Tangent) -> Tangent:
 
 
 def _sinc(x: Value) -> Value:
-    slope = op("div", op("sub", op("cos", x), op("sinc", x)), x)
-    return op("comp", op("abs", x), ZERO, slope)
+    derivative = op("div", op("sub", op("cos", x), op("sinc", x)), x)
+    return op("comp", op("abs", x), ZERO, derivative)
 
 
 def _sigmoid(x: Value) -> Value:
@@ -132,47 +132,47 @@ def _rational_sigmoid(x: Value) -> Value:
     return op("div", op("mul", TWO, op("lim", x)), _square(op("add", ONE, _square(x))))
 
 
-_ARC = _over(lambda x: op("sqrt", op("sub", ONE, _square(x))))
+_ARC = _divisor(lambda x: op("sqrt", op("sub", ONE, _square(x))))
 
-SLOPES: dict[str, Slope] = {
+DERIVATIVE_RULES: dict[str, DerivativeRule] = {
     "add": _sum,
     "sub": _difference,
-    "neg": _opposite,
+    "neg": _negation,
     "mul": _product,
     "div": _quotient,
     "ipow": _whole_power,
     "pow": _power,
-    "sin": _of(lambda x: op("cos", x)),
-    "cos": _of(lambda x: op("neg", op("sin", x))),
-    "tan": _of(lambda x: op("add", ONE, _square(op("tan", x)))),
+    "sin": _factor(lambda x: op("cos", x)),
+    "cos": _factor(lambda x: op("neg", op("sin", x))),
+    "tan": _factor(lambda x: op("add", ONE, _square(op("tan", x)))),
     "asin": _ARC,
     "acos": _negative(_ARC),
-    "atan": _over(lambda x: op("add", ONE, _square(x))),
-    "sinh": _of(lambda x: op("cosh", x)),
-    "cosh": _of(lambda x: op("sinh", x)),
-    "tanh": _of(lambda x: op("sub", ONE, _square(op("tanh", x)))),
-    "exp": _of(lambda x: op("exp", x)),
-    "sqrt": _over(lambda x: op("mul", TWO, op("sqrt", x))),
-    "abs": _of(lambda x: op("sgn", x)),
-    "ln": _over(lambda x: x),
-    "log": _over(lambda x: op("mul", Const(natural_log(10.0)), x)),
-    "atan2": _angle,
-    "lim": _of(lambda x: op("swtch", x)),
-    "sat": _of(lambda x: op("rect", x)),
-    "SAT": _of(lambda x: op("rect", op("sub", op("mul", TWO, x), ONE))),
-    "deadz": _of(lambda x: op("sub", ONE, op("rect", x))),
-    "deadc": _flat,
-    "swtch": _flat,
-    "sgn": _flat,
+    "atan": _divisor(lambda x: op("add", ONE, _square(x))),
+    "sinh": _factor(lambda x: op("cosh", x)),
+    "cosh": _factor(lambda x: op("sinh", x)),
+    "tanh": _factor(lambda x: op("sub", ONE, _square(op("tanh", x)))),
+    "exp": _factor(lambda x: op("exp", x)),
+    "sqrt": _divisor(lambda x: op("mul", TWO, op("sqrt", x))),
+    "abs": _factor(lambda x: op("sgn", x)),
+    "ln": _divisor(lambda x: x),
+    "log": _divisor(lambda x: op("mul", Const(natural_log(10.0)), x)),
+    "atan2": _atan2,
+    "lim": _factor(lambda x: op("swtch", x)),
+    "sat": _factor(lambda x: op("rect", x)),
+    "SAT": _factor(lambda x: op("rect", op("sub", op("mul", TWO, x), ONE))),
+    "deadz": _factor(lambda x: op("sub", ONE, op("rect", x))),
+    "deadc": _zero,
+    "swtch": _zero,
+    "sgn": _zero,
     "comp": lambda x, d: choose(x[0], d[1], d[2]),
-    "rect": _flat,
-    "tri": _of(lambda x: op("neg", op("sgn", x))),
-    "sinc": _of(_sinc),
-    "sigmoid": _of(_sigmoid),
-    "SIGMOID": _of(_rational_sigmoid),
-    "round": _flat,
-    "trnc": _flat,
-    "recip": _over(lambda x: op("neg", _square(x))),
+    "rect": _zero,
+    "tri": _factor(lambda x: op("neg", op("sgn", x))),
+    "sinc": _factor(_sinc),
+    "sigmoid": _factor(_sigmoid),
+    "SIGMOID": _factor(_rational_sigmoid),
+    "round": _zero,
+    "trnc": _zero,
+    "recip": _divisor(lambda x: op("neg", _square(x))),
     "max": lambda x, d: choose(op("sub", x[0], x[1]), d[1], d[0]),
     "min": lambda x, d: choose(op("sub", x[0], x[1]), d[0], d[1]),
 }

@@ -41,8 +41,8 @@ from desire_tui.engine.lowered.statements import (
     Terminate,
     UpdateTrackHold,
 )
-from desire_tui.engine.passes.dead_code import needed
-from desire_tui.engine.passes.derivative_rules import SLOPES, ZERO, op, plus
+from desire_tui.engine.passes.dead_code import without_dead_code
+from desire_tui.engine.passes.derivative_rules import DERIVATIVE_RULES, ZERO, op, plus
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.passes.tangents import NotDifferentiable, Tangents
 
@@ -54,26 +54,26 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action, Assignment
 
 _NUDGE = Const(1e-6)
-"""Relative distance over which a table's slope is taken: exact inside an interval, where it is linear."""
+"""Relative distance over which a table is differenced: exact inside an interval, where it is linear."""
 
 
 @dataclass(frozen=True)
-class Tangent:
+class TangentPass:
     """The tangent pass: `body`'s derivatives are J·v, v the `order` numbers from slot `directions` on."""
 
     body: tuple[Action, ...]
     directions: int
 
 
-def differentiate(segment: Segment, room: Callable[[int], int]) -> Tangent:
-    """Differentiate a segment's derivative pass; `room(count)` gives the first of `count` slots that are 0.
+def differentiate(segment: Segment, allocate: Callable[[int], int]) -> TangentPass:
+    """Differentiate a segment's derivative pass; `allocate(count)` gives the first of `count` zero slots.
 
     NotDifferentiable: the pass draws random numbers, remembers, or uses a statement that has no derivative.
     """
     actions = derivative_slice(segment)
-    tangents = Tangents(segment.states, actions, room)
+    tangents = Tangents(segment.states, actions, allocate)
     body = _Differentiator(tangents).actions(actions)
-    return Tangent(needed(tuple(body)), tangents.directions)
+    return TangentPass(without_dead_code(tuple(body)), tangents.directions)
 
 
 class _Differentiator:
@@ -187,13 +187,13 @@ class _Differentiator:
         return self._table(value)
 
     def _operation(self, value: Op) -> Value | None:
-        slope = SLOPES.get(value.name)
-        if slope is None:
+        rule = DERIVATIVE_RULES.get(value.name)
+        if rule is None:
             raise NotDifferentiable(value)
-        slopes = [self.of(argument) for argument in value.args]
-        if not any(slopes):
+        tangents = [self.of(argument) for argument in value.args]
+        if not any(tangents):
             return None
-        return slope(value.args, slopes)
+        return rule(value.args, tangents)
 
     def _products(self, value: MatVec) -> Iterable[MatVec]:
         matrix, x = self._tangents.slot(value.slot), self._tangents.slot(value.x_slot)
@@ -213,24 +213,21 @@ class _Differentiator:
         return plus(left, right)
 
     def _table(self, value: Table1 | Table2) -> Value | None:
-        self._tangents.refuse(value)
+        self._tangents.refuse_table(value)
         if isinstance(value, Table1):
-            return _slope(value.x, self.of(value.x), lambda x: Table1(x, value.slot, value.count))
+            return _table_derivative(value.x, self.of(value.x), lambda x: Table1(x, value.slot, value.count))
 
         def f(x: Value, y: Value) -> Value:
             return Table2(x, y, value.f_slot, value.rows, value.cols, value.x_slot, value.y_slot)
 
-        by_x = _slope(value.x, self.of(value.x), lambda x: f(x, value.y))
-        return plus(by_x, _slope(value.y, self.of(value.y), lambda y: f(value.x, y)))
+        by_x = _table_derivative(value.x, self.of(value.x), lambda x: f(x, value.y))
+        return plus(by_x, _table_derivative(value.y, self.of(value.y), lambda y: f(value.x, y)))
 
 
-def _slope(x: Value, tangent: Value | None, f: Callable[[Value], Value]) -> Value | None:
+def _table_derivative(x: Value, tangent: Value | None, f: Callable[[Value], Value]) -> Value | None:
     """Central difference of a table, times the argument's tangent."""
     if tangent is None:
         return None
     h = op("mul", _NUDGE, op("add", op("abs", x), Const(1.0)))
     up, down = op("add", x, h), op("sub", x, h)
     return op("mul", op("div", op("sub", f(up), f(down)), op("sub", up, down)), tangent)
-
-
-__all__ = ["NotDifferentiable", "Tangent", "differentiate"]

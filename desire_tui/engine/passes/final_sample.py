@@ -5,7 +5,7 @@ defined variables are computed, OUT code runs; unguarded persistent assignments,
 `sample` and `step` code are not repeated (but OUT code behind `step` runs).
 
 A defined variable that uses what a later line of the same pass remembers anew (a relay, a counter) would come
-out one pass too late: it is `early`, belongs to the STEP pass and is not computed again.
+out one pass too late: it keeps the value of the STEP pass (`kept_from_step_pass`).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, assert_never
 from desire_tui.engine.lowered.effects import reads, role, timing, writes
 from desire_tui.engine.lowered.statements import Guard, Terminate
 from desire_tui.engine.lowered.walk import simple_actions, walk_actions, with_bodies
-from desire_tui.engine.passes.dead_code import SlotSet
+from desire_tui.engine.passes.slot_set import SlotSet
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -30,7 +30,7 @@ def holds_term(actions: Iterable[Action]) -> bool:
     return any(isinstance(action, Terminate) for action in walk_actions(actions))
 
 
-def early(step_pass: Actions) -> frozenset[int]:
+def kept_from_step_pass(step_pass: Actions) -> frozenset[int]:
     """Return the `id` of each statement whose variable must keep the value that the STEP pass gives it."""
     found: set[int] = set()
     if holds_term(step_pass):
@@ -55,11 +55,14 @@ def _collect(actions: Actions, changed: SlotSet, found: set[int]) -> None:
 
 
 def _reads_any(action: Action, changed: SlotSet) -> bool:
-    return any(changed.touch(slot, count) for slot, count in reads(action))
+    return any(changed.overlaps(slot, count) for slot, count in reads(action))
 
 
-def tail(actions: Iterable[Action], known: frozenset[int]) -> Actions:
-    """Return what the STEP pass left out of a segment's body; `known` is what it computed for the sample."""
+def catch_up(actions: Iterable[Action], computed: frozenset[int]) -> Actions:
+    """Return what the STEP pass left out of a segment's body.
+
+    `computed`: the ids of statements that it computed for the sample.
+    """
     kept: list[Action] = []
     for action in actions:
         if isinstance(action, Guard):
@@ -67,16 +70,19 @@ def tail(actions: Iterable[Action], known: frozenset[int]) -> Actions:
                 case "out":
                     kept.extend(_at_point(action.body))
                 case "step":  # OUT may stand behind it
-                    kept.extend(tail(action.body, known))
+                    kept.extend(catch_up(action.body, computed))
                 case "if":
-                    body, orelse = tail(action.body, known), tail(action.orelse, known)
+                    body, orelse = (
+                        catch_up(action.body, computed),
+                        catch_up(action.orelse, computed),
+                    )
                     if body or orelse:
                         kept.append(with_bodies(action, body, orelse))
                 case "sample":
                     pass
                 case _:
                     assert_never(action.kind)
-        elif timing(action) == "point" or (role(action) == "definition" and id(action) not in known):
+        elif timing(action) == "point" or (role(action) == "definition" and id(action) not in computed):
             kept.append(action)
     return tuple(kept)
 

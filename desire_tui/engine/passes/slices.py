@@ -1,7 +1,7 @@
 """Which statements a pass with given flags must execute (language.md 8.2).
 
-A pass is described by COMM (at a communication point) and STEP (at a step's start). What nobody can see is
-left out (`dead_code`). `Guard` remains for `if` and `sample` only; `out` and `step` are resolved.
+A pass is described by COMM (at a communication point) and STEP (at a step's start). Dead code is left
+out (`dead_code`). `Guard` remains for `if` and `sample` only; `out` and `step` are resolved.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, assert_never
 from desire_tui.engine.lowered.effects import role, timing
 from desire_tui.engine.lowered.statements import Deriv, Guard, Set
 from desire_tui.engine.lowered.walk import simple_actions, with_bodies
-from desire_tui.engine.passes.dead_code import needed
-from desire_tui.engine.passes.final_sample import early, tail
+from desire_tui.engine.passes.dead_code import without_dead_code
+from desire_tui.engine.passes.final_sample import catch_up, kept_from_step_pass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -31,17 +31,17 @@ def full_pass(segment: Segment) -> Actions:
 def step_slice(segment: Segment) -> Actions:
     """STEP without COMM: the start of a step inside a communication interval."""
     actions = _resolve(segment.body, comm=False, step=True)
-    return needed(actions, early(actions))
+    return without_dead_code(actions, kept_from_step_pass(actions))
 
 
 def derivative_slice(segment: Segment) -> Actions:
     """Neither flag: the later stages of a step."""
-    return needed(_resolve(segment.body, comm=False, step=False))
+    return without_dead_code(_resolve(segment.body, comm=False, step=False))
 
 
-def tail_pass(segment: Segment) -> Actions:
+def final_sample_pass(segment: Segment) -> Actions:
     """COMM without STEP, after `term` fired between communication points: see `final_sample`."""
-    return tail(segment.body, early(_resolve(segment.body, comm=False, step=True)))
+    return catch_up(segment.body, kept_from_step_pass(_resolve(segment.body, comm=False, step=True)))
 
 
 def jacobian_pass(segment: Segment, stride: int) -> Actions:
@@ -50,8 +50,8 @@ def jacobian_pass(segment: Segment, stride: int) -> Actions:
     assert given is not None
     definitions = _definitions(_resolve(segment.body, comm=False, step=False))
     where = segment.states[0].where
-    wanted = tuple(Deriv(number, entry.value, where) for number, entry in enumerate(given.entries))
-    helpers = needed(definitions + given.body + wanted)[: -len(wanted) or None]
+    entries = tuple(Deriv(number, entry.value, where) for number, entry in enumerate(given.entries))
+    helpers = without_dead_code(definitions + given.body + entries)[: -len(entries) or None]
     return helpers + tuple(
         Set(given.slot + entry.row * stride + entry.column, entry.value, where) for entry in given.entries
     )

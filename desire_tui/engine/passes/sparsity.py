@@ -1,9 +1,9 @@
 """Which derivatives depend on which states: the pattern of the Jacobian, found from the statements.
 
-What a vector depends on is kept as a few *bonds*, not element by element: a `diagonal` bond says that
-element i depends on state `first` + i, a `block` bond that every element depends on the states `first` …
-`last` − 1; both for lo ≤ i < hi. Elementwise operations keep bonds, shifts move them, products with
-matrices make blocks. So a heat equation over a million states has three bonds. The pattern may be larger
+What a vector depends on is kept as a few *dependencies*, not element by element: a `diagonal` one says that
+element i depends on state `first` + i, a `block` that every element depends on the states `first` …
+`last` − 1; both for lo ≤ i < hi. Elementwise operations keep dependencies, shifts move them, products with
+matrices make blocks. So a heat equation over a million states has three of them. The pattern may be larger
 than the truth, never smaller.
 """
 
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     Entries = tuple[NDArray[np.int32], NDArray[np.int32]]
 
 
-class Bond(NamedTuple):
+class Dependency(NamedTuple):
     """Elements lo … hi − 1 depend on states: see above."""
 
     kind: str
@@ -51,11 +51,11 @@ class Bond(NamedTuple):
     hi: int
 
 
-Bonds = frozenset[Bond]
-_NONE: Bonds = frozenset()
+Dependencies = frozenset[Dependency]
+_NONE: Dependencies = frozenset()
 
 
-def dependence(segment: Segment) -> Entries:
+def sparsity_pattern(segment: Segment) -> Entries:
     """Return rows and columns of the entries of ∂(dx/dt)/∂x that may differ from 0, some twice."""
     finder = _Finder(segment)
     finder.run(derivative_slice(segment), certain=True)
@@ -64,14 +64,14 @@ def dependence(segment: Segment) -> Entries:
 
 class _Finder:
     def __init__(self, segment: Segment) -> None:
-        self._scalars: dict[int, Bonds] = {}
-        self._arrays: dict[tuple[int, int], Bonds] = {}
-        self._found: set[tuple[int, int, Bond]] = set()
+        self._scalars: dict[int, Dependencies] = {}
+        self._arrays: dict[tuple[int, int], Dependencies] = {}
+        self._derivatives: set[tuple[int, int, Dependency]] = set()
         for s in segment.states:
             if s.count == 1:
-                self._scalars[s.slot] = frozenset({Bond("block", s.first, s.first + 1, 0, 1)})
+                self._scalars[s.slot] = frozenset({Dependency("block", s.first, s.first + 1, 0, 1)})
             else:
-                self._arrays[s.slot, s.count] = frozenset({Bond("diagonal", s.first, 0, 0, s.count)})
+                self._arrays[s.slot, s.count] = frozenset({Dependency("diagonal", s.first, 0, 0, s.count)})
 
     def run(self, actions: Iterable[Action], *, certain: bool) -> None:
         """Follow the statements; under an `if` (not `certain`) an assignment may leave the old value."""
@@ -80,32 +80,34 @@ class _Finder:
                 self.run(action.body, certain=False)
                 self.run(action.orelse, certain=False)
             elif isinstance(action, Deriv):
-                self._found |= {(action.state, 1, bond) for bond in self.of(action.value)}
+                self._derivatives |= {(action.state, 1, dependency) for dependency in self.of(action.value)}
             elif isinstance(action, DerivVec):
-                bonds = _spread(self.of(action.value), action.count)
-                self._found |= {(action.state, action.count, bond) for bond in bonds}
+                dependencies = _spread(self.of(action.value), action.count)
+                self._derivatives |= {(action.state, action.count, dependency) for dependency in dependencies}
             else:
                 self._assign(action, certain=certain)
 
     def _assign(self, action: Action, *, certain: bool) -> None:
         if isinstance(action, Set | SetVec):
-            bonds = self.of(action.value)
+            dependencies = self.of(action.value)
             adds = isinstance(action, SetVec) and action.mode == "add"
             certain = certain and not action.persistent and not adds
         else:  # sums, matrices and whatever else: everything depends on everything that is read
-            bonds = _block(self._read(slot, count) for slot, count in reads(action))
+            dependencies = _block(self._read(slot, count) for slot, count in reads(action))
         for slot, count in writes(action):
-            bonds = _spread(bonds, count)
+            dependencies = _spread(dependencies, count)
             if count == 1:
-                self._scalars[slot] = bonds if certain else bonds | self._scalars.get(slot, _NONE)
-            elif bonds or (slot, count) in self._arrays:
+                self._scalars[slot] = (
+                    dependencies if certain else dependencies | self._scalars.get(slot, _NONE)
+                )
+            elif dependencies or (slot, count) in self._arrays:
                 self._arrays[slot, count] = (
-                    bonds if certain else bonds | self._arrays.get((slot, count), _NONE)
+                    dependencies if certain else dependencies | self._arrays.get((slot, count), _NONE)
                 )
 
     # ------------------------------------------------------------------ expressions
 
-    def of(self, value: Value) -> Bonds:
+    def of(self, value: Value) -> Dependencies:
         """Return what an expression depends on."""
         match value:
             case Const():
@@ -130,37 +132,37 @@ class _Finder:
             case _:
                 assert_never(value)
 
-    def _read(self, slot: int, count: int) -> Bonds:
-        """Bonds of the numbers in `slot` …, whatever names they were written under."""
-        found: set[Bond] = set()
-        for (start, size), bonds in self._arrays.items():
+    def _read(self, slot: int, count: int) -> Dependencies:
+        """Dependencies of the numbers in `slot` …, whatever names they were written under."""
+        found: set[Dependency] = set()
+        for (start, size), dependencies in self._arrays.items():
             if start < slot + count and slot < start + size:
-                found.update(_window(bonds, slot - start, count))
+                found.update(_window(dependencies, slot - start, count))
         if count == 1:
             found |= self._scalars.get(slot, _NONE)
         else:
             inside = range(slot, slot + count)
             few = inside if count < len(self._scalars) else [s for s in self._scalars if s in inside]
             for s in few:
-                for bond in self._scalars.get(s, _NONE):
-                    found.add(bond._replace(lo=s - slot, hi=s - slot + 1))
+                for dependency in self._scalars.get(s, _NONE):
+                    found.add(dependency._replace(lo=s - slot, hi=s - slot + 1))
         return frozenset(_as_block(b) for b in found) if count == 1 else frozenset(found)
 
     # ------------------------------------------------------------------ the result
 
     def entries(self) -> Entries:
-        """Write the bonds out."""
+        """Write the dependencies out."""
         rows: list[NDArray[np.int64]] = [np.zeros(0, np.int64)]
         columns: list[NDArray[np.int64]] = [np.zeros(0, np.int64)]
-        for state, count, bond in self._found:
-            elements = np.arange(bond.lo, min(bond.hi, count))
-            if bond.kind == "diagonal":
+        for state, count, dependency in self._derivatives:
+            elements = np.arange(dependency.lo, min(dependency.hi, count))
+            if dependency.kind == "diagonal":
                 rows.append(state + elements)
-                columns.append(bond.first + elements)
+                columns.append(dependency.first + elements)
             else:
-                width = bond.last - bond.first
+                width = dependency.last - dependency.first
                 rows.append(np.repeat(state + elements, width))
-                columns.append(np.tile(np.arange(bond.first, bond.last), len(elements)))
+                columns.append(np.tile(np.arange(dependency.first, dependency.last), len(elements)))
         return np.concatenate(rows).astype(np.int32), np.concatenate(columns).astype(np.int32)
 
 
@@ -187,19 +189,19 @@ def extent(value: Value) -> int:
             assert_never(value)
 
 
-def _spread(bonds: Bonds, count: int) -> Bonds:
-    """Spread a scalar's bonds over the elements of a vector: it goes into each of them."""
+def _spread(dependencies: Dependencies, count: int) -> Dependencies:
+    """Spread a scalar's dependencies over the elements of a vector: it goes into each of them."""
     if count == 1:
-        return bonds
+        return dependencies
     return frozenset(
-        b._replace(hi=count) if b.kind == "block" and (b.lo, b.hi) == (0, 1) else b for b in bonds
+        b._replace(hi=count) if b.kind == "block" and (b.lo, b.hi) == (0, 1) else b for b in dependencies
     )
 
 
-def _shift(bonds: Bonds, by: int, count: int) -> Bonds:
+def _shift(dependencies: Dependencies, by: int, count: int) -> Dependencies:
     """Element i of the result is element i + by, 0 outside."""
     moved = set()
-    for b in bonds:
+    for b in dependencies:
         first = b.first + by if b.kind == "diagonal" else b.first
         lo, hi = max(b.lo - by, 0), min(b.hi - by, count)
         if lo < hi:
@@ -207,18 +209,18 @@ def _shift(bonds: Bonds, by: int, count: int) -> Bonds:
     return frozenset(moved)
 
 
-def _window(bonds: Bonds, start: int, count: int) -> Bonds:
-    """Bonds of the elements from `start` on."""
-    return _shift(bonds, start, count)
+def _window(dependencies: Dependencies, start: int, count: int) -> Dependencies:
+    """Dependencies of the elements from `start` on."""
+    return _shift(dependencies, start, count)
 
 
-def _as_block(bond: Bond) -> Bond:
-    """One element's bond as a scalar's."""
-    if bond.kind == "block":
-        return bond._replace(lo=0, hi=1)
-    return Bond("block", bond.first + bond.lo, bond.first + bond.hi, 0, 1)
+def _as_block(dependency: Dependency) -> Dependency:
+    """One element's dependency as a scalar's."""
+    if dependency.kind == "block":
+        return dependency._replace(lo=0, hi=1)
+    return Dependency("block", dependency.first + dependency.lo, dependency.first + dependency.hi, 0, 1)
 
 
-def _block(many: Iterable[Bonds]) -> Bonds:
-    """Everything that any element depends on, as a scalar's bonds."""
-    return frozenset(_as_block(bond) for bonds in many for bond in bonds)
+def _block(many: Iterable[Dependencies]) -> Dependencies:
+    """Everything that any element depends on, as a scalar's dependencies."""
+    return frozenset(_as_block(dependency) for dependencies in many for dependency in dependencies)

@@ -30,7 +30,7 @@ class Tangents:
     """
 
     def __init__(
-        self, states: Sequence[StateRange], actions: Sequence[Action], room: Callable[[int], int]
+        self, states: Sequence[StateRange], actions: Sequence[Action], allocate: Callable[[int], int]
     ) -> None:
         flat = list(simple_actions(actions))
         pieces = [(s.slot, s.count) for s in states]
@@ -40,7 +40,7 @@ class Tangents:
         self._starts, self._ends = _regions(pieces)
         self._base: list[int | None] = [None] * len(self._starts)
         order = sum(s.count for s in states)
-        self.directions = room(max(order, 1))
+        self.directions = allocate(max(order, 1))
         for s in states:
             region = self._region(s.slot)
             base = self.directions + s.first - (s.slot - self._starts[region])
@@ -50,10 +50,10 @@ class Tangents:
                     s
                 )  # an array that overlaps states in another order, or reaches beyond
             self._base[region] = base
-        self._spread(flat)
-        for region, place in enumerate(self._base):
-            if place == -1:
-                self._base[region] = room(self._size(region))
+        self._propagate(flat)
+        for region, known in enumerate(self._base):
+            if known == -1:
+                self._base[region] = allocate(self._size(region))
 
     def slot(self, slot: int) -> int | None:
         """Return the slot of a number's tangent; None if it does not depend on the states."""
@@ -68,17 +68,17 @@ class Tangents:
         slot = self.slot(value.slot)
         return None if slot is None else Vec(slot, value.count)
 
-    def refuse(self, table: Table1 | Table2) -> None:
+    def refuse_table(self, table: Table1 | Table2) -> None:
         """NotDifferentiable if a table's own numbers depend on the states."""
         slots = (table.slot,) if isinstance(table, Table1) else (table.f_slot, table.x_slot, table.y_slot)
         if any(self.slot(slot) is not None for slot in slots):
             raise NotDifferentiable(table)
 
-    def _spread(self, actions: Sequence[Action]) -> None:
+    def _propagate(self, actions: Sequence[Action]) -> None:
         """Mark what depends on the states, until nothing new is found; -1: active, no room yet."""
-        going = True
-        while going:
-            going = False
+        changed = True
+        while changed:
+            changed = False
             for action in actions:
                 targets = [self._region(slot) for slot, _ in writes(action)]
                 if all(self._base[target] is not None for target in targets):
@@ -87,7 +87,7 @@ class Tangents:
                     for target in targets:
                         if self._base[target] is None:
                             self._base[target] = -1
-                            going = True
+                            changed = True
 
     def _region(self, slot: int) -> int:
         return bisect_right(self._starts, slot) - 1

@@ -13,8 +13,9 @@ import numpy as np
 
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.lowered.jacobian_array import checked_array
-from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import jacobian_pass
+from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.runtime.run_faults import state_name
 from desire_tui.engine.values import T

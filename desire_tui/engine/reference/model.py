@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
+from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.states import states_of
 from desire_tui.engine.reference.steps import fixed_step, variable_step
@@ -45,7 +45,7 @@ class ReferenceModel:
         compile_ = self.statements.compile
         self.full = compile_(full_pass(segment))
         self.step = compile_(step_slice(segment))
-        self.tail = compile_(tail_pass(segment))
+        self.tail = compile_(final_sample_pass(segment))
         # each stage's pass writes its own k; k1 is written by the full and the step pass
         self.stages: list[Run] = []
         for k in self.states.k[1:]:

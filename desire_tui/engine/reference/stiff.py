@@ -26,9 +26,10 @@ from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.lowered.jacobian_array import checked_array
-from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
-from desire_tui.engine.passes.sparsity import dependence
+from desire_tui.engine.passes.sparsity import sparsity_pattern
+from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.reference.model import ReferenceModel
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.runtime.run_memory import Ended, Phase
@@ -78,7 +79,7 @@ class StiffReferenceModel(ReferenceModel):
             rows, columns = ([getattr(e, side) for e in given.entries] for side in ("row", "column"))
             pattern = Pattern.of(order, np.array(rows, np.int32), np.array(columns, np.int32))
         elif kind in {"jacobian", "differences"}:
-            pattern = Pattern.of(order, *dependence(segment))
+            pattern = Pattern.of(order, *sparsity_pattern(segment))
         else:
             pattern = Pattern.of(order, np.zeros(0, np.int32), np.zeros(0, np.int32))
         if kind == "jacobian" and not program:

@@ -13,7 +13,7 @@ from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_l
 from desire_tui.engine.codegen.scalar.slot_usage import survey
 from desire_tui.engine.lowered.statements import Deriv
 from desire_tui.engine.passes.final_sample import holds_term
-from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice, tail_pass
+from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, RunMemory
 
@@ -135,7 +135,7 @@ def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:
         "step": step_slice(segment),
         "full": full_pass(segment),
         # made only after a `term` has fired
-        "tail": tail_pass(segment) if holds_term(segment.body) else (),
+        "tail": final_sample_pass(segment) if holds_term(segment.body) else (),
     }
 
 

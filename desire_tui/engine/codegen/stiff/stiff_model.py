@@ -20,9 +20,10 @@ from desire_tui.engine.integration.plan import is_own, plan
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
 from desire_tui.engine.lowered.jacobian_array import checked_array
-from desire_tui.engine.passes.differentiate import NotDifferentiable, differentiate
+from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
-from desire_tui.engine.passes.sparsity import dependence
+from desire_tui.engine.passes.sparsity import sparsity_pattern
+from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
 from desire_tui.engine.values import DT
@@ -186,5 +187,5 @@ def _plan(segment: Segment, rule: int, extra: Mapping[str, object]) -> SolverPla
         rows, columns = ([getattr(e, side) for e in segment.jacobian.entries] for side in ("row", "column"))
         pattern = Pattern.of(order, np.array(rows, np.int32), np.array(columns, np.int32))
     else:
-        pattern = Pattern.of(order, *dependence(segment))
+        pattern = Pattern.of(order, *sparsity_pattern(segment))
     return plan(rule, pattern, program="jacobian" in extra, tangent="tangent" in extra)
