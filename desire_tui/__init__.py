@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from desire_tui.version import __version__
+
 if TYPE_CHECKING:
     from os import PathLike
 
     from desire_tui.engine.outputs.results import Result
     from desire_tui.engine.session.session import Session
 
-__version__ = "0.1.0"
 __all__ = ["Session", "__version__", "run"]
 
 

@@ -13,7 +13,7 @@ def main(arguments: list[str] | None = None) -> None:
     words = sys.argv[1:] if arguments is None else arguments
     try:
         if not any(word.startswith("-") for word in words) and not COMMANDS.intersection(words[:1]):
-            from desire_tui.desktop.launch import is_possible, open_desktop
+            from desire_tui.launch import is_possible, open_desktop
 
             if is_possible():
                 open_desktop(tuple(words))

@@ -16,25 +16,27 @@ from textual.app import SystemCommand
 from textual.screen import ModalScreen
 
 from desire_tui import commands
-from desire_tui.actions.edit import EditActions
-from desire_tui.actions.files import FileActions
-from desire_tui.actions.graph import GraphActions
-from desire_tui.actions.help import HelpActions
-from desire_tui.actions.run import RunActions
-from desire_tui.actions.view import ViewActions
-from desire_tui.common import alt_keys, config, paths, themes
-from desire_tui.common.messages import Checked, EngineFault, EngineMessage
+from desire_tui.actions.edit_actions import EditActions
+from desire_tui.actions.file_actions import FileActions
+from desire_tui.actions.graph_actions import GraphActions
+from desire_tui.actions.help_actions import HelpActions
+from desire_tui.actions.run_actions import RunActions
+from desire_tui.actions.view_actions import ViewActions
+from desire_tui.common import config, paths, themes
+from desire_tui.common.key_names import key_names
+from desire_tui.desktop import alt_keys
 from desire_tui.desktop.app_base import AppBase
 from desire_tui.desktop.command_line import CommandLine
+from desire_tui.desktop.completer import Completer
+from desire_tui.desktop.engine_messages import Checked, EngineFault, EngineMessage
 from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
+from desire_tui.desktop.first_tabs import open_first
 from desire_tui.desktop.frame_pacing import FramePacing
-from desire_tui.desktop.live import Live
+from desire_tui.desktop.live_mode import Live
 from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.message_handlers import MessageHandlers
-from desire_tui.desktop.startup import open_first
 from desire_tui.desktop.tour import Tour
 from desire_tui.editor.checkpoints import Keeper
-from desire_tui.editor.completion_control import Completer
 from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.editor.live_check import LiveChecker
@@ -42,7 +44,6 @@ from desire_tui.panes.command_history import CommandHistory
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.console_view import Console
 from desire_tui.panes.graph_pane import GraphPane
-from desire_tui.panes.key_names import key_names
 from desire_tui.panes.problems_pane import ProblemsPane
 from desire_tui.panes.quantities_pane import QuantitiesPane
 from desire_tui.panes.side_pane import SidePane
@@ -221,7 +222,7 @@ class DesireApp(AppBase):
         """Carry out an action of the command table."""
         result = self.call(command_id, argument)
         if inspect.iscoroutine(result):
-            self.begun = self.run_worker(result, name=command_id, exit_on_error=True)
+            self.key_ordering.action_begun = self.run_worker(result, name=command_id, exit_on_error=True)
 
     def action_do(self, command_id: str) -> None:
         """Carry out what a key is bound to."""
@@ -289,8 +290,10 @@ class DesireApp(AppBase):
 
     @on(ProblemsPane.Chosen)
     def _problem_chosen(self, event: ProblemsPane.Chosen) -> None:
-        self.editor.show(event.area, focus=True)
-        event.area.go_to(event.mark.row, event.mark.start)
+        area = self.editor.find(event.tab)
+        if area is not None:  # it may have been closed
+            self.editor.show(area, focus=True)
+            area.go_to(event.mark.row, event.mark.start)
 
     @on(SidePane.Wanted)
     def _page_wanted(self, event: SidePane.Wanted) -> None:

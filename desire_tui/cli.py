@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from desire_tui import __version__
 from desire_tui.engine.outputs.formats import FORMATS
+from desire_tui.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -46,7 +46,7 @@ def ide(files: tuple[str, ...]) -> None:
 
 
 def _open_desktop(files: tuple[str, ...]) -> None:
-    from desire_tui.desktop.launch import is_possible, open_desktop
+    from desire_tui.launch import is_possible, open_desktop
 
     if not is_possible():
         raise click.UsageError("the desktop needs a terminal; `desire run FILE` works without one")

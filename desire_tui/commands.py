@@ -195,15 +195,3 @@ def parse_line(line: str) -> tuple[Command, str] | None:
     if len(rest) >= 2 and rest[0] in "'\"" and rest[-1] == rest[0]:
         rest = rest[1:-1]
     return command, rest
-
-
-def keys_table() -> str:
-    """Return all actions with their keys and words as a Markdown table."""
-    from desire_tui.panes.key_names import key_names
-
-    rows = ["| key | action | | command |", "| --- | --- | --- | --- |"]
-    for command in COMMANDS:
-        argument = f" {command.argument}" if command.argument else ""
-        words = ", ".join(f"`{word}{argument}`" for word in command.words).replace("|", "\\|")
-        rows.append(f"| {key_names(command.keys)} | {command.title} | {command.help} | {words} |")
-    return "\n".join(rows) + "\n"

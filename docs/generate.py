@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.commands import BY_ID
+from desire_tui.common.key_names import key_names
 from desire_tui.engine.integration.rules import markdown_table
-from desire_tui.help.example_catalogue import CHAPTERS, Example, examples
 from desire_tui.help.page_catalogue import topics
-from desire_tui.panes.key_names import key_names
+from desire_tui.panes.example_catalogue import CHAPTERS, Example, examples
 from tests.programs.coverage import markdown as tested_where
 
 if TYPE_CHECKING:

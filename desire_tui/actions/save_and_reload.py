@@ -13,7 +13,7 @@ from desire_tui.engine.atomic_file import replace_text
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.code_area import CodeArea
 
 
 class Disk(Controller):

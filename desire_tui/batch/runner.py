@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.session.permissions import Permissions
 from desire_tui.engine.session.session import Session
+from desire_tui.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -135,7 +136,6 @@ class Work:
 
     def result(self) -> Result:
         """Return everything the program produced so far."""
-        from desire_tui import __version__
         from desire_tui.engine.outputs import results
 
         session = self.session

@@ -9,13 +9,13 @@ from textual import events
 from textual.app import App
 
 from desire_tui.common import paths
-from desire_tui.desktop import key_ordering
+from desire_tui.desktop.key_ordering import KeyOrdering
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.engine.session.status import State
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.graph_pane import GraphPane
 from desire_tui.panes.help_pane import HelpPane
-from desire_tui.panes.problems_pane import ProblemsPane
+from desire_tui.panes.problems_pane import ProblemsPane, ProgramProblems
 from desire_tui.panes.quantities_pane import QuantitiesPane
 from desire_tui.panes.side_pane import SidePane
 from desire_tui.panes.status_bar import StatusBar
@@ -26,10 +26,9 @@ if TYPE_CHECKING:
 
     from textual.message import Message
     from textual.widget import Widget
-    from textual.worker import Worker
 
-    from desire_tui.common.layout_rules import Pane
     from desire_tui.desktop.engine_thread import EngineThread
+    from desire_tui.desktop.layout_rules import Pane
     from desire_tui.desktop.main_screen import MainScreen
     from desire_tui.engine.session.session import Session
     from desire_tui.panes.side_pane import Side
@@ -40,10 +39,12 @@ class AppBase(App[None]):
 
     desk: MainScreen
     engine: EngineThread
-    begun: Worker[None] | None = None
-    """The action begun last that takes its time."""
     complaints = 0
     """How often the user was told that something of his cannot be done."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.key_ordering = KeyOrdering(self)
 
     @property
     def session(self) -> Session:
@@ -55,7 +56,7 @@ class AppBase(App[None]):
         if isinstance(event, events.Key) and event.key.startswith("alt+"):
             event.character = None
         if isinstance(event, events.Key) and not event.is_forwarded and not event.is_printable:
-            await key_ordering.carry_out(self, event, super().on_event)
+            await self.key_ordering.carry_out(event, super().on_event)
         else:
             await super().on_event(event)
 
@@ -173,9 +174,11 @@ class AppBase(App[None]):
 
     def list_problems(self) -> None:
         """Bring the problems pane up to date."""
-        self.desk.query_one(SidePane).count_problems(
-            self.desk.query_one(ProblemsPane).show(self.editor.areas)
-        )
+        programs = [
+            ProgramProblems(area.buffer.number, area.buffer.name, area.marks.all_problems())
+            for area in self.editor.areas
+        ]
+        self.desk.query_one(SidePane).count_problems(self.desk.query_one(ProblemsPane).show(programs))
 
     def follow_theme(self) -> None:
         """Take over the colours of a new theme where they are not CSS's."""

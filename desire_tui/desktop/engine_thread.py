@@ -12,8 +12,8 @@ import traceback
 from typing import TYPE_CHECKING
 
 from desire_tui.commands import BY_WORD
-from desire_tui.common import messages
-from desire_tui.desktop import launch
+from desire_tui.desktop import engine_messages
+from desire_tui.desktop.start_up_gc import resume_gc
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.listener import Listener, StoppedAt
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.session import Session
     from desire_tui.engine.source import Source
 
-    Post = Callable[[messages.EngineMessage], object]
+    Post = Callable[[engine_messages.EngineMessage], object]
 
 WAITING_CHARS_MAX = 200_000
 """Console output the screen has not taken yet.
@@ -62,7 +62,7 @@ class ScreenListener(Listener):
             if full:
                 self._taken.clear()
         if first:
-            self._post(messages.ConsoleText())
+            self._post(engine_messages.ConsoleText())
         if full:
             self._taken.wait(0.25)
 
@@ -79,7 +79,7 @@ class ScreenListener(Listener):
         """Wait for a line from the command pane."""
         while not self._lines.empty():
             self._lines.get_nowait()
-        self._post(messages.InputWanted(prompt))
+        self._post(engine_messages.InputWanted(prompt))
         line = self._lines.get()
         if line is None:
             from desire_tui.engine.interpreter.host import Interrupted
@@ -93,44 +93,44 @@ class ScreenListener(Listener):
 
     def permit(self, request: PermissionRequest) -> bool:
         """Wait for the user's yes or no."""
-        answer = messages.Answer(threading.Event())
-        self._post(messages.PermissionWanted(request, answer))
+        answer = engine_messages.Answer(threading.Event())
+        self._post(engine_messages.PermissionWanted(request, answer))
         answer.done.wait()
         return answer.yes
 
     def program_accepted(self, program: Program, problems: Sequence[Diagnostic]) -> None:
         """Tell the screen."""
         del program
-        self._post(messages.ProgramAccepted(problems))
+        self._post(engine_messages.ProgramAccepted(problems))
 
     def run_started(self, record: RunRecord) -> None:
         """Tell the screen."""
-        self._post(messages.RunStarted(record))
+        self._post(engine_messages.RunStarted(record))
 
     def run_ended(self, record: RunRecord) -> None:
         """Tell the screen."""
-        self._post(messages.RunEnded(record))
+        self._post(engine_messages.RunEnded(record))
 
     def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Tell the screen."""
-        self._post(messages.ProblemsFound(diagnostics, stops=False))
+        self._post(engine_messages.ProblemsFound(diagnostics, stops=False))
 
     def stopped_at(self, place: StoppedAt) -> None:
         """Tell the screen."""
-        self._post(messages.Stopped(place))
+        self._post(engine_messages.Stopped(place))
 
     def graph_changed(self, graph: Graph) -> None:
         """Tell the screen; the graph itself is read there."""
         del graph
-        self._post(messages.GraphChanged())
+        self._post(engine_messages.GraphChanged())
 
     def quantities_cleared(self) -> None:
         """Tell the screen."""
-        self._post(messages.QuantitiesCleared())
+        self._post(engine_messages.QuantitiesCleared())
 
     def noted(self, text: str) -> None:
         """Tell the screen."""
-        self._post(messages.Noted(text))
+        self._post(engine_messages.Noted(text))
 
     def front_source(self) -> Source | None:
         """Return the front tab's text."""
@@ -140,7 +140,7 @@ class ScreenListener(Listener):
         """Hand a command about editors and files to the screen."""
         if word not in BY_WORD:
             return False
-        self._post(messages.AppCommand(word, argument or ""))
+        self._post(engine_messages.AppCommand(word, argument or ""))
         return True
 
 
@@ -201,10 +201,10 @@ class EngineThread:
 
             self._session = Session(self._listener, permissions=self._permissions)
         except Exception as error:  # noqa: BLE001 - an installation that lacks a part: the screen's thread ends the app
-            self._post(messages.EngineMissing(error))
+            self._post(engine_messages.EngineMissing(error))
             return
         self._made.set()
-        self._post(messages.EngineUp())
+        self._post(engine_messages.EngineUp())
         threading.Thread(target=self._warm_up, daemon=True, name="desire-warm-up").start()
         while True:
             self._do(self._jobs.get())
@@ -213,7 +213,7 @@ class EngineThread:
     def _warm_up() -> None:
         with contextlib.suppress(Exception):  # whatever fails here fails again, and is told, when it matters
             warm_up()
-        launch.settle()
+        resume_gc()
 
     def _do(self, job: Callable[[], object]) -> None:
         from desire_tui.engine.interpreter.host import Interrupted
@@ -223,14 +223,16 @@ class EngineThread:
             job()
             failed = False
         except DesireError as error:
-            self._post(messages.ProblemsFound(error.diagnostics, stops=True))
+            self._post(engine_messages.ProblemsFound(error.diagnostics, stops=True))
         except Interrupted:
             pass
         except Exception as error:  # noqa: BLE001 - the last line: a fault of ours must not take the work down
-            self._post(messages.EngineFault(f"{type(error).__name__}: {error}", traceback.format_exc()))
+            self._post(
+                engine_messages.EngineFault(f"{type(error).__name__}: {error}", traceback.format_exc())
+            )
         finally:
             self._pending -= 1
-            self._post(messages.EngineIdle(failed=failed))
+            self._post(engine_messages.EngineIdle(failed=failed))
 
 
 def warm_up() -> None:

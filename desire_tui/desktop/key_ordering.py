@@ -20,60 +20,62 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
     from textual import events
+    from textual.app import App
     from textual.screen import Screen
-
-    from desire_tui.desktop.app_base import AppBase
+    from textual.worker import Worker
 
 PATIENCE_S = 2.0
 """A widget that is busy for longer does not hold up the keys of the others."""
 
 
-async def carry_out(
-    app: AppBase, event: events.Key, hand_over: Callable[[events.Key], Awaitable[None]]
-) -> None:
-    """Carry out a key that may be bound: after what was typed before it, before what comes next.
+class KeyOrdering:
+    """Carries out the keys of one app."""
 
-    `hand_over` is the app's usual way: bindings with priority, else the focused widget's queue.
-    """
-    await caught_up(app.focused)
-    field, screen, begun = app.focused, app.screen, app.begun
-    await _deal_with(app, event, field, hand_over)
-    if field is not None and isinstance(screen, ModalScreen):
-        for above in field.ancestors:  # Return in a dialog's field goes up to the dialog, which ends
-            await caught_up(above if isinstance(above, Widget) else None)
-    if app.screen is not screen and isinstance(screen, ModalScreen):
-        await _at_rest(app, app.screen)
-    elif app.begun is not begun:
-        await _at_rest(app, screen)
+    def __init__(self, app: App[None]) -> None:
+        self._app = app
+        self.action_begun: Worker[None] | None = None
+        """The action begun last that takes its time."""
 
+    async def carry_out(self, event: events.Key, hand_over: Callable[[events.Key], Awaitable[None]]) -> None:
+        """Carry out a key that may be bound: after what was typed before it, before what comes next.
 
-async def _deal_with(
-    app: AppBase,
-    event: events.Key,
-    field: Widget | None,
-    hand_over: Callable[[events.Key], Awaitable[None]],
-) -> None:
-    if not isinstance(field, (Input, TextArea)):
-        await hand_over(event)
-        return
-    event.bubble = False  # type: ignore[misc]  # of this one event only
-    await hand_over(event)
-    await caught_up(field)
-    if not event.is_forwarded or event._stop_propagation:  # noqa: SLF001 - no public way to ask (Textual is pinned)
-        return
-    if not await app._check_bindings(event.key) and field.parent is not None:  # noqa: SLF001 - as above
-        event.bubble = True  # type: ignore[misc]
-        event._bubble_to(field.parent)  # noqa: SLF001 - what Textual itself would have done
+        `hand_over` is the app's usual way: bindings with priority, else the focused widget's queue.
+        """
+        app = self._app
+        await caught_up(app.focused)
+        field, screen, begun = app.focused, app.screen, self.action_begun
+        await self._deal_with(event, field, hand_over)
+        if field is not None and isinstance(screen, ModalScreen):
+            for above in field.ancestors:  # Return in a dialog's field goes up to the dialog, which ends
+                await caught_up(above if isinstance(above, Widget) else None)
+        if app.screen is not screen and isinstance(screen, ModalScreen):
+            await self._at_rest(app.screen)
+        elif self.action_begun is not begun:
+            await self._at_rest(screen)
 
-
-async def _at_rest(app: AppBase, screen: Screen[object]) -> None:
-    """Wait until an action just begun is done, or has opened a dialog that takes the keys."""
-    end = asyncio.get_running_loop().time() + PATIENCE_S
-    worker = app.begun
-    while worker is not None and not worker.is_finished and asyncio.get_running_loop().time() < end:
-        if app.screen is not screen and app.screen.focused is not None:
+    async def _deal_with(
+        self, event: events.Key, field: Widget | None, hand_over: Callable[[events.Key], Awaitable[None]]
+    ) -> None:
+        if not isinstance(field, (Input, TextArea)):
+            await hand_over(event)
             return
-        await asyncio.sleep(0.001)
+        event.bubble = False  # type: ignore[misc]  # of this one event only
+        await hand_over(event)
+        await caught_up(field)
+        if not event.is_forwarded or event._stop_propagation:  # noqa: SLF001 - no public way to ask (Textual is pinned)
+            return
+        if not await self._app._check_bindings(event.key) and field.parent is not None:  # noqa: SLF001 - as above
+            event.bubble = True  # type: ignore[misc]
+            event._bubble_to(field.parent)  # noqa: SLF001 - what Textual itself would have done
+
+    async def _at_rest(self, screen: Screen[object]) -> None:
+        """Wait until an action just begun is done, or has opened a dialog that takes the keys."""
+        end = asyncio.get_running_loop().time() + PATIENCE_S
+        app, worker = self._app, self.action_begun
+        while worker is not None and not worker.is_finished and asyncio.get_running_loop().time() < end:
+            if app.screen is not screen and app.screen.focused is not None:
+                return
+            await asyncio.sleep(0.001)
 
 
 async def caught_up(widget: Widget | None) -> None:

@@ -15,14 +15,14 @@ from textual.message import Message
 from textual.widgets import Label
 
 from desire_tui.commands import BY_ID
-from desire_tui.common.deferred_screen import DeferredScreen
-from desire_tui.common.layout_rules import SMALLEST, Arrangement, Pane, arrange
+from desire_tui.common.key_names import key_name
+from desire_tui.desktop.deferred_screen import DeferredScreen
+from desire_tui.desktop.layout_rules import SMALLEST, Arrangement, Pane, arrange
 from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.graph_pane import GraphPane
 from desire_tui.panes.help_pane import HelpPane
-from desire_tui.panes.key_names import key_name
 from desire_tui.panes.side_pane import Side, SidePane
 from desire_tui.panes.status_bar import KeyHint, StatusBar
 

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.commands import BY_WORD
-from desire_tui.common import messages
 from desire_tui.common.dialogs import Choice
+from desire_tui.common.problem_marks import mark_of
+from desire_tui.desktop import engine_messages
 from desire_tui.desktop.engine_thread import STOPPED_BY_USER
-from desire_tui.editor.line_marks import mark_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.code_area import CodeArea
     from desire_tui.engine.diagnostics import Diagnostic
 
 FIRST_SAMPLE_S = 0.003
@@ -27,26 +27,26 @@ class MessageHandlers(Controller):
     """`handle(message)`; all of it happens on the screen's thread."""
 
     @singledispatchmethod
-    def handle(self, message: messages.EngineMessage) -> None:
+    def handle(self, message: engine_messages.EngineMessage) -> None:
         """Carry out what a message asks for."""
         raise NotImplementedError(type(message).__name__)
 
     @handle.register
-    def _up(self, message: messages.EngineUp) -> None:
+    def _up(self, message: engine_messages.EngineUp) -> None:
         del message
         self.app.engine_ready()
 
     @handle.register
-    def _missing(self, message: messages.EngineMissing) -> None:
+    def _missing(self, message: engine_messages.EngineMissing) -> None:
         raise message.error
 
     @handle.register
-    def _text(self, message: messages.ConsoleText) -> None:
+    def _text(self, message: engine_messages.ConsoleText) -> None:
         del message
         self.app.command.console.write(self.app.listener.take_text())
 
     @handle.register
-    def _input(self, message: messages.InputWanted) -> None:
+    def _input(self, message: engine_messages.InputWanted) -> None:
         self.flush()
         if (pasted := self.app.line.answer()) is not None:  # it came with the line that started the program
             self.app.command.console.add(message.prompt + pasted, "output")
@@ -56,7 +56,7 @@ class MessageHandlers(Controller):
         self.app.command.ask(message.prompt)
 
     @handle.register
-    def _permission(self, message: messages.PermissionWanted) -> None:
+    def _permission(self, message: engine_messages.PermissionWanted) -> None:
         def answered(choice: str | None) -> None:
             message.answer.give(choice == "Allow")
 
@@ -64,14 +64,14 @@ class MessageHandlers(Controller):
         self.app.push_screen(Choice("Permission", sentence, ("Allow", "Refuse"), unasked=True), answered)
 
     @handle.register
-    def _accepted(self, message: messages.ProgramAccepted) -> None:
+    def _accepted(self, message: engine_messages.ProgramAccepted) -> None:
         area = self.app.editor.active
         if area is not None:
             self.app.editor.set_problems(area, message.problems)
             self.app.list_problems()
 
     @handle.register
-    def _run_started(self, message: messages.RunStarted) -> None:
+    def _run_started(self, message: engine_messages.RunStarted) -> None:
         app = self.app
         app.graph.follow_newest(app.session.graph)
         app.show_status()
@@ -81,7 +81,7 @@ class MessageHandlers(Controller):
             app.desk.set_timer(FIRST_SAMPLE_S, app.drawing.at_once)
 
     @handle.register
-    def _run_ended(self, message: messages.RunEnded) -> None:
+    def _run_ended(self, message: engine_messages.RunEnded) -> None:
         record = message.record
         if record.ended in ("term", "stopped") and record.message:
             self.flush()
@@ -89,7 +89,7 @@ class MessageHandlers(Controller):
         self.app.tour.run_ended()
 
     @handle.register
-    def _problems(self, message: messages.ProblemsFound) -> None:
+    def _problems(self, message: engine_messages.ProblemsFound) -> None:
         if not message.stops:
             self.flush()
             self.app.command.problems(message.diagnostics)
@@ -134,14 +134,14 @@ class MessageHandlers(Controller):
         )
 
     @handle.register
-    def _checked(self, message: messages.Checked) -> None:
+    def _checked(self, message: engine_messages.Checked) -> None:
         area = self.app.editor.find(message.number)
         if area is not None and self.app.editor.versions.get(message.number, 0) == message.version:
             self.app.editor.set_problems(area, message.diagnostics)
             self.app.list_problems()
 
     @handle.register
-    def _stopped(self, message: messages.Stopped) -> None:
+    def _stopped(self, message: engine_messages.Stopped) -> None:
         self.flush()
         place = message.place
         row = place.source.position(place.placed.at).row - 1
@@ -160,12 +160,12 @@ class MessageHandlers(Controller):
         app.quantities.show(app.session.values)
 
     @handle.register
-    def _graph(self, message: messages.GraphChanged) -> None:
+    def _graph(self, message: engine_messages.GraphChanged) -> None:
         del message
         self.app.graph.follow_newest(self.app.session.graph)
 
     @handle.register
-    def _cleared(self, message: messages.QuantitiesCleared) -> None:
+    def _cleared(self, message: engine_messages.QuantitiesCleared) -> None:
         del message
         area = self.app.editor.active
         if area is not None and area.marks.traced is not None:
@@ -173,17 +173,17 @@ class MessageHandlers(Controller):
             area.marks_changed()
 
     @handle.register
-    def _noted(self, message: messages.Noted) -> None:
+    def _noted(self, message: engine_messages.Noted) -> None:
         self.flush()
         self.app.command.console.add(message.text, "output")
 
     @handle.register
-    def _command(self, message: messages.AppCommand) -> None:
+    def _command(self, message: engine_messages.AppCommand) -> None:
         self.flush()
         self.app.do(BY_WORD[message.word].id, message.argument)
 
     @handle.register
-    def _idle(self, message: messages.EngineIdle) -> None:
+    def _idle(self, message: engine_messages.EngineIdle) -> None:
         self.flush()
         if message.failed:
             self.app.line.failed()
@@ -203,7 +203,7 @@ class MessageHandlers(Controller):
         app.line.next()
 
     @handle.register
-    def _fault(self, message: messages.EngineFault) -> None:
+    def _fault(self, message: engine_messages.EngineFault) -> None:
         self.flush()
         self.app.write_up(message.summary, message.details)
 

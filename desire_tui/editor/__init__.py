@@ -1,1 +1,1 @@
-"""Editor tabs."""
+"""The editor: tabs with programs, their colours and marks, search, recovery. Knows no other pane."""

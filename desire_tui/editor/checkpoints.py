@@ -13,7 +13,7 @@ from desire_tui.editor.buffer import Buffer, NotText
 from desire_tui.editor.recovery import Leftover, SavedTab
 
 if TYPE_CHECKING:
-    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.code_area import CodeArea
     from desire_tui.editor.editor_pane import EditorPane
 
 

@@ -10,9 +10,9 @@ from textual.containers import Horizontal, Vertical
 from textual.message import Message
 from textual.widgets import Label, TextArea
 
-from desire_tui.editor.area import CodeArea
+from desire_tui.common.completion_hook import TypingAid
 from desire_tui.editor.buffer import Buffer, free_label
-from desire_tui.editor.completion_hook import TypingAid
+from desire_tui.editor.code_area import CodeArea
 from desire_tui.editor.find_bar import FindBar
 from desire_tui.editor.tab_strip import NEW, TabLabel, TabStrip
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from desire_tui.editor.document import follow
+from desire_tui.editor.program_lines import follow
 from desire_tui.editor.text_search import SearchRequest, Unsearchable, span
 
 if TYPE_CHECKING:
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
     from textual.document._document import Location
 
-    from desire_tui.editor.area import CodeArea
-    from desire_tui.editor.document import Lines
+    from desire_tui.editor.code_area import CodeArea
+    from desire_tui.editor.program_lines import Lines
     from desire_tui.editor.text_search import Hit, Range
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from textual.app import ComposeResult
     from textual.timer import Timer
 
-    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.code_area import CodeArea
 
 SWITCHES = {
     "case": ("Aa", "Match case · Alt+C"),

@@ -12,14 +12,14 @@ import sys
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from desire_tui.editor.document import Lines
+from desire_tui.editor.program_lines import Lines
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from textual.document._document import DocumentBase
 
-    from desire_tui.editor.line_marks import Mark
+    from desire_tui.common.problem_marks import Mark
 
 Range = tuple[int, int | None, str]
 _ENGINE = "desire_tui.engine.session.session"

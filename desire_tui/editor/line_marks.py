@@ -6,34 +6,18 @@ from collections import deque
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from desire_tui.common.problem_marks import mark_of
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from textual.document._document import Location
 
+    from desire_tui.common.problem_marks import Mark
     from desire_tui.engine.diagnostics import Diagnostic
 
 CHANGES_KEPT = 500
 """For so many changes it is known which breakpoints they took away."""
-
-
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """A problem on one row, columns `start` … `end - 1`."""
-
-    row: int
-    start: int
-    end: int
-    style: str
-    code: int
-    message: str
-    hint: str | None
-
-    @property
-    def text(self) -> str:
-        """One line for people."""
-        hint = f" — {self.hint}" if self.hint else ""
-        return f"{self.style} {self.code}: {self.message}{hint}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +93,10 @@ class Marks:
             mark = mark_of(diagnostic)
             if mark is not None:
                 self.problems.setdefault(mark.row, []).append(mark)
+
+    def all_problems(self) -> list[Mark]:
+        """Return every problem in the order of the rows."""
+        return [mark for row in sorted(self.problems) for mark in self.problems[row]]
 
     # ------------------------------------------------------------------------------- following the text
 
@@ -188,16 +176,3 @@ class Marks:
         if step > 0:
             return self.problems[beyond[0] if beyond else rows[0]][0]
         return self.problems[beyond[-1] if beyond else rows[-1]][0]
-
-
-def mark_of(diagnostic: Diagnostic) -> Mark | None:
-    """Return where an editor shows a problem; None if it has no place in a text."""
-    if diagnostic.span is None or diagnostic.source is None:
-        return None
-    start = diagnostic.source.position(diagnostic.span.start)
-    end = diagnostic.source.position(diagnostic.span.end)
-    last = end.column - 1 if end.row == start.row else len(diagnostic.source.line(start.row))
-    return Mark(
-        start.row - 1, start.column - 1, max(last, start.column), diagnostic.severity, diagnostic.code,
-        diagnostic.message, diagnostic.hint,
-    )  # fmt: skip

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
     from textual.document._document import Location
 
-    from desire_tui.editor.document import Lines
     from desire_tui.editor.line_marks import Marks
+    from desire_tui.editor.program_lines import Lines
 
 GUTTER_SIGNS = {
     "error": ("✖", "error"),

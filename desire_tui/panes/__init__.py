@@ -1,1 +1,1 @@
-"""The panes beside the editor: command line, graph, quantities, problems, help, status."""
+"""The panes beside the editor, which they do not know: command line, graph, quantities, help, status …."""

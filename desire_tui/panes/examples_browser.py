@@ -14,8 +14,8 @@ from textual.widgets.option_list import Option
 
 from desire_tui.common.dialogs import Question
 from desire_tui.common.paths import examples_folder
-from desire_tui.desktop.preview import Preview, Previewer
-from desire_tui.help.example_catalogue import Example, examples, search
+from desire_tui.panes.example_catalogue import Example, examples, search
+from desire_tui.panes.example_preview import Preview, Previewer
 from desire_tui.panes.thumbnail import Thumbnail
 
 if TYPE_CHECKING:

@@ -10,9 +10,11 @@ from textual.binding import Binding, BindingType
 from textual.geometry import Region
 
 from desire_tui.panes import graph_cursor
+from desire_tui.panes.graph_key_row import KeyRow, KeyRowContent
 from desire_tui.panes.graph_paging import Paging
-from desire_tui.panes.graph_sheet import Look, Sheet
-from desire_tui.panes.graph_tiles import TILE_COLUMNS, WHITE_STYLE, KeyRow, SheetTile, net_style
+from desire_tui.panes.graph_sheet import TILE_COLUMNS, Look, Sheet
+from desire_tui.panes.graph_styles import WHITE_STYLE, net_style
+from desire_tui.panes.graph_tiles import SheetTile
 from desire_tui.panes.mouse_gestures import Gestures
 from desire_tui.panes.zoom_window import Window
 
@@ -75,10 +77,12 @@ class GraphPane(Gestures, can_focus=True):
 
     def compose(self) -> ComposeResult:
         """Tiles for half of the screen, which is what the graph mostly has; more come with the size."""
-        self._tiles = [SheetTile(number) for number in range(self.app.size.width // 2 // TILE_COLUMNS + 1)]
+        self._tiles = [
+            SheetTile(self.sheet, number) for number in range(self.app.size.width // 2 // TILE_COLUMNS + 1)
+        ]
         self.sheet.ground = self.paper[0]
         yield from self._tiles
-        yield KeyRow()
+        yield KeyRow(self._key_row_content)
 
     # ---------------------------------------------------------------------------------------------- drawing
 
@@ -100,6 +104,10 @@ class GraphPane(Gestures, can_focus=True):
             white = self.is_white
             self._ground = (key, (WHITE_STYLE if white else self.rich_style, white))
         return self._ground[1]
+
+    def _key_row_content(self) -> KeyRowContent:
+        keys = self.page.keys if self.page is not None and self.keys_shown else ()
+        return KeyRowContent(*self.paper, keys, self.reading)
 
     @property
     def page_mark(self) -> str:
@@ -197,7 +205,7 @@ class GraphPane(Gestures, can_focus=True):
         """Follow the pane's size."""
         wanted = -(-self.size.width // TILE_COLUMNS)
         if wanted > len(self._tiles):
-            new = [SheetTile(number) for number in range(len(self._tiles), wanted)]
+            new = [SheetTile(self.sheet, number) for number in range(len(self._tiles), wanted)]
             self._tiles += new
             self.mount(*new)
         self.tick()

@@ -13,7 +13,7 @@ from rich.segment import Segment
 from rich.style import Style
 from textual.strip import Strip
 
-from desire_tui.panes.graph_tiles import NO_COLOR, TILE_COLUMNS, curve_style
+from desire_tui.panes.graph_styles import NO_COLOR, curve_style
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.outputs.braille_canvas import Canvas
     from desire_tui.engine.outputs.text_frame import TextFrame
 
+TILE_COLUMNS = 8
+"""As in `engine.outputs.braille_canvas`, which brings NumPy; a test holds them together."""
 PIECES_MOST = 8000
 _CHOSEN = Style(bgcolor="#4a5a70")
 

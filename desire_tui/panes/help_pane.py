@@ -14,7 +14,7 @@ from textual.widgets import Input, OptionList, Static
 from textual.widgets.option_list import Option
 
 from desire_tui.commands import BY_ID, COMMANDS, Command
-from desire_tui.panes.key_names import key_names
+from desire_tui.common.key_names import key_names
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -21,16 +21,17 @@ from textual.widget import Widget
 from textual.widgets import Label
 
 from desire_tui.common.dialogs import Question
-from desire_tui.common.terminal import Graphics, graphics
+from desire_tui.panes.terminal_graphics import Graphics, graphics
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from typing import Any
 
     from textual.app import ComposeResult
     from textual.timer import Timer
 
-    from desire_tui.app import DesireApp
     from desire_tui.engine.graph.model import Graph
+    from desire_tui.panes.graph_pane import GraphPane
 
 RESIZED_S = 0.2
 CELLS_MAX = 290
@@ -121,9 +122,10 @@ class PictureScreen(Question[bool]):
             self.number, self.png, self.how = number, png, how
             self.columns, self.rows = columns, rows
 
-    def __init__(self, desktop: DesireApp) -> None:
+    def __init__(self, graph: GraphPane, in_background: Callable[[Callable[[], None]], object]) -> None:
         super().__init__()
-        self._desktop = desktop
+        self._graph = graph
+        self._in_background = in_background
         self._number = 0
         self._timer: Timer | None = None
 
@@ -143,11 +145,11 @@ class PictureScreen(Question[bool]):
 
     def action_turn(self, step: int) -> None:
         """Show the graph before or after."""
-        if self._desktop.graph.turn(step):
+        if self._graph.turn(step):
             self._draw()
 
     def _draw(self) -> None:
-        page = self._desktop.graph.page
+        page = self._graph.page
         size = self.query_one("#paper").size
         if page is None or not size.width or not size.height:
             return
@@ -159,13 +161,13 @@ class PictureScreen(Question[bool]):
             png = _png(page, how, columns, rows)
             self.post_message(self.Drawn(number, png, how, columns, rows))
 
-        self._desktop.in_background(work)
+        self._in_background(work)
 
     def _how(self) -> Graphics:
         cls = type(self)
         with _asking:
             if cls.known is None:
-                cls.known = graphics(self._desktop._driver)  # noqa: SLF001 - Textual is pinned; it has no public way
+                cls.known = graphics(self.app._driver)  # noqa: SLF001 - Textual is pinned; it has no public way
             return cls.known
 
     @on(Drawn)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from rich.text import Text
 from textual.message import Message
@@ -10,10 +10,19 @@ from textual.widgets import OptionList
 from textual.widgets.option_list import Option
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-    from desire_tui.editor.area import CodeArea
-    from desire_tui.editor.line_marks import Mark
+    from desire_tui.common.problem_marks import Mark
+
+
+class ProgramProblems(NamedTuple):
+    """A tab's problems."""
+
+    tab: int
+    """Number of the tab."""
+    name: str
+    marks: Sequence[Mark]
+    """In the order of the text."""
 
 
 class ProblemsPane(OptionList):
@@ -27,33 +36,28 @@ class ProblemsPane(OptionList):
     class Chosen(Message):
         """Go to this problem."""
 
-        def __init__(self, area: CodeArea, mark: Mark) -> None:
+        def __init__(self, tab: int, mark: Mark) -> None:
             super().__init__()
-            self.area = area
+            self.tab = tab
             self.mark = mark
 
     def __init__(self) -> None:
         super().__init__(id="problems")
-        self._entries: list[tuple[CodeArea, Mark]] = []
+        self._entries: list[tuple[int, str, Mark]] = []
         self._theme = ""
 
-    def show(self, areas: Sequence[CodeArea]) -> int:
-        """List the problems of these tabs; returns how many there are."""
-        entries = [
-            (area, mark)
-            for area in areas
-            for row in sorted(area.marks.problems)
-            for mark in area.marks.problems[row]
-        ]
+    def show(self, programs: Iterable[ProgramProblems]) -> int:
+        """List the problems of these programs; returns how many there are."""
+        entries = [(program.tab, program.name, mark) for program in programs for mark in program.marks]
         if entries == self._entries and self.option_count and self._theme == self.app.theme:
             return len(entries)
         self._theme = self.app.theme
         self._entries = entries
         theme = self.app.current_theme
         self.clear_options()
-        for area, mark in entries:
+        for _, name, mark in entries:
             colour = str(theme.error if mark.style == "error" else theme.warning)
-            place = f"{area.buffer.name}:{mark.row + 1}:{mark.start + 1} "
+            place = f"{name}:{mark.row + 1}:{mark.start + 1} "
             self.add_option(
                 Option(Text.assemble(place, (f"{mark.style} {mark.code}: ", colour), mark.message))
             )
@@ -65,4 +69,5 @@ class ProblemsPane(OptionList):
         """Go to the problem."""
         event.stop()
         if self._entries:
-            self.post_message(self.Chosen(*self._entries[event.option_index]))
+            tab, _, mark = self._entries[event.option_index]
+            self.post_message(self.Chosen(tab, mark))

@@ -8,7 +8,7 @@ from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets import Input
 
-from desire_tui.editor.completion_hook import TypingAid
+from desire_tui.common.completion_hook import TypingAid
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,7 +9,7 @@ from rich.style import Style
 from textual.strip import Strip
 from textual.widget import Widget
 
-from desire_tui.panes.graph_tiles import NO_COLOR, WHITE_STYLE, curve_style, net_style
+from desire_tui.panes.graph_styles import NO_COLOR, WHITE_STYLE, curve_style, net_style
 
 if TYPE_CHECKING:
     from desire_tui.engine.graph.model import Graph

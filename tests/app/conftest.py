@@ -36,7 +36,7 @@ LONG = OSCILLATOR.replace("TMAX = 6", "TMAX = 1E7").replace("NN = 301", "NN = 10
 
 @pytest.fixture(autouse=True, scope="session")
 def collector() -> None:
-    """Leave what has been imported out of garbage collections, as the desktop does (`launch.settle`)."""
+    """Leave what has been imported out of garbage collections, as the desktop does (`start_up_gc.resume_gc`)."""
     gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 10, 10)  # a desktop is 50,000 objects that stay until its test ends

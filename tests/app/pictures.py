@@ -13,14 +13,25 @@ FOLDER = Path(__file__).parents[2] / "docs" / "pictures"
 
 def keys_page() -> str:
     """Return docs/keys.md."""
-    from desire_tui.commands import keys_table
-
     return f"""# Keys and commands of the desktop
 
 Made by `make pictures` from the table in `desire_tui/commands.py`. Keys can be changed in the configuration file
 (`desire config` prints where it is): `[keys]`, then a line such as `"run.start" = "f5"`.
 
 {keys_table()}"""
+
+
+def keys_table() -> str:
+    """Return all actions with their keys and words as a Markdown table."""
+    from desire_tui.commands import COMMANDS
+    from desire_tui.common.key_names import key_names
+
+    rows = ["| key | action | | command |", "| --- | --- | --- | --- |"]
+    for command in COMMANDS:
+        argument = f" {command.argument}" if command.argument else ""
+        words = ", ".join(f"`{word}{argument}`" for word in command.words).replace("|", "\\|")
+        rows.append(f"| {key_names(command.keys)} | {command.title} | {command.help} | {words} |")
+    return "\n".join(rows) + "\n"
 
 
 async def main() -> None:

@@ -7,7 +7,7 @@ from textual.screen import ModalScreen
 
 from desire_tui import commands
 from desire_tui.commands import BY_ID, COMMANDS, parse_line
-from desire_tui.common import alt_keys
+from desire_tui.desktop import alt_keys
 
 from .conftest import OSCILLATOR, desktop
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from textual.events import AppFocus
 
-from desire_tui.actions.files import numbered
+from desire_tui.actions.file_actions import numbered
 from desire_tui.common.dialogs import Choice
 from desire_tui.editor import indent
 from desire_tui.editor.completion import offers, prefix_of
@@ -19,7 +19,7 @@ from desire_tui.editor.highlighting import LineHighlights
 from .conftest import OSCILLATOR, desktop
 
 if TYPE_CHECKING:
-    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.code_area import CodeArea
 
 # ----------------------------------------------------------------------------------------------- text alone
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from desire_tui.desktop.preview import Previewer
-from desire_tui.help.example_catalogue import Example, examples
+from desire_tui.panes.example_catalogue import Example, examples
+from desire_tui.panes.example_preview import Previewer
 from desire_tui.panes.examples_browser import ExamplesScreen
 from desire_tui.panes.thumbnail import Thumbnail
 

@@ -103,7 +103,7 @@ async def test_a_first_frame_does_not_wait_for_the_clock_but_the_next_does(progr
 
 def test_the_desktop_opens_without_tls_and_leaves_it_to_those_who_want_it():
     code = (
-        "import sys\nfrom desire_tui.desktop import launch\n"
+        "import sys\nfrom desire_tui import launch\n"
         "with launch._without('ssl'):\n    import asyncio\n"
         "assert asyncio.sslproto.ssl is None and 'ssl' not in sys.modules\n"
         "import ssl\nssl.create_default_context\n"
@@ -114,10 +114,10 @@ def test_the_desktop_opens_without_tls_and_leaves_it_to_those_who_want_it():
 
 def test_the_garbage_collector_works_again_once_the_desktop_is_there():
     code = (
-        "import gc\nfrom desire_tui.desktop import launch\n"
-        "gc.disable()\nlaunch.settle()\n"
+        "import gc\nfrom desire_tui.desktop.start_up_gc import resume_gc\n"
+        "gc.disable()\nresume_gc()\n"
         "assert gc.isenabled() and gc.get_freeze_count() > 1000\n"
-        "count = gc.get_freeze_count()\nlaunch.settle()\nassert gc.get_freeze_count() == count\n"
+        "count = gc.get_freeze_count()\nresume_gc()\nassert gc.get_freeze_count() == count\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 

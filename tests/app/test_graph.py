@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from desire_tui.engine.graph.colors import rgb
 from desire_tui.engine.outputs import braille_canvas as engine_canvas
-from desire_tui.panes import graph_tiles
+from desire_tui.panes import graph_sheet, graph_styles
 from desire_tui.panes.zoom_window import Window
 
 from .conftest import OSCILLATOR, desktop
@@ -43,13 +43,13 @@ def test_a_part_of_the_window():
 
 
 def test_the_tiles_agree_with_the_canvas():
-    assert graph_tiles.TILE_COLUMNS == engine_canvas.TILE_COLUMNS
-    assert graph_tiles.NO_COLOR == engine_canvas.NO_COLOR
+    assert graph_sheet.TILE_COLUMNS == engine_canvas.TILE_COLUMNS
+    assert graph_styles.NO_COLOR == engine_canvas.NO_COLOR
 
 
 def test_curve_colours_follow_the_paper():
-    assert graph_tiles.curve_style(14, white=False).color.get_truecolor() == rgb(14, white=False)
-    assert graph_tiles.curve_style(14, white=True).color.get_truecolor() == rgb(14, white=True)
+    assert graph_styles.curve_style(14, white=False).color.get_truecolor() == rgb(14, white=False)
+    assert graph_styles.curve_style(14, white=True).color.get_truecolor() == rgb(14, white=True)
 
 
 async def test_zoom_pan_reset_and_readout(program):

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from desire_tui.common.terminal import Graphics, _meaning
 from desire_tui.panes import picture_view
 from desire_tui.panes.picture_view import Blocks, PictureScreen
+from desire_tui.panes.terminal_graphics import Graphics, _meaning
 
 from .conftest import desktop
 from .test_terminal import F5, Terminal
@@ -156,7 +156,7 @@ def test_a_plain_terminal_gets_blocks_and_is_told_so(terminal):
     ],
 )
 def test_what_answers_mean(answer, expected, monkeypatch):
-    monkeypatch.setattr("desire_tui.common.terminal._pixels_of_window", lambda: None)
+    monkeypatch.setattr("desire_tui.panes.terminal_graphics._pixels_of_window", lambda: None)
     assert _meaning(answer.encode()) == expected
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from desire_tui.common.layout_rules import EVERYTHING, SMALLEST, arrange
+from desire_tui.desktop.layout_rules import EVERYTHING, SMALLEST, arrange
 from desire_tui.desktop.main_screen import PANES
 from desire_tui.panes.side_pane import SidePane, SideTabs
 

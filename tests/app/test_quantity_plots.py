@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from desire_tui.actions.graph import NOT_CHARTED
+from desire_tui.actions.graph_actions import NOT_CHARTED
 
 from .conftest import OSCILLATOR, desktop
 

@@ -10,10 +10,10 @@ import sys
 import pytest
 
 from desire_tui.common import config, paths, themes
+from desire_tui.common.key_names import key_names
 from desire_tui.editor import recovery
 from desire_tui.editor.recovery import SavedTab
 from desire_tui.panes.command_history import CommandHistory
-from desire_tui.panes.key_names import key_names
 from desire_tui.panes.run_summary import speed
 
 from .conftest import OSCILLATOR, desktop

@@ -10,8 +10,8 @@ from textual.screen import Screen
 from textual.widgets import TextArea
 
 from desire_tui.editor.brackets import partner
-from desire_tui.editor.document import Lines, follow
 from desire_tui.editor.line_marks import Marks
+from desire_tui.editor.program_lines import Lines, follow
 from desire_tui.editor.tab_strip import TabStrip
 
 from .conftest import OSCILLATOR, desktop

@@ -134,7 +134,7 @@ class GraphActions(Controller):
             return
         from desire_tui.panes.picture_view import PictureScreen
 
-        if await app.push_screen_wait(PictureScreen(app)):
+        if await app.push_screen_wait(PictureScreen(app.graph, app.in_background)):
             await self.snapshot()
 
     async def export(self, argument: str = "") -> None:

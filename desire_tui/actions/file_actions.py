@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.app import DesireApp
-    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.code_area import CodeArea
 
 SUFFIX = ".src"
 
@@ -250,7 +250,7 @@ class FileActions(Controller):
     def external(self, argument: str = "") -> None:
         """Edit the front tab in $EDITOR."""
         del argument
-        from desire_tui.editor.external import edit_outside
+        from desire_tui.editor.external_editor import edit_outside
 
         edit_outside(self.app, self.app.editor.front)
 

@@ -8,9 +8,9 @@ from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets.text_area import Selection
 
+from desire_tui.common.completion_hook import TypingAid
 from desire_tui.editor import indent
-from desire_tui.editor.completion_hook import TypingAid
-from desire_tui.editor.view import ProgramView
+from desire_tui.editor.program_view import ProgramView
 
 if TYPE_CHECKING:
     from textual import events

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import io
 import os
 import sys
@@ -10,6 +9,7 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from desire_tui.desktop.start_up_gc import pause_gc
 from desire_tui.desktop.watchdog import watched
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def is_served() -> bool:
 def open_desktop(files: tuple[str, ...]) -> NoReturn:
     """Open the desktop with files in tabs; ends the process."""
     _speak_utf8()
-    gc.disable()  # what is made from here on stays; `settle` ends this
+    pause_gc()
     with nullcontext() if is_served() else watched():
         with _without("ssl"):
             import asyncio  # noqa: F401 - here it must do without
@@ -47,16 +47,6 @@ def _speak_utf8() -> None:
     for stream in (sys.__stdout__, sys.__stderr__):
         if isinstance(stream, io.TextIOWrapper) and stream.encoding.lower() != "utf-8":
             stream.reconfigure(encoding="utf-8")
-
-
-def settle() -> None:
-    """Let the garbage collector work again, but leave out the 200,000 objects that stay with the desktop.
-
-    Looking through them took 0.1 s now and then, in which no key was answered.
-    """
-    if not gc.isenabled():
-        gc.freeze()
-        gc.enable()
 
 
 @contextmanager

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.help.example_catalogue import CHAPTERS, examples, search
+from desire_tui.panes.example_catalogue import CHAPTERS, examples, search
 
 EVERY = examples()
 

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 from textual.geometry import Offset
 
-from desire_tui.editor.area import CodeArea
+from desire_tui.common.completion_hook import TypingAid
+from desire_tui.editor.code_area import CodeArea
 from desire_tui.editor.completion import OFFERED_MAX, around, is_complete, offers, prefix_of
-from desire_tui.editor.completion_hook import TypingAid
 from desire_tui.panes.prompt import Prompt
 
 if TYPE_CHECKING:

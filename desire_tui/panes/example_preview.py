@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.session.session import Session
-    from desire_tui.help.example_catalogue import Example
+    from desire_tui.panes.example_catalogue import Example
 
 LIMIT_S = 4.0
 """A program that takes longer is ended, and shown as far as it came. The slowest example takes 1.5 s."""

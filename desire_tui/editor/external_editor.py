@@ -17,7 +17,7 @@ from textual.app import App, SuspendNotSupported
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.code_area import CodeArea
 
 
 class _Refused(Exception):  # noqa: N818 - a statement to the user

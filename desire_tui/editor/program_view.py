@@ -18,8 +18,8 @@ from textual.widgets import TextArea
 from textual.widgets.text_area import Selection
 
 from desire_tui.editor import indent
-from desire_tui.editor.document import Lines, follow
 from desire_tui.editor.line_marks import Marks
+from desire_tui.editor.program_lines import Lines, follow
 from desire_tui.editor.text_rendering import DrawnText
 from desire_tui.editor.unwrapped_lines import UnwrappedDocument
 

@@ -10,7 +10,7 @@ from desire_tui.engine.session.status import State
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
-    from desire_tui.editor.area import CodeArea
+    from desire_tui.editor.code_area import CodeArea
 
 
 def source_of(area: CodeArea) -> Source:

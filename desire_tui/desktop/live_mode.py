@@ -8,7 +8,7 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from desire_tui.actions.run import source_of
+from desire_tui.actions.run_actions import source_of
 
 if TYPE_CHECKING:
     from desire_tui.app import DesireApp
