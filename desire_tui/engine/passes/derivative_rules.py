@@ -60,7 +60,7 @@ def _quotient(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
     return None if top is None else op("div", top, x[1])
 
 
-def _whole_power(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
+def _integer_power(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
     assert isinstance(x[1], Const)
     n = x[1].value
     if n == 0.0 or d[0] is None:
@@ -140,7 +140,7 @@ DERIVATIVE_RULES: dict[str, DerivativeRule] = {
     "neg": _negation,
     "mul": _product,
     "div": _quotient,
-    "ipow": _whole_power,
+    "ipow": _integer_power,
     "pow": _power,
     "sin": _factor(lambda x: op("cos", x)),
     "cos": _factor(lambda x: op("neg", op("sin", x))),

@@ -22,7 +22,7 @@ from desire_tui.engine.lowered.expressions import (
 )
 from desire_tui.engine.lowered.walk import operands
 from desire_tui.engine.random_sequence import DRAWS
-from desire_tui.engine.reference.numbers import ARRAYS, scalar_function, whole_power
+from desire_tui.engine.reference.numbers import ARRAYS, integer_power, scalar_function
 from desire_tui.engine.reference.random import ElementDraws, Sequence, normal
 from desire_tui.engine.values import IROW
 
@@ -49,19 +49,19 @@ class ExpressionClosures:
         self.values = values
         self.cells, self.data = values.cells, values.data
         self.sequence = sequence
-        self.draws = None if count is None else ElementDraws(sequence, count)
+        self.element_draws = None if count is None else ElementDraws(sequence, count)
         self.count = count
         self._uses: dict[int, int] = {}
         self._shared: dict[int, Thunk] = {}
         self._arrays: dict[int, bool] = {}
-        self._kept: list[list[Any]] = []
+        self._caches: list[list[Any]] = []
 
     def begin(self) -> None:
         """Forget shared results and draw the random numbers of this evaluation."""
-        for kept in self._kept:
-            kept.clear()
-        if self.draws is not None:
-            self.draws.fill()
+        for cache in self._caches:
+            cache.clear()
+        if self.element_draws is not None:
+            self.element_draws.fill()
 
     def compile(self, value: Value) -> Thunk:
         """Return a closure for the whole expression."""
@@ -71,7 +71,7 @@ class ExpressionClosures:
     @property
     def is_plain(self) -> bool:
         """Whether `begin` has nothing to do."""
-        return not self._kept and (self.draws is None or self.draws.width == 0)
+        return not self._caches and (self.element_draws is None or self.element_draws.width == 0)
 
     def _count_uses(self, value: Value) -> None:
         uses = self._uses
@@ -91,23 +91,23 @@ class ExpressionClosures:
         known = self._shared.get(id(value))
         if known is not None:
             return known
-        made = self._made(value)
+        built = self._build(value)
         if self._uses.get(id(value), 1) > 1:
-            made = self._shared[id(value)] = self._once(made)
-        return made
+            built = self._shared[id(value)] = self._cached(built)
+        return built
 
-    def _once(self, inner: Thunk) -> Thunk:
-        kept: list[Any] = []
-        self._kept.append(kept)
+    def _cached(self, inner: Thunk) -> Thunk:
+        cache: list[Any] = []
+        self._caches.append(cache)
 
-        def first_time_only() -> Any:
-            if not kept:
-                kept.append(inner())
-            return kept[0]
+        def cached() -> Any:
+            if not cache:
+                cache.append(inner())
+            return cache[0]
 
-        return first_time_only
+        return cached
 
-    def _made(self, value: Op | Table1 | Table2 | ElementOperand) -> Thunk:
+    def _build(self, value: Op | Table1 | Table2 | ElementOperand) -> Thunk:
         data = self.data
         if isinstance(value, Op):
             return self._operation(value)
@@ -144,7 +144,7 @@ class ExpressionClosures:
             if n == 2:
                 square = base
                 return lambda: (x := square()) * x
-            return lambda: whole_power(base(), n)
+            return lambda: integer_power(base(), n)
         args = [self._thunk(argument) for argument in value.args]
         function: Callable[..., Any] = (
             ARRAYS[name] if any(self._is_array(a) for a in value.args) else scalar_function(name)
@@ -189,14 +189,14 @@ class ExpressionClosures:
 
     def _random(self, name: str) -> Thunk:
         uniform = self.sequence.uniform
-        if self.draws is None:
+        if self.element_draws is None:
             if name == "ran":
                 return lambda: 2.0 * uniform() - 1.0
             return lambda: normal(uniform(), uniform())
-        draws = self.draws
+        element_draws = self.element_draws
         if name == "ran":
-            return partial(draws.uniform, draws.reserve(1))
-        return partial(draws.normal, draws.reserve(2))
+            return partial(element_draws.uniform, element_draws.reserve(1))
+        return partial(element_draws.normal, element_draws.reserve(2))
 
     def _table1(self, value: Table1) -> Thunk:
         x = self._thunk(value.x)

@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 WORK_MOST = 100_000
 """States times elements of J, beyond which a model is not compared: that would take a second, in Python."""
 _PLACES = 8
-_DIFFER_MOST = 2
+_TOLERATED_PLACES = 2
 """A disagreement counts if it shows at more than so many places: not at a kink or a cancellation alone."""
-_AGREES = 1e-3
+_RELATIVE_TOLERANCE = 1e-3
 """Relative: constants are rounded to a few digits where somebody differentiates by hand."""
 _ROUNDING = 1e-10
 """Relative to the largest element of the row: what cancellation may leave of an element that is 0."""
@@ -58,8 +58,8 @@ class _Place:
         finite = np.isfinite(size)
         row = np.where(finite, size, 0.0).max(axis=1, initial=0.0)[:, None]
         with np.errstate(invalid="ignore"):
-            apart = np.abs(self.given - self.exact)
-        found: NDArray[np.bool_] = finite & (apart > _AGREES * size + _ROUNDING * row)
+            difference = np.abs(self.given - self.exact)
+        found: NDArray[np.bool_] = finite & (difference > _RELATIVE_TOLERANCE * size + _ROUNDING * row)
         return found
 
 
@@ -83,7 +83,7 @@ def wrong_elements(segment: Segment, values: Values) -> tuple[Diagnostic, ...] |
     votes = sum(place.differ().astype(int) for place in others)
     return tuple(
         _warning(segment, (int(row), int(column)), [start, *others])
-        for row, column in np.argwhere(np.asarray(votes) > _DIFFER_MOST)
+        for row, column in np.argwhere(np.asarray(votes) > _TOLERATED_PLACES)
     )
 
 

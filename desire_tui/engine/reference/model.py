@@ -14,7 +14,7 @@ import numpy as np
 
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.reference.statements import StatementClosures
-from desire_tui.engine.reference.states import states_of
+from desire_tui.engine.reference.states import make_states
 from desire_tui.engine.reference.steps import fixed_step, variable_step
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
@@ -41,7 +41,7 @@ class ReferenceModel:
         """Stages behind the first, and where in the step they stand."""
         self.columns = [column.slot for column in segment.columns]
         self.statements = StatementClosures(values, segment.order)
-        self.states = states_of(segment, tableau, values, self.statements.derivatives)
+        self.states = make_states(segment, tableau, values, self.statements.derivatives)
         compile_ = self.statements.compile
         self.full = compile_(full_pass(segment))
         self.step = compile_(step_slice(segment))
@@ -72,7 +72,7 @@ class ReferenceModel:
         if memory.stop:
             return Ended.STOPPED
         cells = self.cells
-        if memory.point and self._wild(memory):
+        if memory.point and self._not_finite(memory):
             return Ended.NOT_FINITE  # before the pass: defined variables keep their last finite values
         self._pass(self.full, memory)
         fired = self.statements.fired
@@ -101,7 +101,7 @@ class ReferenceModel:
         if memory.stop:
             return Ended.STOPPED
         assert self.tableau is not None
-        if (self.tableau.variable or memory.steps % _CHECK_EVERY == 0) and self._wild(memory):
+        if (self.tableau.variable or memory.steps % _CHECK_EVERY == 0) and self._not_finite(memory):
             return Ended.NOT_FINITE
         self._pass(self.step, memory)
         fired = self.statements.fired
@@ -109,7 +109,7 @@ class ReferenceModel:
             return None
         self.tail()
         memory.phase = Phase.ENDED
-        if self._wild(memory) or not self._sample(memory):
+        if self._not_finite(memory) or not self._sample(memory):
             return Ended.NOT_FINITE
         memory.which = fired
         return Ended.TERM
@@ -145,7 +145,7 @@ class ReferenceModel:
         memory.row += 1
         return True
 
-    def _wild(self, memory: RunMemory) -> bool:
+    def _not_finite(self, memory: RunMemory) -> bool:
         """Whether a state is inf or nan; `which` is the first."""
         finite = np.isfinite(self.states.fetch())
         if finite.all():

@@ -42,7 +42,7 @@ def power(x: float, y: float) -> float:
             return float(np.power(np.float64(x), np.float64(y)))
 
 
-def whole_power(x: Number, n: int) -> Number:
+def integer_power(x: Number, n: int) -> Number:
     """Return x^n by repeated products: binary powering from the top bit, negative n as 1/x^|n|."""
     if n == 0:
         return x * 0.0 + 1.0 if isinstance(x, np.ndarray) else 1.0

@@ -13,7 +13,7 @@ from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
 from desire_tui.engine.lowered.statements import Deriv, Guard, Set, Terminate
 from desire_tui.engine.lowered.walk import operands
 from desire_tui.engine.random_sequence import DRAWS
-from desire_tui.engine.reference.numbers import power, whole_power
+from desire_tui.engine.reference.numbers import integer_power, power
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -41,7 +41,7 @@ class PassText:
         self.lines: list[str] = []
         self.names: dict[str, Any] = {
             "c": context.cells, "d": context.derivatives.data, "s": context,
-            "wrong": (ArithmeticError, ValueError), "whole_power": whole_power, "power": power,
+            "wrong": (ArithmeticError, ValueError), "integer_power": integer_power, "power": power,
             "func1": func1,
         }  # fmt: skip
         self.fresh = 0
@@ -51,8 +51,8 @@ class PassText:
         self._write(actions, 1)
         text = "\n".join(["def run():", *(self.lines or [" pass"])])
         exec(compile(text, "<pass>", "exec"), self.names)  # noqa: S102 - text made from numbers and slots only
-        made: Callable[[], None] = self.names["run"]
-        return made
+        built: Callable[[], None] = self.names["run"]
+        return built
 
     def _line(self, depth: int, text: str) -> None:
         self.lines.append(" " * depth + text)
@@ -108,17 +108,17 @@ class _Expression:
         self.shared: dict[int, str] = {}
 
     def write(self, value: Value) -> str:
-        self._count(value)
-        return self._written(value, 0)[0]
+        self._count_uses(value)
+        return self._text_of(value, 0)[0]
 
-    def _count(self, value: Value) -> None:
+    def _count_uses(self, value: Value) -> None:
         uses = self.uses
         uses[id(value)] = uses.get(id(value), 0) + 1
         if uses[id(value)] == 1:
             for operand in operands(value):
-                self._count(operand)
+                self._count_uses(operand)
 
-    def _written(self, value: Value, depth: int) -> tuple[str, int]:
+    def _text_of(self, value: Value, depth: int) -> tuple[str, int]:
         if depth > _NESTING_MAX:
             raise CannotWriteError
         if isinstance(value, Const):
@@ -130,28 +130,28 @@ class _Expression:
         known = self.shared.get(id(value))
         if known is not None:
             return known, _ATOM
-        made = self._made(value, depth)
+        built = self._build(value, depth)
         if self.uses.get(id(value), 1) > 1:
             name = self.shared[id(value)] = self.text._name("t", 0.0)  # noqa: SLF001 - one job in two classes
-            return f"({name} := {made[0]})", _ATOM
-        return made
+            return f"({name} := {built[0]})", _ATOM
+        return built
 
-    def _made(self, value: Value, depth: int) -> tuple[str, int]:
+    def _build(self, value: Value, depth: int) -> tuple[str, int]:
         if isinstance(value, Table1):
             table = self.text.context.cells[value.slot : value.slot + 2 * value.count]
-            x = self._written(value.x, depth + 1)[0]
+            x = self._text_of(value.x, depth + 1)[0]
             return f"func1({x}, {self.text._name('a', table)})", _ATOM  # noqa: SLF001 - as above
         if not isinstance(value, Op) or value.name in DRAWS:
             raise CannotWriteError
         name = value.name
         if name in _BINARY:
             sign, rank = _BINARY[name]
-            left = self._written(value.args[0], depth + 1)
-            right = self._written(value.args[1], depth + 1)
+            left = self._text_of(value.args[0], depth + 1)
+            right = self._text_of(value.args[1], depth + 1)
             a = left[0] if left[1] >= rank else f"({left[0]})"
             b = right[0] if right[1] > rank else f"({right[0]})"
             return f"{a} {sign} {b}", rank
-        args = [self._written(argument, depth + 1)[0] for argument in value.args]
+        args = [self._text_of(argument, depth + 1)[0] for argument in value.args]
         if name == "neg":
             return f"-({args[0]})", _SIGNED
         if name == "ipow":
@@ -159,7 +159,7 @@ class _Expression:
             assert isinstance(exponent, Const)
             if exponent.value == 2.0 and isinstance(value.args[0], Load):
                 return f"{args[0]} * {args[0]}", 2
-            return f"whole_power({args[0]}, {int(exponent.value)})", _ATOM
+            return f"integer_power({args[0]}, {int(exponent.value)})", _ATOM
         if name == "pow":
             return f"power({args[0]}, {args[1]})", _ATOM
         plain = LIBRARY[name].value

@@ -33,12 +33,12 @@ class Sequence:
     def block(self, count: int) -> Array:
         """Return the next `count` numbers u."""
         x = int(self.state[0])
-        found = np.empty(count)
+        numbers = np.empty(count)
         for i in range(count):
             x = (x * MULTIPLIER + INCREMENT) & MASK
-            found[i] = x * SCALE
+            numbers[i] = x * SCALE
         self.state[0] = x
-        return found
+        return numbers
 
 
 def normal(u1: float, u2: float) -> float:
@@ -56,10 +56,10 @@ class ElementDraws:
         self.width = 0
         self.table: Array = np.empty((count, 0))
 
-    def reserve(self, draws: int) -> int:
-        """Return the column of the next `draws` draws of each element."""
+    def reserve(self, count: int) -> int:
+        """Return the column of the next `count` draws of each element."""
         column = self.width
-        self.width += draws
+        self.width += count
         return column
 
     def fill(self) -> None:

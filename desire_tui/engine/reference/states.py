@@ -1,7 +1,7 @@
 """The states as one vector: fetched, put back, moved by a row of a rule's tableau.
 
-`Few` writes the sums out as Python text for a model of few states, `Many` leaves them to NumPy. Both add the
-products in the order of the k's.
+`UnrolledStates` writes the sums out as Python text for a model of few states, `ArrayStates` leaves them to
+NumPy. Both add the products in the order of the k's.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Range = tuple[int, int, int]
 """Consecutive states: the slot of the first, its number, how many."""
-FEW = 24
+UNROLLED_MOST = 24
 """States up to which sums written out are faster than NumPy's."""
 
 
@@ -42,15 +42,15 @@ class States(Protocol):
         """States ← start + dt·Σ a[stage]·k; for the number of stages: the step's result with b."""
 
 
-def states_of(segment: Segment, tableau: Tableau | None, values: Values, derivatives: Array) -> States:
+def make_states(segment: Segment, tableau: Tableau | None, values: Values, derivatives: Array) -> States:
     """Return the kind of states that suits the segment."""
     rows = [] if tableau is None else [*tableau.a, tableau.b]
-    ranges = joined([(r.slot, r.first, r.count) for r in segment.states])
-    kind = Few if segment.order <= FEW else Many
+    ranges = join_ranges([(r.slot, r.first, r.count) for r in segment.states])
+    kind = UnrolledStates if segment.order <= UNROLLED_MOST else ArrayStates
     return kind(ranges, segment.order, rows, values, derivatives)
 
 
-class Many:
+class ArrayStates:
     """States as NumPy arrays."""
 
     def __init__(
@@ -74,10 +74,10 @@ class Many:
 
     def move(self, stage: int, start: Array, dt: float) -> None:
         """States ← start + dt·Σ row·k."""
-        self.put(start + dt * weighted(self.rows[stage], self.k))
+        self.put(start + dt * weighted_sum(self.rows[stage], self.k))
 
 
-class Few(Many):
+class UnrolledStates(ArrayStates):
     """States as a tuple of floats, sums as text."""
 
     def __init__(
@@ -113,7 +113,7 @@ class Few(Many):
         self._moves[stage](start, dt)
 
 
-def weighted(row: Row, k: Sequence[Array]) -> Array:
+def weighted_sum(row: Row, k: Sequence[Array]) -> Array:
     """Return Σ row·k, added in the order of the k's."""
     total: Array | None = None
     for weight, one in zip(row, k, strict=False):
@@ -122,7 +122,7 @@ def weighted(row: Row, k: Sequence[Array]) -> Array:
     return np.zeros_like(k[0]) if total is None else total
 
 
-def joined(ranges: list[Range]) -> list[Range]:
+def join_ranges(ranges: list[Range]) -> list[Range]:
     """Join neighbours: (slot, first state, count)."""
     found: list[Range] = []
     for slot, first, count in ranges:

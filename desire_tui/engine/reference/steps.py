@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.integration.tableaus import STILL_MOST
-from desire_tui.engine.reference.states import weighted
+from desire_tui.engine.reference.states import weighted_sum
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, ERRMAX, T
 
@@ -107,7 +107,7 @@ def _difference(
     Relative to |x| + 1 with x at the step's start; absolute, and of one state, with CHECKN.
     """
     assert tableau.test is not None
-    absolute = dt * np.abs(weighted(tableau.test, model.states.k))
+    absolute = dt * np.abs(weighted_sum(tableau.test, model.states.k))
     if checked:
         return float(absolute[checked - 1]), checked - 1
     relative = absolute / (np.abs(np.asarray(start)) + 1.0)
