@@ -106,12 +106,12 @@ def _run(file: str, **options: Any) -> int:
     files = {known.name: options[known.name] for known in FORMATS if options[known.name] is not None}
     if sum(name == STANDARD_OUTPUT for name in files.values()) > 1:
         raise click.UsageError("only one file can go to standard output")
-    orders = RunOptions(
+    run_options = RunOptions(
         settings=options["settings"], answer_stops=options["go"], timeout=options["timeout"],
         backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
     )  # fmt: skip
-    wanted = OutputFiles(files, plot=options["plot"])
-    return run_file(file, orders, wanted, options["answers"], quiet=options["quiet"])
+    outputs = OutputFiles(files, plot=options["plot"])
+    return run_file(file, run_options, outputs, options["answers"], quiet=options["quiet"])
 
 
 @main.command()

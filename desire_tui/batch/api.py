@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.batch.headless_listener import BatchListener
-from desire_tui.batch.runner import RunOptions, Work
+from desire_tui.batch.headless_listener import HeadlessListener
+from desire_tui.batch.runner import Runner, RunOptions
 from desire_tui.batch.set_option import from_mapping
 from desire_tui.engine.files import read_source
 from desire_tui.engine.source import Source
@@ -40,11 +40,11 @@ def run_program(
     is_text = isinstance(program, str) and ("\n" in program or "|" in program)
     source = Source(str(program), "<text>") if is_text else read_source(Path(program))
     show: Callable[[str], object] = _ignore if quiet else sys.stdout.write
-    listener = BatchListener(show, iter(input), _ignore)
-    orders = RunOptions(
+    listener = HeadlessListener(show, iter(input), _ignore)
+    options = RunOptions(
         settings=from_mapping(set or {}), answer_stops=go, timeout=timeout, backend=backend,
         allow_shell=allow_shell, allow_write=allow_write,
     )  # fmt: skip
-    work = Work(source, orders, listener)
-    work.run()
-    return work.result()
+    runner = Runner(source, options, listener)
+    runner.run()
+    return runner.result()

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from desire_tui.batch.headless_listener import BatchListener
+from desire_tui.batch.console import Console
+from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.batch.progress import Progress
-from desire_tui.batch.runner import RunOptions, Work
+from desire_tui.batch.runner import Runner, RunOptions
 from desire_tui.engine.diagnostics import DesireError, render_all
 from desire_tui.engine.files import decoded, read_source
 from desire_tui.engine.interpreter import interruptible
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from desire_tui.batch.output_files import OutputFiles
     from desire_tui.engine.diagnostics import Diagnostic
 
-DONE, FAILED, LIMIT = 0, 1, 3  # 2 is wrong usage, which click tells
+DONE, FAILED, LIMIT = 0, 1, 3  # 2 is wrong usage, which click reports
 _EXIT = {"done": DONE, "stopped": DONE, "failed": FAILED, "limit": LIMIT}
 _STANDARD_INPUT = "-"
 
@@ -41,54 +42,56 @@ def check_files(names: Sequence[str]) -> int:
         try:
             problems = session.check(source_named(name))
         except DesireError as error:
-            complain(error.diagnostics)
+            report(error.diagnostics)
             status = FAILED
             continue
-        complain(problems)
+        report(problems)
         if any(p.severity == "error" for p in problems):
             status = FAILED
     return status
 
 
-def run_file(name: str, orders: RunOptions, wanted: OutputFiles, answers: str | None, *, quiet: bool) -> int:
-    """Run a program and write what was asked for; returns the exit status."""
+def run_file(
+    name: str, options: RunOptions, outputs: OutputFiles, answers: str | None, *, quiet: bool
+) -> int:
+    """Run a program and write its output files; returns the exit status."""
     try:
         source = source_named(name)
         lines = _answers(answers)
     except DesireError as error:
-        complain(error.diagnostics)
+        report(error.diagnostics)
         return FAILED
-    console = _Console(sys.stderr if wanted.takes_stdout else sys.stdout, quiet=quiet)
+    console = Console(sys.stderr if outputs.takes_stdout else sys.stdout, quiet=quiet)
 
     def show_problems(problems: Sequence[Diagnostic]) -> None:
-        console.settle()
-        complain(problems)
+        console.end_line()
+        report(problems)
 
     echo = answers is not None or not sys.stdin.isatty()
-    listener = BatchListener(console.write, lines, show_problems, echo=echo)
-    work = Work(source, orders, listener)
+    listener = HeadlessListener(console.write, lines, show_problems, echo=echo)
+    runner = Runner(source, options, listener)
     if sys.stderr.isatty() and not quiet:
-        console.progress = Progress(work.session, sys.stderr)
+        console.progress = Progress(runner.session, sys.stderr)
     try:
-        work.run(console.progress)
-        console.settle()
-        complain(work.problems)
-        status = _EXIT[work.status]
-        wanted.write(work.session, work.result)
+        runner.run(console.progress)
+        console.end_line()
+        report(runner.problems)
+        status = _EXIT[runner.status]
+        outputs.write(runner.session, runner.result)
     except DesireError as error:
-        complain(error.diagnostics)
+        report(error.diagnostics)
         status = FAILED
-    if work.session.stopped_at is not None and not quiet and work.status == "stopped":
-        place = work.session.stopped_at
+    if runner.session.stopped_at is not None and not quiet and runner.status == "stopped":
+        place = runner.session.stopped_at
         row = place.source.position(place.placed.at).row
         sys.stderr.write(f"{place.source.name}:{row}: stopped at STOP; --go continues\n")
-    if work.abandoned or listener.reading.is_set():
+    if runner.abandoned or listener.reading.is_set():
         _leave_at_once(status)
     interruptible.leave_at_once(status)
     return status
 
 
-def complain(problems: Sequence[Diagnostic]) -> None:
+def report(problems: Sequence[Diagnostic]) -> None:
     """Write problems to standard error."""
     if problems:
         sys.stdout.flush()
@@ -103,34 +106,9 @@ def _answers(name: str | None) -> Iterator[str]:
 
 
 def _leave_at_once(status: int) -> None:
-    """Exit although a thread still runs or waits for input: the ordinary way would wait for it."""
+    """Exit although a thread still runs or waits for input: `sys.exit` would wait for it."""
     import os
 
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(status)
-
-
-class _Console:
-    """Console text on its way out; the progress line gives way to it."""
-
-    def __init__(self, stream: IO[str], *, quiet: bool) -> None:
-        self._stream, self._quiet = stream, quiet
-        self._at_line_start = True
-        self.progress: Progress | None = None
-
-    def write(self, text: str) -> None:
-        if self._quiet or not text:
-            return
-        if self.progress is not None:
-            self.progress.clear()
-        self._stream.write(text)
-        self._stream.flush()
-        self._at_line_start = text.endswith("\n")
-
-    def settle(self) -> None:
-        """End an open line, so that a message starts its own."""
-        if self.progress is not None:
-            self.progress.clear()
-        if not self._at_line_start:
-            self.write("\n")

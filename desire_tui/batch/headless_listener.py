@@ -1,4 +1,4 @@
-"""The front end of a headless run: console text out, answers in, no permission without a flag."""
+"""The front end of a headless run: it passes on console text, and answers questions from a file or pipe."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
 
 CONSOLE_CHARACTERS_MAX = 100_000_000
-"""Console text kept for the JSON; what a runaway program writes beyond is only passed on."""
+"""Console text kept for the JSON; what a runaway program writes beyond that is only passed on."""
 
 
-class BatchListener(Listener):
+class HeadlessListener(Listener):
     """Passes console text to `show` as it comes and keeps it; reads answers line by line.
 
     `echo` writes each answer behind its question, as a terminal does.
@@ -39,7 +39,7 @@ class BatchListener(Listener):
         self._size = 0
         self.warnings: list[Diagnostic] = []
         self.reading = threading.Event()
-        """Set while standard input is being read: the thread cannot be woken from that."""
+        """Set while standard input is being read: nothing can interrupt the thread there."""
 
     @property
     def console(self) -> str:
@@ -70,7 +70,7 @@ class BatchListener(Listener):
             self.console_text(line + "\n")
         return line
 
-    wants_check = False  # what is wrong shows when the program gets there
+    wants_check = False  # a problem is reported when the program reaches it
 
     def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Show warnings as they come."""

@@ -1,4 +1,4 @@
-"""Where the results of a headless run go."""
+"""Writes the results of a headless run to files and standard output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A line on standard error that shows how far a run is; only on a terminal, only when it takes a while."""
+"""A line on the terminal that shows how far a run is, if it takes a while."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _BAR = 20
 
 
 class Progress:
-    """Call it now and then; `clear` before anything else is written to the terminal."""
+    """Call it now and then, and `clear` before anything else is written to the terminal."""
 
     def __init__(self, session: Session, terminal: IO[str]) -> None:
         self._session, self._terminal = session, terminal
@@ -23,7 +23,7 @@ class Progress:
         self._shown = False
 
     def __call__(self) -> None:
-        """Draw the line anew."""
+        """Redraw the line."""
         status = self._session.status
         if monotonic() - self._began < _SHOW_AFTER_SECONDS or status.state is not State.RUNNING:
             return
@@ -36,7 +36,7 @@ class Progress:
         self._shown = True
 
     def clear(self) -> None:
-        """Take the line away."""
+        """Remove the line."""
         if self._shown:
             self._terminal.write("\r\x1b[K")
             self._terminal.flush()

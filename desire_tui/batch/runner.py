@@ -1,4 +1,4 @@
-"""One program from text to result, on a thread of its own so that Ctrl-C and limits are heard at once."""
+"""Runs one program on a thread of its own, so that Ctrl-C and time limits take effect at once."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
-    from desire_tui.batch.headless_listener import BatchListener
+    from desire_tui.batch.headless_listener import HeadlessListener
     from desire_tui.engine.outputs.results import Result, StatusWord
     from desire_tui.engine.session.session import BackendName
     from desire_tui.engine.source import Source
 
 POLL_SECONDS = 0.1
 ENDING_SECONDS = 2.0
-"""How long a program that was told to end may take."""
+"""How long a program may take to end."""
 PAGES_MAX = 10_000
 _USER_ENDED = 301
 
@@ -44,29 +44,29 @@ class RunOptions:
     allow_write: bool = False
 
 
-class Work:
-    """Runs one program. `status`, `problems` and `result()` say what came of it, whatever happened."""
+class Runner:
+    """Runs one program. `status`, `problems` and `result()` say how it went, whatever happened."""
 
-    def __init__(self, source: Source, orders: RunOptions, listener: BatchListener) -> None:
-        self._source, self._orders, self._listener = source, orders, listener
-        permissions = Permissions(shell=orders.allow_shell, files=orders.allow_write)
+    def __init__(self, source: Source, options: RunOptions, listener: HeadlessListener) -> None:
+        self._source, self._options, self._listener = source, options, listener
+        permissions = Permissions(shell=options.allow_shell, files=options.allow_write)
         self.session = Session(
-            listener, backend=orders.backend, folder=orders.folder, permissions=permissions
+            listener, backend=options.backend, folder=options.folder, permissions=permissions
         )
         self.session.graphs.pages_max = PAGES_MAX
-        self.session.override(orders.settings)
+        self.session.override(options.settings)
         self.problems: list[Diagnostic] = []
         self.status: StatusWord = "done"
         self._crash: BaseException | None = None
         self._interrupted = threading.Event()
         self.abandoned = False
-        """The program did not end when told to; its thread still runs."""
+        """The program did not end when asked to; its thread still runs."""
 
     def run(self, watch: Callable[[], None] | None = None) -> None:
         """Run the program, calling `watch` now and then; Ctrl-C in the main thread ends it."""
-        thread = threading.Thread(target=self._script, name="desire-batch", daemon=True)
+        thread = threading.Thread(target=self._run_script, name="desire-batch", daemon=True)
         began = monotonic()
-        limit = inf if self._orders.timeout is None else began + self._orders.timeout
+        limit = inf if self._options.timeout is None else began + self._options.timeout
         with self._interrupts():
             thread.start()
             while thread.is_alive():
@@ -77,14 +77,14 @@ class Work:
                     self._end(thread, "stopped-by-user")
                     break
                 if monotonic() > limit and thread.is_alive():
-                    self._end(thread, "time-limit", seconds=self._orders.timeout)
+                    self._end(thread, "time-limit", seconds=self._options.timeout)
                     break
         if self._crash is not None:
             raise self._crash
 
     @contextmanager
     def _interrupts(self) -> Iterator[None]:
-        """Hear Ctrl-C as a wish, not as an exception in the middle of something."""
+        """Take Ctrl-C as a request, not as an exception in the middle of something."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
@@ -95,7 +95,7 @@ class Work:
             signal.signal(signal.SIGINT, before)
 
     def _end(self, thread: threading.Thread, key: str, **facts: object) -> None:
-        """End the program, again and again until it is heard; one that waits for input is left alone."""
+        """Ask the program to end until it does; one that waits for input is left alone."""
         deadline = monotonic() + ENDING_SECONDS
         while thread.is_alive() and monotonic() < deadline and not self._listener.reading.is_set():
             self.session.end()
@@ -105,12 +105,12 @@ class Work:
         self.problems = [p for p in self.problems if p.code != _USER_ENDED]
         self.problems.append(Diagnostic(key, facts=facts, source=self._source))
 
-    def _script(self) -> None:
+    def _run_script(self) -> None:
         session = self.session
         try:
-            self._look_at_settings()
+            self._check_settings()
             session.erun(self._source)
-            while session.stopped_at is not None and self._orders.answer_stops:
+            while session.stopped_at is not None and self._options.answer_stops:
                 session.go()
             if session.stopped_at is not None:
                 self.status = "stopped"
@@ -121,16 +121,16 @@ class Work:
         except BaseException as error:  # noqa: BLE001 - raised again on the main thread
             self._crash = error
 
-    def _look_at_settings(self) -> None:
-        """DesireError 409: settings of what the program does not know."""
-        if not self._orders.settings:
+    def _check_settings(self) -> None:
+        """DesireError 409: settings of names that the program does not have."""
+        if not self._options.settings:
             return
         from desire_tui.engine.session.overrides import problems_of
         from desire_tui.engine.structure.structure import structure
         from desire_tui.engine.syntax.parse import parse
 
         program = parse(self._source)
-        problems = problems_of(program, structure(program), self._orders.settings)
+        problems = problems_of(program, structure(program), self._options.settings)
         if problems:
             raise DesireError(*problems)
 

@@ -1,4 +1,4 @@
-"""`--set`: text to settings (`session.overrides`)."""
+"""Values given from outside (`--set`, `desire_tui.run(set=…)`) as settings for `session.overrides`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def from_texts(texts: Iterable[str]) -> dict[str, float]:
     """Read `a=3`, `a[2]=3`, `v=1,2,3` (a vector's first elements), `A=1,2;3,4` (a matrix, row by row).
 
-    ValueError: the text is nothing of this; a later setting of the same name or element wins.
+    ValueError: the text has none of these forms. A later setting of the same name or element wins.
     """
     settings: dict[str, float] = {}
     for text in texts:

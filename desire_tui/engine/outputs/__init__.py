@@ -1,1 +1,1 @@
-"""Graphs to text and picture files, runs to CSV, JSON, NPY. The only home of plotext and matplotlib."""
+"""Graphs as text and pictures, results as CSV, JSON and NPZ. Only here are plotext and matplotlib used."""

@@ -1,4 +1,4 @@
-"""Keeps a canvas up to date with a graph: each call draws only the samples that came since the last."""
+"""Keeps a canvas up to date with a graph: each call draws only the samples since the last call."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 WHOLE: Window = (0.0, 1.0, 0.0, 1.0)
 SAMPLES_MOST = 200_000
-"""Samples one call draws of a curve, so that the first look at ten million of them does not block."""
+"""Samples of a curve that one call draws at most, so that ten million of them do not block the screen."""
 
 
 class Painter:

@@ -25,7 +25,7 @@ _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
 _SPINE = 2 * 72 / _DOTS_PER_INCH  # two dots: crisp
 _COLUMNS = 4000  # finer than any printer shows at this size
 _FONT = 11
-_drawing = Lock()  # the settings are matplotlib's own, and two threads may want pictures
+_drawing = Lock()  # matplotlib's settings are global, and two threads may draw at once
 
 
 def png_of(graph: Graph, width: int, height: int) -> bytes:
@@ -46,7 +46,7 @@ def picture_of(
     """
     import logging
 
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its font cache is nobody's business here
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it reports that it fills its font cache
     from matplotlib import rc_context
 
     with _drawing, rc_context({"svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000}):
@@ -64,7 +64,7 @@ def draw(graph: Graph, inches: tuple[float, float] = _INCHES) -> Figure:
     ink = _tint(BLACK if graph.white else 7, graph)
     figure = Figure(figsize=inches, facecolor=ground, layout="constrained")
     if graph.frame.kind == "picture":
-        _draw_pictures(figure, graph, ink)
+        _draw_arrays(figure, graph, ink)
         return figure
     axes = figure.add_subplot()
     axes.set_facecolor(ground)
@@ -73,7 +73,7 @@ def draw(graph: Graph, inches: tuple[float, float] = _INCHES) -> Figure:
     axes.set_ylim(frame.bottom, frame.top)
     axes.set_xticks(frame.x_ticks)
     axes.set_yticks(frame.y_ticks)
-    _dress(axes, graph, ink)
+    _style_axes(axes, graph, ink)
     for curve in graph.curves:
         _draw_curve(axes, curve, graph)
     _draw_points(axes, graph)
@@ -84,7 +84,7 @@ def draw(graph: Graph, inches: tuple[float, float] = _INCHES) -> Figure:
     return figure
 
 
-def _dress(axes: Axes, graph: Graph, ink: Tint) -> None:
+def _style_axes(axes: Axes, graph: Graph, ink: Tint) -> None:
     net = None if graph.net is None else _tint(graph.net, graph)
     for spine in axes.spines.values():
         spine.set_visible(net is not None)
@@ -161,7 +161,7 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
         text.set_color(ink)
 
 
-def _draw_pictures(figure: Figure, graph: Graph, ink: Tint) -> None:
+def _draw_arrays(figure: Figure, graph: Graph, ink: Tint) -> None:
     shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
     for number, (array, values) in enumerate(shown, 1):
         axes = figure.add_subplot(1, len(shown), number)

@@ -184,7 +184,7 @@ def final_quantities(values: Values) -> dict[str, float | complex | NDArray[Any]
 
 
 def timings(parse_seconds: float, runs: Iterable[RunRecord]) -> dict[str, float]:
-    """Return real seconds spent on reading, compiling and running."""
+    """Return the seconds spent on parsing, compiling and running."""
     runs = list(runs)
     return {
         "parse_s": parse_seconds,

@@ -1,7 +1,7 @@
 """The frame around a text graph — axes, ticks, labels — drawn by plotext.
 
-plotext 6's kernel aborts the whole process on nan, inf and far-off values, so it is never given a curve: it
-draws an empty frame, and the canvas is laid into it. A frame costs some milliseconds; keep it until size or
+plotext 6 aborts the whole process on nan, inf and very large values, so it is never given a curve: it draws
+an empty frame, and the braille canvas is put into it. A frame takes some milliseconds; keep it until size or
 limits change.
 """
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 COLUMNS_LEAST, ROWS_LEAST = 20, 6
 _ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
-_plotext_lock = Lock()  # plotext has one figure, and two threads may want frames
+_plotext_lock = Lock()  # plotext has one global figure, and two threads may draw at once
 
 
 @dataclass(frozen=True, slots=True)
