@@ -122,7 +122,7 @@ class CommandLine(Controller):
             console.add(text, "output")
             return
         try:
-            written = session.glance(line)
+            written = session.evaluate_while_running(line)
         except DesireError as error:
             self.app.command.problems(error.diagnostics)
             return

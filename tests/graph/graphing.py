@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.graph.pages import GraphPages
 from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
 from desire_tui.engine.lowered.statements import Where
 from desire_tui.engine.runtime.run_record import RunRecord
@@ -29,11 +29,11 @@ def record_of(kind, t, data, *, scale=1.0, rule=1, more=()):
 
 def page_of(kind, t, data, *commands, scale=1.0, rule=1):
     """Return a page that shows a run, after some display commands such as "N-18"."""
-    book = GraphBook()
-    displayed(book, *commands, scale=scale)
-    return book.begin_run(record_of(kind, np.asarray(t, dtype=float), data, scale=scale, rule=rule))
+    pages = GraphPages()
+    displayed(pages, *commands, scale=scale)
+    return pages.begin_run(record_of(kind, np.asarray(t, dtype=float), data, scale=scale, rule=rule))
 
 
-def displayed(book, *commands, scale=1.0):
+def displayed(pages, *commands, scale=1.0):
     for command in commands:
-        book.display(command[0], [float(command[1:])] if command[1:] else [], scale)
+        pages.display(command[0], [float(command[1:])] if command[1:] else [], scale)

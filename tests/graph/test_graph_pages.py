@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from desire_tui.engine.graph.colors import BLACK, WHITE, rgb
-from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.graph.pages import GraphPages
 from desire_tui.engine.graph.settings import DisplaySettings
 from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
 from tests.graph.graphing import PLACE, displayed, page_of, record_of
@@ -104,69 +104,69 @@ def test_capital_dispxy_shows_pairs():
 
 def test_a_listing_beside_the_graph_does_not_shift_its_columns():
     listing = SampleRequest("type", (SampleColumn("q", 3, PLACE),))
-    book = GraphBook()
-    page = book.begin_run(record_of("dispt", T, {"x": 5 * T}, more=(listing,)))
+    pages = GraphPages()
+    page = pages.begin_run(record_of("dispt", T, {"x": 5 * T}, more=(listing,)))
     assert page.curves[0].samples()[1].tolist() == (5 * T).tolist()
 
 
 def test_display_0_1_2():
-    book = GraphBook()
-    run = lambda: book.begin_run(record_of("dispt", T, {"x": T}))  # noqa: E731
+    pages = GraphPages()
+    run = lambda: pages.begin_run(record_of("dispt", T, {"x": T}))  # noqa: E731
     first = run()
     assert run() is not first
-    displayed(book, "2")
+    displayed(pages, "2")
     shared = run()
     assert run() is shared
     assert len(shared.curves) == 3  # onto the page of the run before it
-    displayed(book, "0")
+    displayed(pages, "0")
     assert run() is None
-    displayed(book, "1")
+    displayed(pages, "1")
     assert run() is not shared
-    book.begin_program()
-    displayed(book, "2")
+    pages.begin_program()
+    displayed(pages, "2")
     assert len(run().curves) == 1  # a program starts a page whatever `display` says
 
 
 def test_curves_on_a_shared_page_keep_their_own_scale():
-    book = GraphBook()
-    displayed(book, "2")
-    book.begin_run(record_of("dispt", T, {"x": T}, scale=1.0))
-    page = book.begin_run(record_of("dispt", T + 3, {"x": T}, scale=10.0))
+    pages = GraphPages()
+    displayed(pages, "2")
+    pages.begin_run(record_of("dispt", T, {"x": T}, scale=1.0))
+    page = pages.begin_run(record_of("dispt", T + 3, {"x": T}, scale=10.0))
     assert [c.frame.top for c in page.curves] == [1.0, 10.0]
     assert page.frame.top == 10.0
 
 
 def test_keys_name_each_curve_once():
-    book = GraphBook()
-    displayed(book, "2")
+    pages = GraphPages()
+    displayed(pages, "2")
     for _ in range(3):
-        page = book.begin_run(record_of("dispt", T, {"x": T, "y": T}))
+        page = pages.begin_run(record_of("dispt", T, {"x": T, "y": T}))
     assert [(k.name, k.color) for k in page.keys] == [("x", 14), ("y", 15)]
 
 
 def test_erase_empties_the_page():
-    book = GraphBook()
-    page = book.begin_run(record_of("dispt", T, {"x": T}))
-    assert book.display("F", [], 1.0)
+    pages = GraphPages()
+    page = pages.begin_run(record_of("dispt", T, {"x": T}))
+    assert pages.display("F", [], 1.0)
     assert page.is_empty
     assert page.erased == 1
 
 
 def test_interpreter_plots():
-    book = GraphBook()
-    displayed(book, "A", scale=2.0)
-    book.plot(1.0, -1.0, 12, 2.0)
-    book.plot(0.5, 0.5, None, 2.0)
-    page = book.current
+    pages = GraphPages()
+    displayed(pages, "A", scale=2.0)
+    pages.plot(1.0, -1.0, 12, 2.0)
+    pages.plot(0.5, 0.5, None, 2.0)
+    page = pages.current
     assert (page.frame.left, page.frame.right) == (-2.0, 2.0)
     x, y, c = page.points.so_far()
     assert (x.tolist(), y.tolist(), c.tolist()) == ([1.0, 0.5], [-1.0, 0.5], [12, 14])
-    displayed(book, "B", scale=2.0)
-    assert (book.current.frame.left, book.current.frame.bottom) == (0.0, -2.0)
+    displayed(pages, "B", scale=2.0)
+    assert (pages.current.frame.left, pages.current.frame.bottom) == (0.0, -2.0)
     for k in range(1000):
-        book.plot(k / 1000, 0.0, 9, 2.0)
-    assert book.current.points.count == 1000
-    assert book.current.points.so_far()[0][999] == 0.999
+        pages.plot(k / 1000, 0.0, 9, 2.0)
+    assert pages.current.points.count == 1000
+    assert pages.current.points.so_far()[0][999] == 0.999
 
 
 def test_maps_are_dots_and_solutions_are_lines():
@@ -178,17 +178,17 @@ def test_maps_are_dots_and_solutions_are_lines():
 def test_curves_grow_with_their_record():
     record = record_of("dispt", np.arange(10.0), {"x": np.arange(10.0)})
     record.count = 3
-    curve = GraphBook().begin_run(record).curves[0]
+    curve = GraphPages().begin_run(record).curves[0]
     assert curve.samples()[1].tolist() == [0, 1, 2]
     record.count = 5
     assert curve.samples(2)[1].tolist() == [2, 3, 4]
 
 
 def test_the_last_pages_are_kept():
-    book = GraphBook()
+    pages = GraphPages()
     for _ in range(40):
-        book.begin_run(record_of("dispt", T, {"x": T}))
-    assert [page.number for page in book] == list(range(9, 41))
+        pages.begin_run(record_of("dispt", T, {"x": T}))
+    assert [page.number for page in pages] == list(range(9, 41))
 
 
 def test_settings_start_anew():

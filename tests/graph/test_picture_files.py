@@ -7,7 +7,7 @@ import pytest
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.graph.colors import rgb
-from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.graph.pages import GraphPages
 from desire_tui.engine.outputs.picture_files import write_picture
 from tests.graph.graphing import displayed, page_of, record_of
 
@@ -85,13 +85,13 @@ def test_no_net_no_lines(tmp_path):
 
 
 def test_points_and_pictures(tmp_path):
-    book = GraphBook()
-    displayed(book, "A", "Y")
+    pages = GraphPages()
+    displayed(pages, "A", "Y")
     for k in range(50):
-        book.plot(k / 50, k / 50, 13, 1.0)
-    assert share(pixels(book.current, tmp_path), rgb(13), 8) > 0.0005
-    book.show("A", np.linspace(-1, 1, 64), 8, 1.0)
-    image = pixels(book.current, tmp_path)
+        pages.plot(k / 50, k / 50, 13, 1.0)
+    assert share(pixels(pages.current, tmp_path), rgb(13), 8) > 0.0005
+    pages.show("A", np.linspace(-1, 1, 64), 8, 1.0)
+    image = pixels(pages.current, tmp_path)
     assert len(np.unique(image[:, :, 0])) > 30  # a wedge of greys
 
 
@@ -109,10 +109,10 @@ def test_a_million_samples(tmp_path):
 
 
 def test_earlier_runs_keep_their_scale(tmp_path):
-    book = GraphBook()
-    displayed(book, "2", "N10", "R")
-    book.begin_run(record_of("dispt", T, {"x": 0.5 + 0 * T}, scale=1.0))
-    page = book.begin_run(record_of("dispt", T + 1, {"x": 0.5 + 0 * T}, scale=10.0))
+    pages = GraphPages()
+    displayed(pages, "2", "N10", "R")
+    pages.begin_run(record_of("dispt", T, {"x": 0.5 + 0 * T}, scale=1.0))
+    page = pages.begin_run(record_of("dispt", T + 1, {"x": 0.5 + 0 * T}, scale=10.0))
     rows, _ = where(pixels(page, tmp_path)[:680], rgb(10))
     assert rows.max() - rows.min() > 80  # a quarter and almost half of the height down
 

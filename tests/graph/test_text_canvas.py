@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.graph.pages import GraphPages
 from desire_tui.engine.outputs.braille_canvas import NO_COLOR, TILE_COLUMNS, Canvas
 from desire_tui.engine.outputs.incremental_drawing import Painter
 from desire_tui.engine.outputs.text_frame import text_frame, tick_label
@@ -101,7 +101,7 @@ def test_painting_bit_by_bit_gives_what_painting_at_once_gives():
     Painter(at_once, whole).update()
     record = record_of("dispt", t, data)
     record.count = 0
-    growing = GraphBook().begin_run(record)
+    growing = GraphPages().begin_run(record)
     bits = Canvas(60, 20)
     painter = Painter(bits, growing)
     for count in range(0, 5001, 125):
@@ -133,33 +133,33 @@ def test_a_window_zooms():
 
 
 def test_erasing_empties_the_canvas():
-    book = GraphBook()
-    page = book.begin_run(record_of("dispt", np.linspace(0, 1, 50), {"x": np.zeros(50)}))
+    pages = GraphPages()
+    page = pages.begin_run(record_of("dispt", np.linspace(0, 1, 50), {"x": np.zeros(50)}))
     canvas = Canvas(10, 4)
     painter = Painter(canvas, page)
     painter.update()
     assert lit(canvas)
-    displayed(book, "F")
+    displayed(pages, "F")
     painter.update()
     assert not lit(canvas)
 
 
 def test_interpreter_points_have_their_colours():
-    book = GraphBook()
-    displayed(book, "A")
-    book.plot(-0.9, 0.9, 12, 1.0)
-    book.plot(0.9, -0.9, 10, 1.0)
+    pages = GraphPages()
+    displayed(pages, "A")
+    pages.plot(-0.9, 0.9, 12, 1.0)
+    pages.plot(0.9, -0.9, 10, 1.0)
     canvas = Canvas(10, 4)
-    Painter(canvas, book.current).update()
+    Painter(canvas, pages.current).update()
     assert {int(c) for c in np.unique(canvas.colors)} == {10, 12, NO_COLOR}
 
 
 def test_pictures_are_dense_where_values_are_large():
-    book = GraphBook()
+    pages = GraphPages()
     values = np.concatenate([np.zeros(32), np.full(32, 0.9)])
-    book.show("A", values, 8, 1.0)
+    pages.show("A", values, 8, 1.0)
     canvas = Canvas(20, 8)
-    Painter(canvas, book.current).update()
+    Painter(canvas, pages.current).update()
     dots = lit(canvas)
     upper = sum(row < 16 for _, row in dots)
     assert upper == 0
@@ -243,9 +243,9 @@ def test_white_graphs_are_white_all_over_on_a_terminal():
 
 
 def test_pictures_as_text():
-    book = GraphBook()
-    book.show("A", np.linspace(-1, 1, 16), 4, 1.0)
-    text = text_plot(book.current, 40, 14, colored=False)
+    pages = GraphPages()
+    pages.show("A", np.linspace(-1, 1, 16), 4, 1.0)
+    text = text_plot(pages.current, 40, 14, colored=False)
     assert "scale = 1" in text
     assert "A" in text
     assert sum(0x2800 < ord(c) <= 0x28FF for c in text) > 20

@@ -332,9 +332,7 @@ def test_ending_it_puts_everything_back(inside):
     if inside == "command":
         worker.join()
         worker = Worker(command, session)
-    worker.wait_for(
-        lambda: session._world.runs.simulator.memory is not None and session._world.runs.start is not None
-    )
+    worker.wait_for(lambda: session._runs.simulator.memory is not None and session._runs.start is not None)
     in_comparison = lambda: session.status.state is State.RUNNING and 0 < session.status.t < 0.001  # noqa: E731
     worker.wait_for(in_comparison)
     session.end()

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from desire_tui.engine.integration.rules import RULES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from desire_tui.engine.graph.model import Curve
     from desire_tui.engine.runtime.run_record import RunRecord
 
 _NAMED_MOST = 3
@@ -23,7 +22,18 @@ class Key(NamedTuple):
     color: int
 
 
-def told_apart(curves: Sequence[Curve]) -> tuple[Key, ...]:
+class Colored(Protocol):
+    """What is asked of a curve."""
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+    @property
+    def color(self) -> int: ...  # noqa: D102
+    @property
+    def record(self) -> RunRecord: ...  # noqa: D102
+
+
+def color_keys(curves: Sequence[Colored]) -> tuple[Key, ...]:
     """Return the keys of a page's curves, each name and colour once.
 
     Where runs that share the page differ in rule, ERMAX or step size, the keys say so: `x, rule 3`.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from desire_tui.engine.graph.color_keys import told_apart
+from desire_tui.engine.graph.color_keys import color_keys
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -152,7 +152,7 @@ class Graph:
     @property
     def keys(self) -> tuple[Key, ...]:
         """Colour keys, each name and colour once; none in graphs of one colour."""
-        return told_apart(self.curves) if self.has_keys else ()
+        return color_keys(self.curves) if self.has_keys else ()
 
     @property
     def is_empty(self) -> bool:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 PAGES_MAX = 32
 
 
-class GraphBook:
+class GraphPages:
     """The display: its settings and its last pages. Changed on the session's thread, read from any."""
 
     def __init__(self) -> None:
@@ -85,9 +85,9 @@ class GraphBook:
             page = self._page(frame, "")
         self._fresh = False
         page.frame, page.caption = frame, caption(request)
-        self._dress(page)
+        self._apply_settings(page)
         page.curves.extend(self._curves(record, request, frame))
-        self._films(page, record, pictures)
+        self._add_pictures(page, record, pictures)
         return page
 
     def compare(self, records: Sequence[RunRecord]) -> Graph | None:
@@ -136,10 +136,10 @@ class GraphBook:
     def _begin_pictures(self, record: RunRecord, pictures: Sequence[Picture]) -> Graph:
         frame = Frame("picture", 0.0, 1.0, 0.0, 1.0, record.scale)
         page = self._page(frame, ", ".join(p.name for p in pictures))
-        self._films(page, record, pictures)
+        self._add_pictures(page, record, pictures)
         return page
 
-    def _films(self, page: Graph, record: RunRecord, pictures: Sequence[Picture]) -> None:
+    def _add_pictures(self, page: Graph, record: RunRecord, pictures: Sequence[Picture]) -> None:
         for number, picture in enumerate(pictures):
             columns = max(picture.columns, 1)
             page.shown.append(ShownArray(picture.name, columns, record.scale, None, record, number))
@@ -150,12 +150,12 @@ class GraphBook:
     def _page(self, frame: Frame, text: str) -> Graph:
         self._made += 1
         page = Graph(self._made, frame, text)
-        self._dress(page)
+        self._apply_settings(page)
         self.pages.append(page)
         del self.pages[: -self.pages_max]
         return page
 
-    def _dress(self, page: Graph) -> None:
+    def _apply_settings(self, page: Graph) -> None:
         page.net, page.white = self.settings.net_color, self.settings.white
         page.thickness, page.has_keys = self.settings.thickness, not self.settings.one_color
 

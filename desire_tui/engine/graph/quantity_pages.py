@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.graph.model import Graph
-    from desire_tui.engine.graph.pages import GraphBook
+    from desire_tui.engine.graph.pages import GraphPages
 
 ROWS_MOST = 8
 """A matrix of more rows is shown as a picture."""
@@ -22,24 +22,24 @@ MARGIN = 0.05
 """Room above and below a curve, in parts of its height."""
 
 
-def history_chart(book: GraphBook, name: str, record: RunRecord, column: int) -> Graph:
+def history_chart(pages: GraphPages, name: str, record: RunRecord, column: int) -> Graph:
     """Show one of a run's columns over time on a page of its own, as high as it needs."""
     bottom, top = _limits(record.rows[: record.count, 1 + column])
     frame = Frame("dispt", record.t0, record.t0 + record.t_max, bottom, top, _scale(bottom, top))
-    curve = Curve(name, "t", book.settings.curve_color(0), record, 1 + column, 0, frame)
-    return book.chart(frame, f"{name} vs. t", [curve])
+    curve = Curve(name, "t", pages.settings.curve_color(0), record, 1 + column, 0, frame)
+    return pages.chart(frame, f"{name} vs. t", [curve])
 
 
-def array_chart(book: GraphBook, name: str, values: NDArray[Any]) -> Graph:
+def array_chart(pages: GraphPages, name: str, values: NDArray[Any]) -> Graph:
     """Show an array's elements over their index, from 1: a vector's as a curve, a matrix's by rows.
 
     COMPLEX: real and imaginary parts. A matrix of more than ROWS_MOST rows becomes a picture, as by SHOW.
     """
     if values.ndim > 1 and np.prod(values.shape[:-1]) > ROWS_MOST:
         real = np.abs(values) if np.iscomplexobj(values) else values
-        book.show(name, np.asarray(real, dtype=np.float64).ravel(), values.shape[-1], _largest(real))
-        assert book.current is not None
-        return book.current
+        pages.show(name, np.asarray(real, dtype=np.float64).ravel(), values.shape[-1], _largest(real))
+        assert pages.current is not None
+        return pages.current
     rows = values.reshape(-1, values.shape[-1])
     named = {_row_name(name, values.shape, number): row for number, row in enumerate(rows)}
     if np.iscomplexobj(values):
@@ -55,10 +55,10 @@ def array_chart(book: GraphBook, name: str, values: NDArray[Any]) -> Graph:
         t0=1.0, t_max=frame.right - 1.0, nn=length, dt=1.0, rows=table, count=length, ended="tmax",
     )  # fmt: skip
     curves = [
-        Curve(curve, "index", book.settings.curve_color(n), record, 1 + n, 0, frame, joined=length > 1)
+        Curve(curve, "index", pages.settings.curve_color(n), record, 1 + n, 0, frame, joined=length > 1)
         for n, curve in enumerate(named)
     ]
-    return book.chart(frame, f"{name} vs. index", curves)
+    return pages.chart(frame, f"{name} vs. index", curves)
 
 
 def _row_name(name: str, shape: tuple[int, ...], number: int) -> str:

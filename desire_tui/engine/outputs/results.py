@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.graph.pages import GraphBook
+    from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.values import Values
 
@@ -159,7 +159,7 @@ def _abscissa(kind: str, names: Sequence[str], number: int) -> str | None:
     return None
 
 
-def plot_points(graphs: GraphBook) -> tuple[PlotPoint, ...]:
+def plot_points(graphs: GraphPages) -> tuple[PlotPoint, ...]:
     """Return all points of interpreter plots, page by page."""
     return tuple(
         PlotPoint(x, y, color)

@@ -35,19 +35,19 @@ _ROUNDING_NN = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Steps:
+class StepHistory:
     """The DT that the program last set, the one a run began with, the one it left if that is another."""
 
-    wished: float | None = None
-    begun: float | None = None
-    left: float | None = None
+    requested: float | None = None
+    at_start: float | None = None
+    at_end: float | None = None
 
     def least(self, dt: float) -> float:
         """Return what DTMIN follows: `dt`, or the program's own DT if a run has made that larger."""
-        return dt if self.wished is None else min(dt, self.wished)
+        return dt if self.requested is None else min(dt, self.requested)
 
 
-Wishes = tuple[dict[int, float], Steps]
+SavedDefaults = tuple[dict[int, float], StepHistory]
 """Defaults by their slots, and what became of DT."""
 
 
@@ -56,13 +56,13 @@ class Defaults:
 
     Defaults are written into the values, so that scripts can read them after the run, but count as *not set*
     at the next drun as long as nobody changed them: with TMAX changed, DT follows again. A DT that a run made
-    of the program's own is no wish either: the next run goes on with it, but does not complain about it.
+    of the program's own is no setting either: the next run goes on with it, but does not complain about it.
     """
 
     def __init__(self, values: Values) -> None:
         self._values = values
         self._supplied: dict[int, float] = {}
-        self._steps = Steps()
+        self._steps = StepHistory()
         self._generation = values.generation
 
     def plan(self, segment: Segment, rule: int, source: Source, at: Span | None) -> RunPlan:
@@ -72,7 +72,7 @@ class Defaults:
             raise DesireError(Diagnostic("row-not-chosen", segment.row_chosen.span, facts, segment.source))
         if self._values.generation != self._generation:
             self._supplied.clear()
-            self._steps = Steps()
+            self._steps = StepHistory()
             self._generation = self._values.generation
         try:
             return self._plan(segment, rule_numbered(rule) if segment.order else RULES[DUMMY])
@@ -111,22 +111,22 @@ class Defaults:
             scale=cells[SCALE],
         )  # fmt: skip
 
-    def saved(self) -> Wishes:
-        """Return what is nobody's wish now, for `restore`."""
+    def saved(self) -> SavedDefaults:
+        """Return what is a default now, for `restore`."""
         return self._supplied.copy(), self._steps
 
-    def restore(self, saved: Wishes) -> None:
+    def restore(self, saved: SavedDefaults) -> None:
         """Take up what was a default when `saved` was called; the values have been put back too."""
         supplied, self._steps = saved
         self._supplied = supplied.copy()
 
     def follow(self) -> None:
-        """Note, after a run or reset, that the DT which it left is still nobody's wish."""
+        """Note, after a run or reset, that the DT which it left is not the program's own setting."""
         now = self._values.cells[DT]
         if DT in self._supplied:
             self._supplied[DT] = now
-        elif now != self._steps.begun or self._steps.left == self._steps.begun:
-            self._steps = replace(self._steps, left=now)
+        elif now != self._steps.at_start or self._steps.at_end == self._steps.at_start:
+            self._steps = replace(self._steps, at_end=now)
 
     def _points(self) -> int:
         nn = self._own(NN)
@@ -136,8 +136,8 @@ class Defaults:
             return int(nn + _ROUNDING_NN)  # TMAX/DT + 1 may be a little less than whole
         points = POINTS_DEFAULT
         t_max, dt = self._own(TMAX), self._own(DT)
-        if dt is not None and dt == self._steps.left:
-            dt = self._steps.wished
+        if dt is not None and dt == self._steps.at_end:
+            dt = self._steps.requested
         if nn is None and t_max is not None and dt is not None and dt > 0.0:
             points = max(int(min(float(points), t_max / dt * (1 + ROUNDING) + 1.0)), 2)
         self._supply(NN, float(points))
@@ -151,14 +151,14 @@ class Defaults:
             return self._supply(DT, comint / 2)
         if not (isfinite(dt) and dt > 0.0):
             raise _error("dt-not-positive", value=dt)
-        left = dt == self._steps.left
+        is_left = dt == self._steps.at_end
         if dt > comint * (1 + ROUNDING):
-            if not left:
+            if not is_left:
                 raise _error("dt-above-comint", dt=dt, comint=comint)
             dt = comint
             self._values.assign(DT, dt)
-        wished = self._steps.wished if left else dt
-        self._steps = Steps(wished=wished, begun=dt, left=dt if left else None)
+        requested = self._steps.requested if is_left else dt
+        self._steps = StepHistory(requested=requested, at_start=dt, at_end=dt if is_left else None)
         return dt
 
     def _largest_step(self, rule: Rule, comint: float) -> float:

@@ -1,8 +1,8 @@
 """Brings a long block of native code back now and then, although no sample is due.
 
 A run with few samples may stay in native code for seconds. Then nobody would see t move, and a back end that
-has compiled faster code meanwhile could not change over. The stop flag brings it back; with no wish there, it
-goes on.
+has compiled faster code meanwhile could not change over. The stop flag brings it back; if the user
+wants nothing, it goes on.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from desire_tui.engine.runtime.pause_and_stop import Control
 
-TICK_SECONDS = 0.05
-_LOOK_SECONDS = 2.0  # how long the thread outlives its session
+BEAT_SECONDS = 0.05
+_WAIT_SECONDS = 2.0  # how long the thread outlives its session
 
 
-class Ticker:
-    """Nudges a control while blocks last longer than a tick. Its one thread sleeps between runs."""
+class Heartbeat:
+    """Brings back blocks that last longer than a beat. Its one thread sleeps between runs."""
 
     def __init__(self, control: Control) -> None:
         self._control = weakref.ref(control)
@@ -32,7 +32,7 @@ class Ticker:
         """Hear that a run begins."""
         if self._thread is None or not self._thread.is_alive():
             self._thread = threading.Thread(
-                target=_tick, args=(weakref.ref(self),), daemon=True, name="desire-ticker"
+                target=_beat_until_gone, args=(weakref.ref(self),), daemon=True, name="desire-heartbeat"
             )
             self._thread.start()
         self._running.set()
@@ -45,22 +45,22 @@ class Ticker:
         """Hear that the run is over."""
         self._running.clear()
 
-    def tick(self) -> bool:
-        """Nudge if the block has not changed for a tick; False: the session is gone."""
-        if self._running.wait(_LOOK_SECONDS):
+    def beat(self) -> bool:
+        """Bring the block back if it has lasted for a beat; False: the session is gone."""
+        if self._running.wait(_WAIT_SECONDS):
             seen = self._blocks
-            sleep(TICK_SECONDS)
+            sleep(BEAT_SECONDS)
             control = self._control()
             if control is None:
                 return False
             if self._running.is_set() and self._blocks == seen:
-                control.nudge()
+                control.interrupt_block()
         return True
 
 
-def _tick(reference: weakref.ref[Ticker]) -> None:
+def _beat_until_gone(reference: weakref.ref[Heartbeat]) -> None:
     while True:
-        ticker = reference()
-        if ticker is None or not ticker.tick():
+        heartbeat = reference()
+        if heartbeat is None or not heartbeat.beat():
             return
-        del ticker
+        del heartbeat

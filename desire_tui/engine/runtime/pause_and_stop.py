@@ -10,11 +10,11 @@ if TYPE_CHECKING:
 
 
 class Control:
-    """The user's wishes. `pause resume end` may be called from any thread, the rest from the working thread.
+    """What the user wants. `pause resume end` may be called from any thread, the rest from the working one.
 
-    The order of the two writes in `pause` and of the two reads in `clear_to_run` matters: the wish stands
-    before the stop flag is raised, and is looked at after the flag was lowered, so that no wish is lost
-    between two blocks.
+    The order of the two writes in `pause` and of the two reads in `clear_to_run` matters: the request stands
+    before the stop flag is raised, and is looked at after the flag was lowered, so that none is lost between
+    two blocks.
     """
 
     def __init__(self) -> None:
@@ -29,7 +29,7 @@ class Control:
 
     @property
     def paused(self) -> bool:
-        """Whether a pause is wished for (the work may take some milliseconds to notice)."""
+        """Whether a pause is requested (the work may take some milliseconds to notice)."""
         return not self._go_on.is_set()
 
     @property
@@ -38,7 +38,7 @@ class Control:
         return self._active > 0
 
     def pause(self) -> None:
-        """Wish for a pause, if anything goes on."""
+        """Request a pause, if anything goes on."""
         with self._lock:
             if self._active:
                 self._go_on.clear()
@@ -49,15 +49,15 @@ class Control:
         self._go_on.set()
 
     def end(self) -> None:
-        """Wish for the end, if anything goes on."""
+        """Request the end, if anything goes on."""
         with self._lock:
             if self._active:
                 self._ending = True
                 self._raise_flag()
         self._go_on.set()
 
-    def nudge(self) -> None:
-        """Bring native code back for a moment; without a wish the run goes on."""
+    def interrupt_block(self) -> None:
+        """Bring native code back for a moment; the run goes on unless the user wants something else."""
         with self._lock:
             self._raise_flag()
 
@@ -68,7 +68,7 @@ class Control:
     # ------------------------------------------------------------------ the working thread
 
     def begin(self) -> None:
-        """Work begins: forget old wishes. May nest."""
+        """Work begins: forget old requests. May nest."""
         with self._lock:
             if self._active == 0:
                 self._ending = False
@@ -89,7 +89,7 @@ class Control:
 
     @property
     def ending(self) -> bool:
-        """Whether the end is wished for."""
+        """Whether the end is requested."""
         return self._ending
 
     def wait(self) -> bool:
@@ -98,6 +98,6 @@ class Control:
         return not self._ending
 
     def clear_to_run(self, memory: RunMemory) -> bool:
-        """Lower the stop flag; return False if a wish came meanwhile and must be looked at first."""
+        """Lower the stop flag; return False if a request came meanwhile and must be looked at first."""
         memory.stop = 0
         return self._go_on.is_set() and not self._ending

@@ -1,4 +1,4 @@
-"""The run loop: advances a model block by block, keeps the samples, notices wishes, says why it ended."""
+"""The run loop: advances a model block by block, keeps the samples, pauses, says why it ended."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
-from desire_tui.engine.runtime.heartbeat import Ticker
+from desire_tui.engine.runtime.heartbeat import Heartbeat
 from desire_tui.engine.runtime.history import RunHistory
 from desire_tui.engine.runtime.run_faults import exhausted, fault
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
@@ -57,7 +57,7 @@ class Simulator:
         self.history = RunHistory(values)
         self._values = values
         self._control = control
-        self._ticker = Ticker(control)
+        self._heartbeat = Heartbeat(control)
         self._delays = Delays()
         self.memory: RunMemory | None = None
         """The run's memory while one goes on."""
@@ -91,12 +91,12 @@ class Simulator:
         memory.rows = record.rows.ctypes.data
         self.memory = memory
         self._control.attach(memory)
-        self._ticker.begin()
+        self._heartbeat.begin()
         ended = Ended.STOPPED
         try:
             ended = self._advance(model, segment, memory, record, observer)
         finally:
-            self._ticker.end()
+            self._heartbeat.end()
             self._control.attach(None)
             self.memory = None
             self._settle(plan, memory, positions, record, sampled=ended in {Ended.TMAX, Ended.TERM})
@@ -144,7 +144,7 @@ class Simulator:
                 _grow(record, memory)
             memory.row_limit = min(first + (1 if segment.pictures else int(block)), len(record.rows))
             began = perf_counter()
-            self._ticker.block()
+            self._heartbeat.block()
             ended = Ended(model.advance(memory)) if self._control.clear_to_run(memory) else Ended.STOPPED
             took = perf_counter() - began
             _note(memory, record)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from desire_tui.engine.runtime.defaults import Wishes
+    from desire_tui.engine.runtime.defaults import SavedDefaults
     from desire_tui.engine.runtime.history import RunHistory
     from desire_tui.engine.runtime.simulator import Simulator
     from desire_tui.engine.values import Saved, Values
@@ -21,15 +21,15 @@ class Checkpoint:
 
     saved: Saved
     history: RunHistory
-    defaults: Wishes
+    defaults: SavedDefaults
 
     @classmethod
-    def now(cls, values: Values, simulator: Simulator) -> Checkpoint:
-        """Return the present situation."""
+    def taken(cls, values: Values, simulator: Simulator) -> Checkpoint:
+        """Return everything as it is now."""
         return cls(values.saved(), simulator.history.copy(), simulator.defaults.saved())
 
-    def put_back(self, values: Values, simulator: Simulator) -> None:
-        """Make it the present situation again."""
+    def restore(self, values: Values, simulator: Simulator) -> None:
+        """Make everything as it was then."""
         values.restore(self.saved)
         simulator.history = self.history.copy()
         simulator.defaults.restore(self.defaults)

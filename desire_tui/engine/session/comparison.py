@@ -18,9 +18,12 @@ from desire_tui.engine.source import Span
 from desire_tui.engine.values import DT, ERMAX
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.session.script_host import ScriptHost
-    from desire_tui.engine.session.session import Session
+    from desire_tui.engine.session.runs import Runs
     from desire_tui.engine.session.workspace import Workspace
 
 
@@ -55,31 +58,37 @@ class Variation:
         return ", ".join(parts)
 
 
-def compare_runs(session: Session, world: ScriptHost, desk: Workspace, change: Variation) -> str:
+def compare_runs(
+    workspace: Workspace,
+    runs: Runs,
+    graphs: GraphPages,
+    change: Variation,
+    show: Callable[[Graph], object],
+) -> str:
     """Return a table: for each displayed variable the largest difference, its time, and the final values.
 
-    Both runs are shown on a page of their own. Everything is put back afterwards: quantities, random
-    numbers, positions of histories.
+    Both runs are put on a page of their own, which `show` is given. Everything is put back
+    afterwards: quantities, random numbers, positions of histories.
     """
-    last = session.runs[-1] if session.runs else None
+    last = runs.kept[-1] if runs.kept else None
     if last is None:
         raise DesireError(Diagnostic("no-run"))
     if not last.columns or not last.count:
         raise DesireError(Diagnostic("compare-nothing"))
-    program, _ = desk.runnable()
-    if world.runs.run_of != (program.source.text, desk.values.generation):
+    program, _ = workspace.runnable()
+    if runs.run_of != (program.source.text, workspace.values.generation):
         raise DesireError(Diagnostic("compare-changed"))
-    with world.runs.restored():
-        other = run_again(world, desk, last, change)
-        sampled = _sampled_alike(world, desk, last, other, change)
-    page = session.graphs.compare((last, other))
+    with runs.restored():
+        other = run_again(workspace, runs, last, change)
+        sampled = _sampled_alike(workspace, runs, last, other, change)
+    page = graphs.compare((last, other))
     if page is not None:
-        world.graph_changed(page)
+        show(page)
     return table(last, other, change.named, sampled)
 
 
 def _sampled_alike(
-    world: ScriptHost, desk: Workspace, one: RunRecord, other: RunRecord, change: Variation
+    workspace: Workspace, runs: Runs, one: RunRecord, other: RunRecord, change: Variation
 ) -> tuple[RunRecord, RunRecord]:
     """Return the runs, or where their samples stand at different times one of them made again.
 
@@ -89,22 +98,22 @@ def _sampled_alike(
     again = needs_steps_of(one, other)
     if again is None:
         return one, other
-    program, script = desk.runnable()
-    segment = desk.segments.lowered(program, script, one.segment, other.rule)
+    program, script = workspace.runnable()
+    segment = workspace.segments.lowered(program, script, one.segment, other.rule)
     if not is_pure(full_pass(segment)):
         return one, other
     repeated, spacing = again
     try:
         if repeated is one:
-            return run_again(world, desk, one, Variation(), spacing), other
-        return one, run_again(world, desk, one, change, spacing)
+            return run_again(workspace, runs, one, Variation(), spacing), other
+        return one, run_again(workspace, runs, one, change, spacing)
     except DesireError:
         return one, other  # the runs themselves came to their ends: that is enough to tell
 
 
 def run_again(
-    world: ScriptHost,
-    desk: Workspace,
+    workspace: Workspace,
+    runs: Runs,
     last: RunRecord,
     change: Variation,
     spacing: float | None = None,
@@ -114,22 +123,22 @@ def run_again(
 
     The variable `recorded` (name, slot) is sampled too. Within `Runs.restored`.
     """
-    is_exact = world.runs.start is not None
-    world.runs.go_back()
+    is_exact = runs.start is not None
+    runs.go_back()
     rule = last.rule if change.rule is None else change.rule
-    program, script = desk.runnable()
-    segment = desk.segments.lowered(program, script, last.segment, rule)
+    program, script = workspace.runnable()
+    segment = workspace.segments.lowered(program, script, last.segment, rule)
     if (rule == DUMMY) != (segment.order == 0):
         why = "has differential equations" if segment.order else "has no differential equations"
         raise DesireError(Diagnostic("compare-not-integrated", facts={"what": f"rule {rule}", "why": why}))
     if segment.recover:
-        segment = desk.segments.recovering(segment, desk.stash_path)
+        segment = workspace.segments.recovering(segment, workspace.stash_path)
     if recorded is not None:  # stashed variables are columns and nothing else
         segment = replace(segment, stash=(*segment.stash, SampleColumn(*recorded, _anywhere(segment))))
     for slot, value in ((DT, change.dt), (ERMAX, change.error_max)):
         if value is not None:
-            desk.values.assign(slot, value)
-    plan = world.runs.simulator.defaults.plan(segment, rule, desk.source, None)
+            workspace.values.assign(slot, value)
+    plan = runs.simulator.defaults.plan(segment, rule, workspace.source, None)
     if spacing is not None:
         steps = ceil(plan.t_max / spacing * (1 - 1e-9))
         plan = replace(
@@ -143,8 +152,8 @@ def run_again(
     if not is_exact:
         record.message = "compared with the quantities as they are now: of so large a model no copy is kept"
     try:
-        finished = world.runs.simulator.run(
-            desk.segments.model(segment, plan.rule), segment, plan, record, _Deaf()
+        finished = runs.simulator.run(
+            workspace.segments.model(segment, plan.rule), segment, plan, record, _NoObserver()
         )
     except DesireError as error:
         facts = {"setting": change.named(record), "reason": error.diagnostics[0].message}
@@ -160,6 +169,6 @@ def _anywhere(segment: Segment) -> Where:
     return places[0] if places else Where(Span(0, 0))
 
 
-class _Deaf:
+class _NoObserver:
     def block(self, record: RunRecord, first_row: int) -> None:
         """Nobody watches this run."""

@@ -1,7 +1,7 @@
 """A program's script without its runs: what JACOBIAN segments need to be checked before the first run.
 
 Parameters, array sizes and initial values are what the script makes of them, so the script is carried out,
-over quantities of its own and in a world where nothing happens: runs are skipped, nothing is shown, read,
+over quantities of its own and with a host that does nothing: runs are skipped, nothing is shown, read,
 asked for or written. A script that cannot go on there, or takes long, is left; nothing is then said.
 """
 
@@ -46,8 +46,8 @@ def wrong_jacobians(program: Program) -> tuple[Diagnostic, ...]:
     for name in state_order(program):
         values.scalar(name, is_state=True)
     script = structure(program)
-    world = DryHost(program, script, values, labels)
-    interpreter = Interpreter(program, script, values, world)
+    host = DryHost(program, script, values, labels)
+    interpreter = Interpreter(program, script, values, host)
     try:
         interpreter.run()
         for _ in range(STOPS_MOST):
@@ -58,11 +58,11 @@ def wrong_jacobians(program: Program) -> tuple[Diagnostic, ...]:
         pass  # what is wrong, the run itself will say
     finally:
         interpreter.channels.close()
-    return tuple(world.found)
+    return tuple(host.found)
 
 
 class DryHost:
-    """Implements `interpreter.Host`: a script runs in it, but nothing comes of it."""
+    """Implements `interpreter.Host`: the script runs, but nothing it asks for happens."""
 
     def __init__(
         self,

@@ -1,7 +1,8 @@
-"""A command line that only looks, carried out while a run goes on: `write 2*x`, `dump`.
+"""A command line that only reads, carried out while a run goes on: `write 2*x`, `dump`.
 
 Native code changes the quantities meanwhile, and a script may stand in the middle of a statement. So the line
-is carried out over a copy of all numbers, by an interpreter of its own, in a world where it can only write.
+is carried out over a copy of all numbers, by an interpreter of its own, with a host that
+only lets it write.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ NUMBERS_MOST = 1 << 22
 SECONDS_MOST = 0.5
 
 
-def glance(text: str, program: Program, structure: Structure, values: Values) -> str | None:
+def evaluate_while_running(text: str, program: Program, structure: Structure, values: Values) -> str | None:
     """Return what a line writes that does nothing else; None: it is no such line, or the model is too large.
 
     Any thread. DesireError: its mistakes.
@@ -41,17 +42,17 @@ def glance(text: str, program: Program, structure: Structure, values: Values) ->
     if problems or not nodes or not reads or values.numbers_used > NUMBERS_MOST:
         return None
     copy = values.copied()
-    world = _Looking(program, structure, copy, set(), SECONDS_MOST)
-    interpreter = Interpreter(program, structure, copy, world)
+    host = _WritingHost(program, structure, copy, set(), SECONDS_MOST)
+    interpreter = Interpreter(program, structure, copy, host)
     try:
         interpreter.execute(statements, source)
     except Interrupted:
         return None
-    return "".join(world.written)
+    return "".join(host.written)
 
 
-class _Looking(DryHost):
-    """A world in which nothing happens; what is written there is kept."""
+class _WritingHost(DryHost):
+    """A host that does nothing but keep what is written."""
 
     def __init__(
         self, program: Program, structure: Structure, values: Values, wanted: set[str | None], seconds: float

@@ -13,9 +13,12 @@ from desire_tui.engine.session.comparison import Variation, run_again
 from desire_tui.engine.session.overrides import parts
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.session.script_host import ScriptHost
-    from desire_tui.engine.session.session import Session
+    from desire_tui.engine.session.runs import Runs
     from desire_tui.engine.session.workspace import Workspace
     from desire_tui.engine.values import Values
 
@@ -24,12 +27,15 @@ Charted = Literal["shown", "unknown", "no run", "constant", "changed", "failed"]
 or forgotten names the run cannot be made again; it `failed` when made again."""
 
 
-def chart(session: Session, world: ScriptHost, desk: Workspace, wanted: str) -> Charted:
-    """Plot `x`, `A` or `A[2,3]`. What the last run did not record is recorded by that run made once more.
+def chart(
+    workspace: Workspace, runs: Runs, graphs: GraphPages, wanted: str, show: Callable[[Graph], object]
+) -> Charted:
+    """Plot `x`, `A` or `A[2,3]` on a page, which `show` is given.
 
-    Then everything is put back: quantities, random numbers, positions of histories.
+    What the last run did not record is recorded by that run made once more. Then everything is put
+    back: quantities, random numbers, positions of histories.
     """
-    values = desk.values
+    values = workspace.values
     try:
         name, subscripts = parts(wanted)
     except ValueError:
@@ -38,12 +44,12 @@ def chart(session: Session, world: ScriptHost, desk: Workspace, wanted: str) -> 
     if quantity is None or not values.is_defined(quantity):
         return "unknown"
     if quantity.shape and not subscripts:
-        world.graph_changed(array_chart(session.graphs, name, np.array(values.view(quantity))))
+        show(array_chart(graphs, name, np.array(values.view(quantity))))
         return "shown"
     slot = _slot(values, name, subscripts)
     if slot is None:
         return "unknown"
-    return _history(session, world, desk, wanted.replace(" ", ""), slot)
+    return _history(workspace, runs, graphs, wanted.replace(" ", ""), slot, show)
 
 
 def _slot(values: Values, name: str, subscripts: tuple[int, ...]) -> int | None:
@@ -59,27 +65,34 @@ def _slot(values: Values, name: str, subscripts: tuple[int, ...]) -> int | None:
     return quantity.slot + at * (quantity.slots // quantity.size)
 
 
-def _history(session: Session, world: ScriptHost, desk: Workspace, name: str, slot: int) -> Charted:
-    record = session.runs[-1] if session.runs else None
+def _history(
+    workspace: Workspace,
+    runs: Runs,
+    graphs: GraphPages,
+    name: str,
+    slot: int,
+    show: Callable[[Graph], object],
+) -> Charted:
+    record = runs.kept[-1] if runs.kept else None
     if record is None or not record.count:
         return "no run"
     if slot in record.slots:
-        world.graph_changed(history_chart(session.graphs, name, record, record.slots.index(slot)))
+        show(history_chart(graphs, name, record, record.slots.index(slot)))
         return "shown"
-    program, script = desk.runnable()
-    if world.runs.run_of != (program.source.text, desk.values.generation):
+    program, script = workspace.runnable()
+    if runs.run_of != (program.source.text, workspace.values.generation):
         return "changed"
-    segment = desk.segments.lowered(program, script, record.segment, record.rule)
-    if not _changes(segment, slot, desk.values):
+    segment = workspace.segments.lowered(program, script, record.segment, record.rule)
+    if not _changes(segment, slot, workspace.values):
         return "constant"
     try:
-        with world.runs.restored():
-            again = run_again(world, desk, record, Variation(), recorded=(name, slot))
+        with runs.restored():
+            again = run_again(workspace, runs, record, Variation(), recorded=(name, slot))
     except Interrupted:
         raise
     except DesireError:
         return "failed"
-    world.graph_changed(history_chart(session.graphs, name, again, again.slots.index(slot)))
+    show(history_chart(graphs, name, again, again.slots.index(slot)))
     return "shown"
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.graph.pages import GraphBook
+    from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.runtime.backend import Model
@@ -36,12 +36,14 @@ THINNED_ROWS = 10_000
 class Runs:
     """Makes runs and keeps their records. Lives on the session's thread."""
 
-    def __init__(self, desk: Workspace, listener: Listener, control: Control, graphs: GraphBook) -> None:
-        self._desk = desk
+    def __init__(
+        self, workspace: Workspace, listener: Listener, control: Control, graphs: GraphPages
+    ) -> None:
+        self._workspace = workspace
         self._listener = listener
         self._graphs = graphs
-        self._values: Values = desk.values
-        self.simulator = Simulator(desk.values, control)
+        self._values: Values = workspace.values
+        self.simulator = Simulator(workspace.values, control)
         self.kept: list[RunRecord] = []
         """Records since the program started, oldest first."""
         self.count = 0
@@ -65,49 +67,49 @@ class Runs:
 
         `on_start` is called once the model is compiled; it returns what lists the run's `type` lines.
         """
-        desk, began = self._desk, perf_counter()
-        program, structure = desk.runnable()
+        workspace, began = self._workspace, perf_counter()
+        program, structure = workspace.runnable()
         try:
-            segment = desk.segments.lowered(program, structure, label, rule)
+            segment = workspace.segments.lowered(program, structure, label, rule)
         except DesireError as error:
-            raise error.placed(placed.span(), desk.source_of(placed)) from None
+            raise error.placed(placed.span(), workspace.source_of(placed)) from None
         if segment.recover:
-            segment = desk.segments.recovering(segment, desk.stash_path)
-        start = self._situation()
-        plan = self.simulator.defaults.plan(segment, rule, desk.source_of(placed), placed.span())
-        model = desk.segments.model(segment, plan.rule)
+            segment = workspace.segments.recovering(segment, workspace.stash_path)
+        start = self._checkpoint()
+        plan = self.simulator.defaults.plan(segment, rule, workspace.source_of(placed), placed.span())
+        model = workspace.segments.model(segment, plan.rule)
         self._advise(model, segment)
         self.start, self.run_of = start, (program.source.text, self._values.generation)
         self.count += 1
         record = RunRecord(
-            number=self.count, segment=label, line=desk.line_of(placed), requests=segment.requests,
+            number=self.count, segment=label, line=workspace.line_of(placed), requests=segment.requests,
             columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule,
             scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
             compile_seconds=perf_counter() - began,
         )  # fmt: skip
         self._keep(record)
         graph = self._graphs.begin_run(record, segment.pictures)
-        lister = on_start(record)
+        type_output = on_start(record)
         self._listener.run_started(record)
         if graph is not None:
             self._listener.graph_changed(graph)
         try:
-            finished = self.simulator.run(model, segment, plan, record, lister)
+            finished = self.simulator.run(model, segment, plan, record, type_output)
         except DesireError as error:
             record.ended = "failed"
             record.message = record.message or error.diagnostics[0].message
-            raise error.placed(placed.span(), desk.source_of(placed)) from None
+            raise error.placed(placed.span(), workspace.source_of(placed)) from None
         finally:
-            desk.journal.run_ended(record, desk.overrides)
+            workspace.notebook.run_ended(record, workspace.overrides)
             self._listener.run_ended(record)
         if not finished:
             raise Interrupted
         if segment.stash and not star:
             self._stash(segment, record)
 
-    def _situation(self) -> Checkpoint | None:
+    def _checkpoint(self) -> Checkpoint | None:
         values = self._values
-        return Checkpoint.now(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
+        return Checkpoint.taken(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
 
     def _advise(self, model: Model, segment: Segment) -> None:
         """Show what a model has to say before its first run (rules 9 … 16)."""
@@ -128,7 +130,7 @@ class Runs:
 
     def _stash(self, segment: Segment, record: RunRecord) -> None:
         first = 1 + len(record.columns) - len(segment.stash)
-        write_stash(self._desk.stash_path, record.rows[: record.count, first:])
+        write_stash(self._workspace.stash_path, record.rows[: record.count, first:])
 
     def _keep(self, record: RunRecord) -> None:
         if self.kept:
@@ -148,15 +150,15 @@ class Runs:
     @contextmanager
     def restored(self) -> Iterator[None]:
         """Put everything that a run could change back afterwards."""
-        before = Checkpoint.now(self._values, self.simulator)
+        before = Checkpoint.taken(self._values, self.simulator)
         try:
             yield
         finally:
-            before.put_back(self._values, self.simulator)
+            before.restore(self._values, self.simulator)
 
     def go_back(self) -> None:
         """Go to where the last run began: everything as it was, or (large models) t, DT and states only."""
         if self.start is not None:
-            self.start.put_back(self._values, self.simulator)
+            self.start.restore(self._values, self.simulator)
         else:
             self.simulator.reset()

@@ -6,12 +6,16 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.graph.pages import GraphBook
+from desire_tui.engine.graph.pages import GraphPages
 from desire_tui.engine.integration.rules import DEFAULT_RULE
 from desire_tui.engine.runtime.pause_and_stop import Control
+from desire_tui.engine.session.activity import Activity
+from desire_tui.engine.session.console import Console
+from desire_tui.engine.session.current_interpreter import CurrentInterpreter
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.notebook import Notebook
 from desire_tui.engine.session.permissions import Permissions
+from desire_tui.engine.session.runs import Runs
 from desire_tui.engine.session.script import ScriptRunner
 from desire_tui.engine.session.script_host import ScriptHost
 from desire_tui.engine.session.session_commands import SessionCommands
@@ -40,8 +44,8 @@ class Session:
 
     Threads: `accept erun run go execute new` belong to one thread (the app's engine thread) and return when
     the work is done; they raise DesireError with placed diagnostics when something fails, error 301 when the
-    user ended it. `pause resume end glance check status snapshot help` may be called from any thread at
-    any time. `values` may be read from any thread; numbers change while a run goes on.
+    user ended it. `pause resume end evaluate_while_running check status snapshot help` may be called from
+    any thread at any time. `values` may be read from any thread; numbers change while a run goes on.
     """
 
     def __init__(
@@ -54,16 +58,22 @@ class Session:
     ) -> None:
         self._listener = console if console is not None else Listener()
         self._control = Control()
-        self._journal = Notebook(lambda problem: self._listener.problems((problem,)), _draw)
+        self._activity = Activity(self._control)
+        self._notebook = Notebook(lambda problem: self._listener.problems((problem,)), _draw)
         if permissions is None:
             permissions = Permissions()
-        self._desk = Workspace(backend, folder, permissions, self._journal)
-        self.graphs = GraphBook()
+        self._workspace = Workspace(backend, folder, permissions, self._notebook)
+        self.graphs = GraphPages()
         """The last graphs, oldest first; `graph` is the newest."""
-        self._world = ScriptHost(self._desk, self._listener, self._control, self.graphs)
-        self._commands = SessionCommands(self, self._desk, self._world, self._listener)
-        self._world.carry_out = self._commands.carry_out
-        self._script = ScriptRunner(self._desk, self._world, self._control, self._listener)
+        self._runs = Runs(self._workspace, self._listener, self._control, self.graphs)
+        output = Console(self._listener, self._notebook)
+        shared = (self._workspace, self._listener, output, self._activity, self._runs, self.graphs)
+        self._commands = SessionCommands(self, *shared)
+        current = CurrentInterpreter()
+        self._host = ScriptHost(*shared, current, self._commands)
+        self._script = ScriptRunner(
+            self._workspace, self._listener, self._activity, self._runs, current, self._host
+        )
         self._checker = StaticChecker()
 
     # ------------------------------------------------------------------ what there is
@@ -71,17 +81,17 @@ class Session:
     @property
     def values(self) -> Values:
         """All quantities by name, and their numbers."""
-        return self._desk.values
+        return self._workspace.values
 
     @property
     def program(self) -> Program | None:
         """The active program, as accepted last."""
-        return self._desk.program
+        return self._workspace.program
 
     @property
     def runs(self) -> list[RunRecord]:
         """The runs since the program started, oldest first; old ones go when they fill the memory allowed."""
-        return self._world.runs.kept
+        return self._runs.kept
 
     @property
     def graph(self) -> Graph | None:
@@ -91,22 +101,22 @@ class Session:
     @property
     def rule(self) -> int:
         """`irule`; 1 if never set."""
-        return self._world.rule
+        return self._host.rule
 
     @property
     def folder(self) -> Path:
         """Where relative file names of scripts start: the program's folder once it has a path."""
-        return self._desk.folder
+        return self._workspace.folder
 
     @property
     def permissions(self) -> Permissions:
         """What programs may do; what the user granted is remembered here."""
-        return self._desk.permissions
+        return self._workspace.permissions
 
     @property
     def parse_seconds(self) -> float:
         """Real time that reading the active program took."""
-        return self._desk.parse_seconds
+        return self._workspace.parse_seconds
 
     @property
     def stopped_at(self) -> StoppedAt | None:
@@ -116,11 +126,10 @@ class Session:
     @property
     def status(self) -> Status:
         """What is going on now."""
-        world, cells = self._world, self.values.cells
-        runs = world.runs
+        host, runs, cells = self._host, self._runs, self.values.cells
         record = next(reversed(runs.kept), None)  # the list may be emptied meanwhile
         memory = runs.simulator.memory
-        state = world.state
+        state = self._activity.state
         if self._control.paused and state in (State.RUNNING, State.SCRIPT):
             state = State.PAUSED
         elif state is State.IDLE and self.stopped_at is not None:
@@ -130,9 +139,9 @@ class Session:
             state=state, run=runs.count, segment=record.segment if record else None, t=cells[T],
             t0=record.t0 if record else 0.0, t_max=record.t_max if record else cells[TMAX], steps=steps,
             steps_per_second=runs.simulator.pace(steps, record), dt=cells[DT],
-            rule=record.rule if record and memory is not None else world.rule,
-            program=self._desk.source.name if self.program else "", edited=self._script.edited,
-            record=record, runs=world.runs_expected,
+            rule=record.rule if record and memory is not None else host.rule,
+            program=self._workspace.source.name if self.program else "", edited=self._script.edited,
+            record=record, runs=host.runs_expected,
         )  # fmt: skip
 
     # ------------------------------------------------------------------ the program
@@ -147,17 +156,17 @@ class Session:
 
         began = perf_counter()
         program = parse(source)
-        self._desk.parse_seconds = perf_counter() - began
-        if self._script.stopped is not None and source.text != self._desk.source.text:
+        self._workspace.parse_seconds = perf_counter() - began
+        if self._script.stopped is not None and source.text != self._workspace.source.text:
             self._script.edited = True
         active, script = program, structure(program)
-        if self._desk.overrides:
+        if self._workspace.overrides:
             from desire_tui.engine.session.overrides import overridden
 
-            active = overridden(program, script, self._desk.overrides)
+            active = overridden(program, script, self._workspace.overrides)
             script = structure(active)
-        self._desk.program, self._desk.structure = active, script
-        self._journal.program(source)
+        self._workspace.program, self._workspace.structure = active, script
+        self._notebook.program(source)
         if self._listener.wants_check:
             problems = self.check(source, quick=True)  # the run itself compares the JACOBIAN it uses
         else:
@@ -183,7 +192,7 @@ class Session:
 
         for name in settings:
             parts(name)
-        self._desk.overrides = dict(settings)
+        self._workspace.overrides = dict(settings)
 
     def set_breakpoints(self, lines: Iterable[int]) -> None:
         """Stop the script before these lines (from 1) of the active program, as at a STOP.
@@ -201,9 +210,9 @@ class Session:
 
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
-        self._desk.program = self._desk.structure = None
+        self._workspace.program = self._workspace.structure = None
         self._script.forget()
-        self._world.rule = DEFAULT_RULE
+        self._host.rule = DEFAULT_RULE
 
     # ------------------------------------------------------------------ running
 
@@ -212,19 +221,19 @@ class Session:
         source = source or self._listener.front_source() or (self.program.source if self.program else None)
         if source is None:
             raise DesireError(Diagnostic("no-program"))
-        with self._journal.task("" if self._desk.overrides else "zz", lambda: self.graph):
+        with self._notebook.task("" if self._workspace.overrides else "zz", lambda: self.graph):
             self.accept(source)
-            self._world.rule = DEFAULT_RULE
+            self._host.rule = DEFAULT_RULE
             self._script.run(scale=1.0)
 
     def run(self) -> None:
         """Run the active program's script again from the top, keeping irule and scale."""
-        with self._journal.task("run", lambda: self.graph):
+        with self._notebook.task("run", lambda: self.graph):
             self._script.run(scale=self.values.cells[SCALE])
 
     def go(self) -> None:
         """Continue after STOP; error 43 if there is nothing to continue or the program was edited."""
-        with self._journal.task("go", lambda: self.graph):
+        with self._notebook.task("go", lambda: self.graph):
             self._script.go()
 
     def execute(self, text: str) -> None:
@@ -237,7 +246,7 @@ class Session:
             raise DesireError(*(p.within(source) for p in problems))
         if not statements:
             return
-        with self._journal.task(text, lambda: self.graph):
+        with self._notebook.task(text, lambda: self.graph):
             waiting: list[Placed] = []
             for placed in statements:
                 if self._commands.is_own(placed.node):
@@ -258,16 +267,16 @@ class Session:
         """Go on after `pause`."""
         self._control.resume()
 
-    def glance(self, text: str) -> str | None:
+    def evaluate_while_running(self, text: str) -> str | None:
         """Return what a command line such as `write 2*x` writes at this moment, also while a run goes on.
 
         None: it does more than write to the console, or the model is too large for that. DesireError.
         """
-        if self._desk.program is None or self._desk.structure is None:
+        if self._workspace.program is None or self._workspace.structure is None:
             return None
-        from desire_tui.engine.session.evaluate_while_running import glance
+        from desire_tui.engine.session.evaluate_while_running import evaluate_while_running
 
-        return glance(text, self._desk.program, self._desk.structure, self.values)
+        return evaluate_while_running(text, self._workspace.program, self._workspace.structure, self.values)
 
     def end(self) -> None:
         """End the run and the script; the samples stay. The waiting call raises error 301."""
@@ -286,7 +295,7 @@ class Session:
         from desire_tui.engine.outputs.picture_files import write_picture
 
         write_picture(graph, path)
-        self._journal.picture(path)
+        self._notebook.picture(path)
         return path
 
     def chart(self, name: str) -> Charted:
@@ -296,8 +305,8 @@ class Session:
         """
         from desire_tui.engine.session.quantity_plots import chart
 
-        with self._world.working():
-            return chart(self, self._world, self._desk, name)
+        with self._activity.working(State.RUNNING):
+            return chart(self._workspace, self._runs, self.graphs, name, self._listener.graph_changed)
 
     def help(self, topic: str = "") -> str:
         """Return the help page (Markdown) of a statement, function, command or error number."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
@@ -15,11 +15,13 @@ from desire_tui.engine.session.status import State
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.nodes.statements import Statement
+    from desire_tui.engine.session.activity import Activity
+    from desire_tui.engine.session.console import Console
     from desire_tui.engine.session.listener import Listener
-    from desire_tui.engine.session.script_host import ScriptHost
-    from desire_tui.engine.session.session import Session
+    from desire_tui.engine.session.runs import Runs
     from desire_tui.engine.session.workspace import Workspace
     from desire_tui.engine.source import Source
 
@@ -28,14 +30,46 @@ _OWN_WORDS = frozenset(
 )
 
 
+class ProgramControl(Protocol):
+    """What commands ask of the session as a whole."""
+
+    def erun(self) -> None:
+        """Accept the text in front and run it."""
+
+    def run(self) -> None:
+        """Run the active program's script again from the top."""
+
+    def go(self) -> None:
+        """Continue after STOP."""
+
+    def new(self) -> None:
+        """Forget the program and all quantities."""
+
+    def snapshot(self, path: Path) -> Path:
+        """Write the newest graph to a file."""
+        ...
+
+
 class SessionCommands:
     """Carries out what is no statement of a script."""
 
-    def __init__(self, session: Session, desk: Workspace, world: ScriptHost, listener: Listener) -> None:
-        self._session = session
-        self._desk = desk
-        self._world = world
+    def __init__(
+        self,
+        programs: ProgramControl,
+        workspace: Workspace,
+        listener: Listener,
+        console: Console,
+        activity: Activity,
+        runs: Runs,
+        graphs: GraphPages,
+    ) -> None:
+        self._programs = programs
+        self._workspace = workspace
         self._listener = listener
+        self._console = console
+        self._activity = activity
+        self._runs = runs
+        self._graphs = graphs
 
     def is_own(self, node: Statement) -> bool:
         """Whether a statement of a command line is carried out here rather than by the interpreter."""
@@ -71,24 +105,24 @@ class SessionCommands:
 
     def carry_out(self, word: str, argument: str | None) -> None:
         """Carry out a command by its word. DesireError 402: the front end has no such thing."""
-        session, write = self._session, self._listener.console_text
+        programs, write = self._programs, self._listener.console_text
         match word:
             case "erun":
-                session.erun()
+                programs.erun()
             case "run":
-                session.run()
+                programs.run()
             case "go":
-                session.go()
+                programs.go()
             case "list" | "list+":
                 write(self._listing(numbered=word == "list+"))
             case "dump":
-                if not session.runs:
+                if not self._runs.kept:
                     raise DesireError(Diagnostic("no-run"))
-                self._world.write(run_report(session.runs[-1]))
+                self._console.write(run_report(self._runs.kept[-1]))
             case "compare":
                 self._compare(argument)
             case "snapshot":
-                path = session.snapshot(self._file(argument or "graph.png"))
+                path = programs.snapshot(self._file(argument or "graph.png"))
                 write(f"{path}\n")
             case "notebook":
                 self._notebook(argument)
@@ -96,7 +130,7 @@ class SessionCommands:
                 write(self.help_page(argument or "") + "\n")
             case "new" | "NEW":
                 if not self._listener.command(word, argument):
-                    session.new()
+                    programs.new()
             case "bye":
                 self._listener.command(word, argument)  # without a desktop there is nothing to leave
             case "help":
@@ -118,7 +152,7 @@ class SessionCommands:
         return found.markdown
 
     def _listing(self, *, numbered: bool) -> str:
-        program = self._session.program
+        program = self._workspace.program
         if program is None:
             raise DesireError(Diagnostic("no-program"))
         text = program.source.text.rstrip("\n") + "\n"
@@ -131,28 +165,30 @@ class SessionCommands:
     def _compare(self, argument: str | None) -> None:
         change = Variation.parse(argument or "")
         try:
-            with self._world.working():
-                table = compare_runs(self._session, self._world, self._desk, change)
+            with self._activity.working(State.RUNNING):
+                table = compare_runs(
+                    self._workspace, self._runs, self._graphs, change, self._listener.graph_changed
+                )
         except Interrupted:
-            if self._world.state is State.IDLE:
+            if self._activity.state is State.IDLE:
                 raise DesireError(Diagnostic("stopped-by-user")) from None
             raise  # the script that compares ends too
-        self._world.write(table)
+        self._console.write(table)
 
     def _notebook(self, argument: str | None) -> None:
-        journal = self._desk.journal
+        notebook = self._workspace.notebook
         if argument in ("on", "off"):
-            if argument == "on" and journal.path is None:
-                journal.open(self._file("notebook.md"))
-            journal.switch(on=argument == "on")
+            if argument == "on" and notebook.path is None:
+                notebook.open(self._file("notebook.md"))
+            notebook.switch(on=argument == "on")
         else:
-            journal.open(self._file(argument or "notebook.md"))
-            if self._desk.program is not None:
-                journal.program(self._desk.source)
-        state = f"on: {journal.path}" if journal.is_on else "off"
+            notebook.open(self._file(argument or "notebook.md"))
+            if self._workspace.program is not None:
+                notebook.program(self._workspace.source)
+        state = f"on: {notebook.path}" if notebook.is_on else "off"
         self._listener.console_text(f"notebook {state}\n")
 
     def _file(self, name: str) -> Path:
         from pathlib import Path
 
-        return self._world.permit(Path(name), "write")
+        return self._workspace.permit(Path(name), "write", self._listener.permit)

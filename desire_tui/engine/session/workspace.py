@@ -1,9 +1,9 @@
-"""What lies on the desk: the active program, its folder, its compiled segments, the notebook."""
+"""A session's workspace: the active program, its folder, its compiled segments, the notebook."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.session.compiled_segments import CompiledSegments
@@ -13,7 +13,7 @@ from desire_tui.engine.values import Values
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.session.notebook import Notebook
-    from desire_tui.engine.session.permissions import Permissions
+    from desire_tui.engine.session.permissions import Ask, Permissions
     from desire_tui.engine.structure.structure import Structure
 
 _NO_SOURCE = Source("", "<none>")
@@ -23,7 +23,7 @@ class Workspace:
     """State of a session that belongs to the program rather than to a run."""
 
     def __init__(
-        self, backend: str, folder: Path | None, permissions: Permissions, journal: Notebook
+        self, backend: str, folder: Path | None, permissions: Permissions, notebook: Notebook
     ) -> None:
         self.values = Values()
         self.segments = CompiledSegments(self.values, backend)
@@ -37,7 +37,7 @@ class Workspace:
         self.breakpoints: frozenset[int] = frozenset()
         """Lines of the script (from 1) before which it stops as at a STOP."""
         self.parse_seconds = 0.0
-        self.journal = journal
+        self.notebook = notebook
         self._folder = folder
 
     @property
@@ -52,6 +52,10 @@ class Workspace:
         if path is not None:
             return path.expanduser().resolve().parent
         return self._folder if self._folder is not None else Path.cwd()
+
+    def permit(self, path: Path, mode: Literal["read", "write"], ask: Ask) -> Path:
+        """Return the resolved path if the program may open it; DesireError 451."""
+        return self.permissions.file(path, mode, self.folder, ask)
 
     @property
     def stash_path(self) -> Path:
