@@ -19,7 +19,8 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.bench_run_speed import ladder as ladder_work
-from desire_tui.engine.codegen.jit.backend import NativeBackend
+from desire_tui.engine.codegen.backend import NativeBackend
+from desire_tui.engine.codegen.compiler_state import shared_state
 from desire_tui.engine.codegen.scalar import rerolling, templates
 from desire_tui.engine.lowering import lowering_cache
 from desire_tui.engine.lowering.lowering import lower
@@ -121,7 +122,7 @@ def measure(backend: NativeBackend, program: Program) -> Attempt:
 
 def main() -> None:
     backend = NativeBackend()
-    backend.improver.add = lambda work: None  # type: ignore[method-assign]  # noqa: ARG005  # measured alone
+    shared_state().improver.add = lambda work: None  # type: ignore[method-assign]  # noqa: ARG005  # measured alone
     measure(backend, ladder(0))  # loads LLVM, the grammar's tables and the loop of rule 3
     time.sleep(4.0)  # until the other rules' loops are compiled
     columns = ("parse", "analyse", "compile", "cpu", "median", "wall", "median", "goal")

@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from desire_tui.engine.codegen.stiff.fixed_functions import fast_functions
+from desire_tui.engine.codegen.compiler_state import shared_state
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
@@ -117,7 +117,7 @@ def desire(case: Case, tol: float, rule: int, repeats: int = 200) -> Outcome:
     """Best of the runs' own times, once the fast code is in: all that `drun` does."""
     text = case.program.format(rule=rule, ermax=tol, dt=case.dt, t_end=case.t_end, repeats=repeats)
     source = Source(text, case.name)
-    fast_functions(len(case.start), own=True)
+    shared_state().routines.fast(len(case.start), own=True)
     session = Session(Listener())
     try:
         session.erun(source)

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen.jit import background, native_model
-from desire_tui.engine.codegen.jit.backend import NativeBackend
+from desire_tui.engine.codegen import native_model
+from desire_tui.engine.codegen.backend import NativeBackend
+from desire_tui.engine.codegen.jit import background
 from desire_tui.engine.reference.backend import ReferenceBackend
 from desire_tui.engine.runtime.run_memory import Ended, RunMemory
 from desire_tui.engine.session.session import Session

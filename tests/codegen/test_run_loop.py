@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen.jit.backend import NativeBackend
+from desire_tui.engine.codegen.backend import NativeBackend
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.integration.rules import rules_of
 from desire_tui.engine.lowering.lowering import lower
@@ -56,7 +56,7 @@ def test_fast_code_gives_the_same_bits_whenever_it_comes(rule, storage):
 
 @pytest.mark.parametrize("rule", RULES)
 def test_registers_and_arrays_give_the_same_bits(rule, monkeypatch):
-    from desire_tui.engine.codegen.jit import native_model as module
+    from desire_tui.engine.codegen import native_model as module
 
     found = []
     for small in (200, -1):
@@ -187,7 +187,7 @@ def test_one_line_edited_compiles_one_piece(monkeypatch):
 
 
 def test_vector_code_does_not_grow_with_the_vectors():
-    from desire_tui.engine.codegen.jit.pass_pieces import write
+    from desire_tui.engine.codegen.pieces.pass_pieces import write
     from desire_tui.engine.passes.slices import full_pass
 
     sizes = []

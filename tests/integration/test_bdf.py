@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from desire_tui.engine.codegen.stiff.fixed_functions import fast_functions
+from desire_tui.engine.codegen.compiler_state import shared_state
 from desire_tui.engine.integration.bdf import memory, newton, step
 from desire_tui.engine.integration.bdf.memory import Evaluate, Fill, Weigh
 from desire_tui.engine.integration.bdf.solver import OwnSolver
@@ -200,7 +200,7 @@ def test_native_code_for_each_number_of_states(n, fast):
         dispt u[1]
     """
     if fast:
-        fast_functions(n, own=True)
+        shared_state().routines.fast(n, own=True)
     session = Session(Listener())
     session.erun(Source(text, "chain.src"))
     matrix = 40 * (np.diag([1.0] * (n - 1), 1) + np.diag([1.0] * (n - 1), -1) - 2 * np.eye(n))

@@ -1,21 +1,23 @@
 """Lowered segments as native code (the only home of llvmlite).
 
-`NativeBackend().model(segment, rule, values)` gives a `runtime.backend.Model`. From text to machine code:
+`NativeBackend().model(segment, rule, values)` gives a `runtime.backend.Model`. What back ends share, the code
+and the threads that compile it, is one `compiler_state`. The rooms, from text to machine code:
 
     `ir`      LLVM IR as strings: a function's text as it grows, lanes, cells, the library as instructions
     `scalar`  statements and expressions over numbers
     `vector`  statements over arrays: loops over strips of elements, neighbours of one length fused
-    a pass (`passes.slices`) → `jit/pass_pieces` of 100 statements → `jit/cache` → `jit/compiler` (llvmlite)
+    `jit`     LLVM: texts compiled, kept by their digests; quick code first, fast code from `background`,
+              bitwise the same results
+    `pieces`  a pass (`passes.slices`) as functions of some dozen statements in tables of addresses
     `loop`    the run loop of language.md 8.2, written once over a `storage`, its steps fixed or variable:
               `register_storage` small models of scalars: states, parameters and passes in one function
-              `array_storage`    all others: tables of compiled pieces, one loop for all models of a rule
+              `array_storage`    all others: tables of pieces, one loop for all models of a rule
     `stiff`   rules 9 … 16: CVODE's callbacks and interval loop as native functions
-    `jit`     quick code first, fast code from `background`, bitwise the same results
 
 Loops that others drive (rules 9 … 16) take the passes as C functions:
 
-    functions = PassFunctions(backend.store, values, segment.order, passes_of(segment))
-    functions.address("derivative")   # int64 f(RunMemory *memory, double *k), see `jit/pass_functions`
+    functions = PassFunctions(compiler.code, values, segment.order, passes_of(segment))
+    functions.address("derivative")   # int64 f(RunMemory *memory, double *k), see `pieces/pass_functions`
 
 with the names `derivative`, `step`, `full`, `tail`, or any others with statements of their own (tangents,
 JACOBIAN).

@@ -23,7 +23,7 @@ def make_backend(name: str) -> Backend:
     """Return the back end; the reference one where there is no LLVM."""
     if name == "native":
         try:
-            from desire_tui.engine.codegen.jit.backend import NativeBackend
+            from desire_tui.engine.codegen.backend import NativeBackend
 
             return NativeBackend()
         except ImportError:

@@ -1,1 +1,1 @@
-"""Ir."""
+"""LLVM IR as strings: what every other room writes with."""

@@ -1,1 +1,1 @@
-"""Jit."""
+"""LLVM: texts compiled, kept, improved in the background."""

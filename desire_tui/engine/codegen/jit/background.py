@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
 import threading
 import weakref
 from contextlib import contextmanager
@@ -43,7 +42,6 @@ class Improver:
         self._thread: threading.Thread | None = None
         self._urgent = 0
         self._over = False
-        atexit.register(self._stop)
 
     def add(self, work: Improvable) -> None:
         """Take up some work."""
@@ -73,8 +71,8 @@ class Improver:
             with self._something:
                 self._urgent -= 1
 
-    def _stop(self) -> None:
-        """At the program's end: let LLVM finish what it is at, before its memory goes."""
+    def close(self) -> None:
+        """End the thread; LLVM finishes what it is at."""
         with self._something:
             self._over = True
             thread = self._thread

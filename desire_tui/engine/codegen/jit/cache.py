@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from desire_tui.engine.codegen.jit.compiler import MachineCode
-    from desire_tui.engine.codegen.jit.pass_pieces import Piece
+    from desire_tui.engine.codegen.jit.piece import Piece
 
 _KEPT_MOST = 2000
 

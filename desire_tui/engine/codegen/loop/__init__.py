@@ -1,1 +1,1 @@
-"""Loop."""
+"""The run loop of rules 0 … 8."""

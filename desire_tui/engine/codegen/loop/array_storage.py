@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.counted_loops import elementwise, fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.work_memory import context_fields, memory_fields
-from desire_tui.engine.codegen.jit.pass_functions import call_table
 from desire_tui.engine.codegen.loop.stage_sums import scaled, weighted
+from desire_tui.engine.codegen.pieces.pass_functions import call_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
-from desire_tui.engine.codegen.jit.pass_pieces import Piece
+from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
 from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
 from desire_tui.engine.codegen.loop.run_loop import Driver

@@ -8,17 +8,19 @@ from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.loop.run_loop import Driver
+    from desire_tui.engine.codegen.loop.frame import LoopFrame
     from desire_tui.engine.integration.tableaus import Tableau
 
 TOLERANCE = 1e-9
 """Relative to DT: a step end this little before a communication point is at it."""
+_CHECK_EVERY = 1024
+"""Steps between two looks for inf and nan inside a communication interval."""
 
 
 class FixedStep:
     """Writes a step of DT; where the rule lets the program set DT, a new DT begins a new count of steps."""
 
-    def __init__(self, driver: Driver, tableau: Tableau) -> None:
+    def __init__(self, driver: LoopFrame, tableau: Tableau) -> None:
         self.driver = driver
         self.tableau = tableau
 
@@ -38,7 +40,7 @@ class FixedStep:
         storage.store(T, driver.counted_time(1.0, dt))
         driver.count("k")
         driver.count("steps")
-        driver.arrived(self._reached())
+        driver.arrived(self._reached(), check_every=_CHECK_EVERY)
 
     def _reached(self) -> str:
         lanes = self.driver.lanes

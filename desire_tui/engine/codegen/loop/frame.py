@@ -80,6 +80,18 @@ class LoopFrame:
         """Return an i1: the call is to come back at the next step, faster code is there."""
         return self.text.op(f"icmp ne i64 {self.context.load('hurry', volatile=True)}, 0")
 
+    def arrived(self, reached: str, *, check_every: int) -> None:
+        """End a step; `reached`: it ended on a communication point. `check_every`: steps, a power of 2."""
+        text = self.text
+        self.put("reached", reached)
+        since = text.op(f"and i64 {self.get('steps')}, {check_every - 1}")
+        due = text.op(f"icmp eq i64 {since}, 0")
+        stop = text.op(f"icmp ne i32 {self.memory.load('stop', volatile=True)}, 0")
+        self.put("stop", stop)
+        looked = text.op(f"or i1 {due}, {stop}")
+        asked = text.op(f"or i1 {looked}, {self.hurried()}")
+        text.branch(text.op(f"or i1 {asked}, {reached}"), "attend", "again")
+
     def counted_time(self, c: float, dt: str) -> str:
         """Return t_base + (k + c)·dt."""
         lanes = self.lanes

@@ -26,9 +26,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.loop.storage import Storage
     from desire_tui.engine.integration.tableaus import Tableau
 
-_CHECK_EVERY = 1024
-"""Steps between two looks for inf and nan inside a communication interval; a power of 2."""
-
 
 class Driver(LoopFrame):
     """Writes the function `i32 @run(ptr memory, ptr context)`; `tableau` None: rule 0, no steps."""
@@ -164,19 +161,6 @@ class Driver(LoopFrame):
         self.storage.save()
         step = VariableStep if tableau.variable else FixedStep
         step(self, tableau).write()
-
-    def arrived(self, reached: str) -> None:
-        """End a step; `reached`: it ended on a communication point."""
-        text = self.text
-        self.put("reached", reached)
-        mask = 0 if self.tableau is not None and self.tableau.variable else _CHECK_EVERY - 1
-        since = text.op(f"and i64 {self.get('steps')}, {mask}")
-        due = text.op(f"icmp eq i64 {since}, 0")
-        stop = text.op(f"icmp ne i32 {self.memory.load('stop', volatile=True)}, 0")
-        self.put("stop", stop)
-        looked = text.op(f"or i1 {due}, {stop}")
-        asked = text.op(f"or i1 {looked}, {self.hurried()}")
-        text.branch(text.op(f"or i1 {asked}, {reached}"), "attend", "again")
 
     def _attend(self) -> None:
         """Write what happens where a step has ended and something is to be looked at."""

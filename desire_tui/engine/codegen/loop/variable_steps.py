@@ -9,7 +9,7 @@ from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.loop.run_loop import Driver
+    from desire_tui.engine.codegen.loop.frame import LoopFrame
     from desire_tui.engine.integration.tableaus import Tableau
 
 _TOLERANCE = 1e-9
@@ -24,7 +24,7 @@ class VariableStep:
     doubles DT up to DTMAX, unless the step was shortened for a communication point.
     """
 
-    def __init__(self, driver: Driver, tableau: Tableau) -> None:
+    def __init__(self, driver: LoopFrame, tableau: Tableau) -> None:
         self.driver = driver
         self.tableau = tableau
         self.text = driver.text
@@ -113,7 +113,7 @@ class VariableStep:
         most = driver.memory.load("dt_max")
         wider = lanes.choose(lanes.compare("olt", doubled, most), doubled, most)
         storage.store(DT, lanes.choose(grows, wider, now))
-        driver.arrived(lands)
+        driver.arrived(lands, check_every=1)
 
     def _stall(self, lands: str, moves: str, dt: str) -> None:
         """End the run if DT is not above 0, or if t has stood still for too long; `k` counts such steps.

@@ -1,1 +1,1 @@
-"""Scalar."""
+"""Statements and expressions over numbers."""

@@ -12,7 +12,7 @@ from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.jit.pass_pieces import Piece
+    from desire_tui.engine.codegen.jit.piece import Piece
     from desire_tui.engine.integration.tableaus import Tableau
 
 

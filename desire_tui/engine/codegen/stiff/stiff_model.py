@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
-from desire_tui.engine.codegen.jit.native_model import passes_of
-from desire_tui.engine.codegen.jit.pass_functions import PassFunctions
-from desire_tui.engine.codegen.jit.piece_tables import PieceTables
-from desire_tui.engine.codegen.stiff.fixed_functions import StiffFunctions, fast_functions, first_functions
+from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
+from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
+from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
@@ -33,7 +32,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.codegen.jit.backend import NativeBackend
+    from desire_tui.engine.codegen.jit.background import Improver
+    from desire_tui.engine.codegen.jit.cache import CodeCache
+    from desire_tui.engine.codegen.stiff.solver_routines import SolverRoutines, StiffFunctions
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.integration.plan import SolverPlan
     from desire_tui.engine.lowered.segment import Segment
@@ -46,7 +47,15 @@ _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
 class StiffModel:
     """Implements `runtime.backend.Model`. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
 
-    def __init__(self, backend: NativeBackend, segment: Segment, rule: int, values: Values) -> None:
+    def __init__(
+        self,
+        code: CodeCache,
+        improver: Improver,
+        routines: SolverRoutines,
+        segment: Segment,
+        rule: int,
+        values: Values,
+    ) -> None:
         self.rule, self._segment, self._values = rule, segment, values
         self._passes = passes = passes_of(segment)
         self._advised = False
@@ -57,7 +66,7 @@ class StiffModel:
         if acts_at_steps(segment):
             inner["step"] = passes["step"]
         own = frozenset({"step", "jacobian"})
-        self._functions = functions = PassFunctions(backend.store, values, segment.order, inner, own)
+        self._functions = functions = PassFunctions(code, values, segment.order, inner, own)
         addresses = {name: functions.address(name) for name in inner}
         addresses["derivatives"] = addresses.pop("derivative")
         way = _plan(segment, rule, extra)
@@ -72,19 +81,21 @@ class StiffModel:
             directions=directions,
             array=array,
         )
-        self._tables = PieceTables(backend.store, passes)
+        self._tables = PieceTables(code, passes)
         self._fill_context(segment)
+        self._routines = routines
         self._better: StiffFunctions | None = None
-        self._use(first_functions(segment.order, own=self._own))
+        self._use(routines.first(segment.order, own=self._own))
         loop = stiff_loop()  # does little between two intervals: quick code is good enough
-        self._loop = backend.store.quick([loop])[loop.name]
+        self._loop = code.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
-        self._runs, self._improver = 0, backend.improver
-        backend.improver.add(self._tables)
-        backend.improver.add(functions)
+        self._runs, self._improver = 0, improver
+        improver.add(self._tables)
+        improver.add(functions)
 
     def _use(self, natives: StiffFunctions) -> None:
         """Connect the solver's callbacks and the interval loop."""
+        self._natives = natives  # owns the code
         self.system = self._system(Natives(natives.rhs, natives.weights, natives.jacobian, self._own))
         self.context.interval = natives.own_interval if self._own else natives.interval
         self.context.problem = ctypes.addressof(self.system.problem)
@@ -106,7 +117,7 @@ class StiffModel:
 
     def improve(self) -> Iterator[None]:
         """Compile a fast solver (`background.Improvable`)."""
-        self._better = fast_functions(self._slots.size, own=self._own)
+        self._better = self._routines.fast(self._slots.size, own=self._own)
         yield
 
     def advice(self) -> tuple[Diagnostic, ...]:

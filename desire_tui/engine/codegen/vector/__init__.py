@@ -1,1 +1,1 @@
-"""Vector."""
+"""Statements over arrays."""

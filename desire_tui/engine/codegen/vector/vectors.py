@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never
 
-from desire_tui.engine.codegen.scalar.rerolled_loops import write_rolled
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
@@ -12,6 +11,7 @@ from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statemen
 from desire_tui.engine.codegen.vector.learning import write_learning
 from desire_tui.engine.codegen.vector.matrices import write_dot, write_matrix
 from desire_tui.engine.codegen.vector.operands import ArrayOperands
+from desire_tui.engine.codegen.vector.rerolled_loops import write_rolled
 from desire_tui.engine.lowered.effects import count_draws
 from desire_tui.engine.lowered.expressions import ElementOperand, ShiftedVec
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, LearningStep, Set, SetDot, SetMat, SetVec

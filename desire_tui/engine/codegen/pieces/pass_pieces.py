@@ -7,11 +7,12 @@ much as fourteen with 100. A piece is kept by its text, so a one-line edit compi
 from __future__ import annotations
 
 from hashlib import blake2b
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.cells import MemoryCells
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector.vectors import ArrayStatements
 from desire_tui.engine.lowered.walk import walk_actions
@@ -23,18 +24,6 @@ if TYPE_CHECKING:
 
 STATEMENTS_MOST = 64
 _ROLLED_WEIGHT = 8  # a loop and its rest cost about as much to compile
-
-
-class Piece(NamedTuple):
-    """A function `void NAME(ptr values, ptr derivatives, ptr context)`; its name comes from its text.
-
-    `temps`: doubles of scratch memory it wants at `Context.temps`.
-    """
-
-    name: str
-    text: str
-    needs: frozenset[str]
-    temps: int = 0
 
 
 def cut(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]]:
@@ -59,7 +48,7 @@ def _weight(action: Action | Rolled) -> int:
 
 
 def write(actions: Sequence[Action | Rolled]) -> Piece:
-    """Write one piece."""
+    """Write one piece: a function `void NAME(ptr values, ptr derivatives, ptr context)`."""
     text = IrText()
     statements = ArrayStatements(text, MemoryCells(text), machine().width)
     statements.write(actions)

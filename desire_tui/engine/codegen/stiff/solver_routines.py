@@ -1,10 +1,10 @@
-"""Makes the model-independent native functions of rules 9 … 16, once a process, some once a machine."""
+"""Makes the model-independent native routines of rules 9 … 16, once a process, some once a machine."""
 
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from ctypes import sizeof
-from functools import cache
 from hashlib import blake2b
 from importlib.resources import files
 from threading import Lock
@@ -38,7 +38,7 @@ _CALLED = (
 _SOURCES = (
     "codegen/stiff/plain_expressions.py", "codegen/stiff/plain_python.py", "codegen/stiff/steppers.py",
     "codegen/stiff/ir_builder.py",
-    "codegen/stiff/callbacks.py", "codegen/stiff/interval.py", "codegen/stiff/fixed_functions.py",
+    "codegen/stiff/callbacks.py", "codegen/stiff/interval.py", "codegen/stiff/solver_routines.py",
     "integration/bdf/choice.py", "integration/bdf/coefficients.py", "integration/bdf/memory.py",
     "integration/bdf/newton.py", "integration/bdf/start.py", "integration/bdf/step.py",
     "integration/problem.py", "runtime/run_memory.py",
@@ -50,6 +50,8 @@ _TEXTS = {name: (files("desire_tui.engine") / name).read_bytes() for name in _SO
 
 _ANY = 0
 """In place of a number of states: code for all."""
+_FAST = 1
+"""Level of optimisation of what goes with CVODE: level 2 gains nothing there."""
 LARGE = 200
 """More states than this are worth 0.1 s of optimisation; fewer get quick code after 0.02 s."""
 
@@ -67,67 +69,69 @@ class StiffFunctions(NamedTuple):
     keep: Any
 
 
-def first_functions(n: int, *, own: bool) -> StiffFunctions:
-    """Return what a run can start with at once: fast code if there is some, else quick code."""
-    if own:
-        return _kept(n) or _quick(own=True)
-    return _fast() if n > LARGE else _quick(own=False)
+class SolverRoutines:
+    """Made when they are wanted, then kept."""
+
+    def __init__(self) -> None:
+        self._connected = False
+        self._cvode: dict[int, StiffFunctions] = {}
+        """By level of optimisation."""
+        self._own: dict[int, StiffFunctions] = {}
+        """By number of states."""
+        self._locks = defaultdict[int, Lock](Lock)
+        """By level: several sessions may ask for the same, and quick code does not wait for fast code."""
+
+    def first(self, n: int, *, own: bool) -> StiffFunctions:
+        """Return what a run can start with at once: fast code if there is some, else quick code."""
+        if not own:
+            return self._with_cvode(_FAST if n > LARGE else 0)
+        # Writing our solver as IR takes 0.1 s, which every program with one run would pay
+        return self._kept(n) or self._kept(_ANY) or self._make_own(_ANY, level=0)
+
+    def fast(self, n: int, *, own: bool) -> StiffFunctions:
+        """Compile the fastest code for n states (0.1 s; our solver, for just this n, 1 s once a machine)."""
+        if not own:
+            return self._with_cvode(_FAST)
+        return self._kept(n) or self._make_own(n, level=2)
+
+    def _with_cvode(self, level: int) -> StiffFunctions:
+        self._connect()
+        with self._locks[level]:
+            if level not in self._cvode:
+                self._cvode[level] = _found(compile_text(str(_module(own=False)), level=level), own=False)
+            return self._cvode[level]
+
+    def _make_own(self, n: int, *, level: int) -> StiffFunctions:
+        """Compile our solver for n states, `_ANY` number of them."""
+        self._connect()
+        with self._locks[level]:
+            if n not in self._own:
+                text = str(_module(own=True, n=n))
+                code = compile_and_keep(text, _name(n), level=level, vectorize=level > 0)
+                self._own[n] = _found(code, own=True)
+            return self._own[n]
+
+    def _kept(self, n: int) -> StiffFunctions | None:
+        """Return our solver's fast code for n states if this process or another one has made it."""
+        if n not in self._own:
+            self._connect()
+            code = kept_code(_name(n))
+            if code is None:
+                return None
+            self._own.setdefault(n, _found(code, own=True))
+        return self._own[n]
+
+    def _connect(self) -> None:
+        """Tell LLVM where CVODE's functions are. DesireError 460, 461: no SUNDIALS."""
+        if self._connected:
+            return
+        cvode = libraries().cvode
+        llvm = machine().llvm
+        for name in _CALLED:
+            llvm.add_symbol(name, address(cvode, name))
+        self._connected = True
 
 
-def fast_functions(n: int, *, own: bool) -> StiffFunctions:
-    """Compile the fastest code for n states (0.1 s; our solver, for just this n, 1 s once a machine)."""
-    if not own:
-        return _fast()
-    with _compiling:
-        found = _kept(n)
-        if found is None:
-            code = compile_and_keep(str(_module(own=True, n=n)), _name(n), level=2, vectorize=True)
-            found = _known.setdefault(n, _found(code, own=True))
-        return found
-
-
-@cache
-def _quick(*, own: bool) -> StiffFunctions:
-    if not own:
-        return _found(compile_text(str(_module(own=False)), level=0), own=False)
-    # Writing our solver as IR takes 0.1 s, which every program with one run would pay
-    return _kept(_ANY) or _found(
-        compile_and_keep(str(_module(own=True)), _name(_ANY), level=0, vectorize=False), own=True
-    )
-
-
-@cache
-def _fast() -> StiffFunctions:
-    return _found(compile_text(str(_module(own=False)), level=1), own=False)  # level 2 gains nothing here
-
-
-_known: dict[int, StiffFunctions] = {}
-"""Never replaced: models use the code without holding it."""
-_compiling = Lock()
-"""Several sessions may ask for the same, each from its own thread."""
-
-
-def _kept(n: int) -> StiffFunctions | None:
-    """Return our solver's fast code for n states if this process or another one has made it."""
-    if n not in _known:
-        _connect()
-        code = kept_code(_name(n))
-        if code is None:
-            return None
-        _known.setdefault(n, _found(code, own=True))
-    return _known[n]
-
-
-@cache
-def _connect() -> None:
-    """Tell LLVM where CVODE's functions are. DesireError 460, 461: no SUNDIALS."""
-    cvode = libraries().cvode
-    llvm = machine().llvm
-    for name in _CALLED:
-        llvm.add_symbol(name, address(cvode, name))
-
-
-@cache
 def _name(n: int) -> str:
     layouts = repr(
         [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory))]
@@ -138,7 +142,6 @@ def _name(n: int) -> str:
 
 def _module(*, own: bool, n: int = _ANY) -> ir.Module:
     """Write callbacks and interval loops; `own`: with our solver, for n states only if that is not `_ANY`."""
-    _connect()
     module = ir.Module("stiff")
     add_callbacks(module)
     add_gather(module)

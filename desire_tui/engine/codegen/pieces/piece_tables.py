@@ -6,14 +6,14 @@ import ctypes
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.jit.compiler import machine
-from desire_tui.engine.codegen.jit.pass_pieces import cut, write
+from desire_tui.engine.codegen.pieces.pass_pieces import cut, write
 from desire_tui.engine.codegen.scalar.rerolling import roll
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from desire_tui.engine.codegen.jit.cache import CodeCache
-    from desire_tui.engine.codegen.jit.pass_pieces import Piece
+    from desire_tui.engine.codegen.jit.piece import Piece
     from desire_tui.engine.codegen.scalar.rerolling import Rolled
     from desire_tui.engine.lowered.statements import Action
 

@@ -8,22 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
-from desire_tui.engine.codegen.jit.piece_tables import PieceTables
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
+from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
+from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.scalar.slot_usage import survey
-from desire_tui.engine.lowered.statements import Deriv
-from desire_tui.engine.passes.final_sample import holds_term
-from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, RunMemory
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from desire_tui.engine.codegen.jit.backend import NativeBackend
-    from desire_tui.engine.codegen.jit.cache import Compiled
+    from desire_tui.engine.codegen.jit.background import Improver
+    from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.values import Values
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
@@ -45,8 +42,10 @@ class NativeModel:
     everything in registers. All compute the same bits: none reassociates, contracts or replaces anything.
     """
 
-    def __init__(self, backend: NativeBackend, segment: Segment, rule: int, values: Values) -> None:
-        self._store = backend.store
+    def __init__(
+        self, code: CodeCache, improver: Improver, segment: Segment, rule: int, values: Values
+    ) -> None:
+        self._store = code
         self._segment = segment
         self._rule = rule
         self._values = values
@@ -64,7 +63,7 @@ class NativeModel:
         self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
         self.improved = False
-        backend.improver.add(self)
+        improver.add(self)
 
     # ------------------------------------------------------------------ making
 
@@ -124,19 +123,6 @@ class NativeModel:
         if ended is Ended.NOT_FINITE:
             memory.which = first_not_finite(self._values.data, self._states, self._columns)
         return ended
-
-
-def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:
-    """Return the statements of each of the four passes."""
-    if all(type(action) is Deriv for action in segment.body):
-        return dict.fromkeys(("derivative", "step", "full"), segment.body) | {"tail": ()}
-    return {
-        "derivative": derivative_slice(segment),
-        "step": step_slice(segment),
-        "full": full_pass(segment),
-        # made only after a `term` has fired
-        "tail": final_sample_pass(segment) if holds_term(segment.body) else (),
-    }
 
 
 def _state_slots(segment: Segment) -> np.ndarray[tuple[int], np.dtype[np.int64]]:

@@ -10,8 +10,8 @@ import numpy as np
 
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.ir.work_memory import WorkMemory, context_fields
-from desire_tui.engine.codegen.jit.pass_pieces import Piece
-from desire_tui.engine.codegen.jit.piece_tables import PieceTables
+from desire_tui.engine.codegen.jit.piece import Piece
+from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -27,7 +27,7 @@ class PassFunctions:
     A function runs the pass with t, states and everything else where they stand in the values, and returns 0,
     or 1 + the number of the `term` that fired. Derivatives go to `k` (`order` numbers) or, for those named in
     `own`, whose second argument is not looked at, to `self.k1`. Addresses stay valid, and faster code comes
-    into use behind them, as long as this object lives; hand it to `NativeBackend.improver.add` for that.
+    into use behind them, as long as this object lives; hand it to `Improver.add` for that.
     """
 
     def __init__(

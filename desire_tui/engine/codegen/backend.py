@@ -1,0 +1,56 @@
+"""Makes models out of lowered segments."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
+from desire_tui.engine.codegen.native_model import NativeModel
+from desire_tui.engine.gc_pause import undisturbed_allocation
+from desire_tui.engine.integration.rules import rule_numbered
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.runtime.backend import Model
+    from desire_tui.engine.values import Values
+
+_MODELS_MOST = 32
+
+
+class NativeBackend:
+    """Native code through LLVM, for all rules.
+
+    LLVM is loaded in a thread that starts with the first back end: it is there when somebody types `zz`.
+    """
+
+    name = "native"
+
+    def __init__(self, compiler: CompilerState | None = None) -> None:
+        self._compiler = compiler or shared_state()
+        self._models: OrderedDict[tuple[int, int, int], tuple[Segment, Values, Model]] = OrderedDict()
+
+    def model(self, segment: Segment, rule: int, values: Values) -> Model:
+        """Prepare `segment` for integration rule `rule`; the same segment again costs nothing."""
+        improver = self._compiler.improver
+        key = (id(segment), rule, id(values))
+        known = self._models.get(key)
+        if known is not None:
+            self._models.move_to_end(key)
+            if isinstance(known[2], NativeModel):
+                improver.again(known[2])
+            return known[2]
+        with improver.held(), undisturbed_allocation:
+            made = self._make(segment, rule, values)
+        self._models[key] = (segment, values, made)  # the key's ids stay taken as long as these live
+        while len(self._models) > _MODELS_MOST:
+            self._models.popitem(last=False)
+        return made
+
+    def _make(self, segment: Segment, rule: int, values: Values) -> Model:
+        code, improver = self._compiler.code, self._compiler.improver
+        if rule_numbered(rule).kind == "multistep" and segment.order:
+            from desire_tui.engine.codegen.stiff.stiff_model import StiffModel
+
+            return StiffModel(code, improver, self._compiler.routines, segment, rule, values)
+        return NativeModel(code, improver, segment, rule, values)

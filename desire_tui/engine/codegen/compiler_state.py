@@ -1,0 +1,78 @@
+"""What native back ends share: compiled code, and the threads that make it until the process ends."""
+
+from __future__ import annotations
+
+import atexit
+import functools
+import threading
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.jit.background import Improver
+from desire_tui.engine.codegen.jit.cache import CodeCache
+from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.loop.compiled_loops import array_loop
+from desire_tui.engine.integration.rules import MOST_USED_FIRST
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.stiff.solver_routines import SolverRoutines
+
+_SETTLED_SECONDS = 0.4
+"""A process that lives longer than this may run more programs: a headless run is over by then."""
+_END_SECONDS = 1.0
+_MAKING = threading.Lock()
+
+
+class CompilerState:
+    """One for all sessions of a process (`shared_state`): code depends on nothing but its text.
+
+    A session that is to share nothing may own one; who makes it closes it. LLVM itself and its symbols
+    (`jit.compiler.machine`) are always the process's.
+    """
+
+    def __init__(self) -> None:
+        self.code = CodeCache()
+        self.improver = Improver()
+        self._routines: SolverRoutines | None = None
+        self._lock = threading.Lock()
+        self._ending = threading.Event()
+        self._warming = threading.Thread(target=self._warm_up, name="desire starts LLVM", daemon=True)
+        self._warming.start()
+        atexit.register(self.close)
+
+    @property
+    def routines(self) -> SolverRoutines:
+        """Return the native solver of rules 9 … 16, whose modules are imported by the first who wants it."""
+        from desire_tui.engine.codegen.stiff.solver_routines import SolverRoutines
+
+        with self._lock:
+            if self._routines is None:
+                self._routines = SolverRoutines()
+            return self._routines
+
+    def close(self) -> None:
+        """End the threads, LLVM's work under way first: its memory goes with the process."""
+        atexit.unregister(self.close)
+        self._ending.set()
+        self.improver.close()
+        self._warming.join(_END_SECONDS)
+
+    def _warm_up(self) -> None:
+        """Load LLVM; later compile every rule's loop, so that the next program need not."""
+        machine()
+        if self._ending.wait(_SETTLED_SECONDS):
+            return
+        for rule in MOST_USED_FIRST:
+            if self._ending.is_set():
+                return
+            self.code.quick([array_loop(rule, contiguous=True)])
+
+
+def shared_state() -> CompilerState:
+    """Return the state that sessions share; the first call starts to load LLVM in a thread."""
+    with _MAKING:
+        return _shared_state()
+
+
+@functools.cache
+def _shared_state() -> CompilerState:
+    return CompilerState()

@@ -1,0 +1,1 @@
+"""Passes cut into functions of a few dozen statements, and tables of their addresses."""

@@ -1,0 +1,26 @@
+"""Which statements each of a segment's four passes holds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered.statements import Deriv
+from desire_tui.engine.passes.final_sample import holds_term
+from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
+
+
+def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:
+    """Return the statements of each of the four passes."""
+    if all(type(action) is Deriv for action in segment.body):
+        return dict.fromkeys(("derivative", "step", "full"), segment.body) | {"tail": ()}
+    return {
+        "derivative": derivative_slice(segment),
+        "step": step_slice(segment),
+        "full": full_pass(segment),
+        # made only after a `term` has fired
+        "tail": final_sample_pass(segment) if holds_term(segment.body) else (),
+    }
