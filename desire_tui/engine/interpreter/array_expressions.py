@@ -6,34 +6,46 @@ one too, and two vectors multiply element by element. Scalars multiply and add e
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, assert_never
 
 import numpy as np
 
 from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.interpreter.array_shapes import ArrayShapes
 from desire_tui.engine.interpreter.elementwise import (
     ELEMENTS_AT_ONCE,
     ElementwiseExpressions,
-    Shapes,
     by_elements,
 )
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.interruptible import patiently
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.library import LIBRARY, integer_power, power
-from desire_tui.engine.nodes.expressions import Binary, Call, Name, Shifted, Transposed, Unary
+from desire_tui.engine.nodes.expressions import (
+    Binary,
+    Call,
+    Element,
+    Name,
+    Number,
+    Pair,
+    RowOf,
+    Shifted,
+    Text,
+    Transposed,
+    Unary,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
+    from desire_tui.engine.interpreter.elementwise import Evaluator
     from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.record import Node
     from desire_tui.engine.values import Quantity
 
-    Evaluator = Callable[[], Any]
 
 _SINGULAR = 1e-15
 """A matrix whose reciprocal condition number (1-norm) is below this is called singular."""
@@ -45,8 +57,8 @@ class ArrayExpressions:
     def __init__(self, site: Site, *, true_products: bool) -> None:
         self._site = site
         self._true_products = true_products
-        self._shapes = Shapes(site, true_products=true_products)
-        self._elements = ElementwiseExpressions(site, self._shapes, self)
+        self._shapes = ArrayShapes(site.scope, true_products=true_products)
+        self._elements = ElementwiseExpressions(site, self._shapes, self.evaluator)
 
     def assigned(self, node: Expr, shape: tuple[int, ...]) -> Evaluator:
         """Return a function that evaluates what is assigned to an array of this shape.
@@ -83,7 +95,9 @@ class ArrayExpressions:
                 return self._chain(node) if node.op in OPERATORS else self._power(node)
             case Call():
                 return self._call(node)
-        raise ScriptFault("not-in-array-expression", node)
+            case Number() | Text() | Element() | Pair() | RowOf():
+                raise ScriptFault("not-in-array-expression", node)
+        assert_never(node)
 
     def _matrix(self, node: Expr) -> Quantity:
         quantity = self._site.array(node)
@@ -191,7 +205,7 @@ class ArrayExpressions:
 
     def _own_function(self, node: Call, args: list[Evaluator]) -> Evaluator:
         """Apply the program's FUNCTION to each element, from the last to the first as random draws go."""
-        function, wanted = self._site.machine.functions.of_elements(node, self._site.scope)
+        function, wanted = self._site.machine.functions.of_elements(node, self._site.translator)
         used = [arg for arg, is_wanted in zip(args, wanted, strict=True) if is_wanted]
 
         def evaluate() -> Any:

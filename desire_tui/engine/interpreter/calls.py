@@ -17,19 +17,18 @@ from desire_tui.engine.values import Kind
 if TYPE_CHECKING:
     import ast
 
-    from desire_tui.engine.interpreter.compile_python import PythonCompiler
-    from desire_tui.engine.interpreter.expression_translation import Translator
+    from desire_tui.engine.interpreter.scalar_translator import ScalarTranslator
     from desire_tui.engine.interpreter.user_functions import UserFunctions
     from desire_tui.engine.nodes.expressions import Call, Expr
     from desire_tui.engine.values import Quantity
 
 
 class CallTranslator:
-    """Translates calls for a `Translator`."""
+    """Translates calls for the translator of an expression."""
 
-    def __init__(self, translator: Translator, build: PythonCompiler, functions: UserFunctions) -> None:
+    def __init__(self, translator: ScalarTranslator, functions: UserFunctions) -> None:
         self.translator = translator
-        self.build = build
+        self.build = translator.build
         self.functions = functions
 
     def call(self, node: Call) -> Typed:

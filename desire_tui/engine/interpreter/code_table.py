@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, NoReturn
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.interpreter.expression_translation import Translator
+    from desire_tui.engine.interpreter.expression_translation import ExpressionTranslator
     from desire_tui.engine.interpreter.name_resolution import NameScope
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
@@ -44,7 +44,7 @@ class ScriptCode:
 
     text: StatementList
     scope: NameScope
-    translator: Translator
+    translator: ExpressionTranslator
     first: int
     last: int
     base: int
@@ -69,7 +69,7 @@ class Codes:
         self,
         text: StatementList,
         scope: NameScope,
-        translator: Translator,
+        translator: ExpressionTranslator,
         first: int,
         last: int,
         *,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -11,9 +10,8 @@ from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
 from desire_tui.engine.interpreter.entries import Entries
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
+from desire_tui.engine.interpreter.statement_context import Site
 from desire_tui.engine.nodes.expressions import Name
-from desire_tui.engine.nodes.files import Data, Input, Read, Restore
-from desire_tui.engine.nodes.signs import literal
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -21,59 +19,21 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.machine import ScriptMachine
-    from desire_tui.engine.interpreter.statement_context import Site
-    from desire_tui.engine.nodes.expressions import Target
+    from desire_tui.engine.nodes.expressions import Expr, Target
+    from desire_tui.engine.nodes.files import Input, Read, Restore
 
     Store = Callable[[complex], None]
 
 
-class DataList:
-    """All `data` items of a script, and the next one to be read."""
-
-    def __init__(self, machine: ScriptMachine) -> None:
-        self._machine = machine
-        self._code = machine.script
-        self._places = machine.structure.data
-        self._list = 0
-        self._item = 0
-        self._evaluators: dict[tuple[int, int], Callable[[], complex]] = {}
-
-    def forget(self) -> None:
-        """Forget how items are evaluated: all names were cleared."""
-        self._evaluators.clear()
-
-    def rewind(self, place: int = 0) -> None:
-        """Go on with the first list at or behind this place of the script."""
-        self._list, self._item = bisect_left(self._places, place), 0
-
-    def next(self) -> complex:
-        """Return the next item's value, evaluated now; error 51 if there is none."""
-        while self._list < len(self._places):
-            place = self._places[self._list]
-            node = self._code.text.placed[place].node
-            assert isinstance(node, Data)
-            if self._item < len(node.items):
-                self._item += 1
-                value = literal(node.items[self._item - 1])
-                return value if value is not None else self._evaluate(place, self._item - 1)
-            self._list, self._item = self._list + 1, 0
-        raise ScriptFault("out-of-data")
-
-    def _evaluate(self, place: int, item: int) -> complex:
-        from desire_tui.engine.interpreter.statement_context import Site
-
-        known = self._evaluators.get((place, item))
-        if known is None:
-            site = Site(self._machine, self._code, place)
-            assert isinstance(site.node, Data)
-            try:
-                known = site.value(site.node.items[item])[0]
-            except ScriptFault as fault:
-                if fault.placed is None:
-                    fault.placed, fault.source = site.placed, self._code.text.source
-                raise
-            self._evaluators[place, item] = known
-        return known()
+def data_item(machine: ScriptMachine, place: int, node: Expr) -> Callable[[], complex]:
+    """Return the function that evaluates an item of the `data` statement at a place of the script."""
+    site = Site(machine, machine.script, place)
+    try:
+        return site.value(node)[0]
+    except ScriptFault as fault:
+        if fault.placed is None:
+            fault.placed, fault.source = site.placed, site.code.text.source
+        raise
 
 
 def read(site: Site, node: Read) -> Operation:

@@ -6,84 +6,54 @@ element of each, called for the last element first: the order of draws in DYNAMI
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, assert_never
 
 import numpy as np
 
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.expression_translation import Translator
 from desire_tui.engine.interpreter.name_resolution import Local, Meaning
 from desire_tui.engine.interpreter.user_functions import NUMBERS_OF_TABLE_FUNCTIONS, is_used_as_array
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.nodes.declarations import Function
-from desire_tui.engine.nodes.expressions import Binary, Call, Element, Name, RowOf, Shifted, Transposed, Unary
+from desire_tui.engine.nodes.expressions import (
+    Binary,
+    Call,
+    Element,
+    Name,
+    Number,
+    Pair,
+    RowOf,
+    Shifted,
+    Text,
+    Transposed,
+    Unary,
+)
 from desire_tui.engine.nodes.signs import literal
 from desire_tui.engine.random_sequence import DRAWS
-from desire_tui.engine.values import Kind, Quantity
+from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
 
-    from desire_tui.engine.interpreter.array_expressions import ArrayExpressions, Evaluator
+    from desire_tui.engine.interpreter.array_shapes import ArrayShapes, Shape
     from desire_tui.engine.interpreter.statement_context import Site
     from desire_tui.engine.nodes.expressions import Expr
 
-    Shape = tuple[int, ...]
+    Evaluator = Callable[[], Any]
 
 ELEMENTS_AT_ONCE = 10_000
 """Elements that a function is applied to before the user is let in."""
 
 
-class Shapes:
-    """Shapes of array expressions, as far as the declarations tell: `()` for numbers."""
-
-    def __init__(self, site: Site, *, true_products: bool) -> None:
-        self._site = site
-        self._true_products = true_products
-
-    def of(self, node: Expr) -> Shape:
-        """Return an expression's shape, that of its first array where shapes do not fit."""
-        match node:
-            case Name(name) | Transposed(name) | Shifted(name) | RowOf(name):
-                meaning = self._site.scope.find(name)
-                shape = meaning.shape if isinstance(meaning, Quantity) else ()
-                return shape if isinstance(node, Name) else shape[::-1] or (0,)
-            case Unary(_, operand):
-                return self.of(operand)
-            case Binary(op="^"):
-                return self.of(node.left) or self.of(node.right)
-            case Binary():
-                first, steps = chain(node)
-                shape = self.of(first)
-                for step in steps:
-                    shape = self._joined(step.op, shape, self.of(step.right))
-                return shape
-            case Call(name, args):
-                shapes = [self.of(arg) for arg in args[: NUMBERS_OF_TABLE_FUNCTIONS.get(name, len(args))]]
-                shape = next(filter(None, shapes), ())
-                return shape[::-1] if name == "$Tr" else shape
-        return ()
-
-    def _joined(self, op: str, left: Shape, right: Shape) -> Shape:
-        if not (left and right):
-            return left or right
-        if op == "&" or (op == "*" and len(left) == len(right) == 1 and self._true_products):
-            return left + right
-        return left[:-1] + right[1:] if self.is_product(op, left, right) else left
-
-    def is_product(self, op: str, left: Shape, right: Shape) -> bool:
-        """Whether an operation between such shapes is not one between elements."""
-        if not (left and right):
-            return False
-        return op == "&" or (op == "*" and (self._true_products or len(left) != 1 or len(right) != 1))
-
-
 class ElementwiseExpressions:
-    """Makes evaluators of expressions whose elements are worked out one by one."""
+    """Makes evaluators of expressions whose elements are worked out one by one.
 
-    def __init__(self, site: Site, shapes: Shapes, arrays: ArrayExpressions) -> None:
-        self._site, self._shapes, self._arrays = site, shapes, arrays
+    `evaluator` makes those of the parts that are evaluated as whole arrays.
+    """
+
+    def __init__(self, site: Site, shapes: ArrayShapes, evaluator: Callable[[Expr], Evaluator]) -> None:
+        self._site, self._shapes, self._whole_evaluator = site, shapes, evaluator
 
     def needed(self, node: Expr) -> bool:
         """Whether an expression draws, or looks up an array's elements in a table."""
@@ -109,7 +79,9 @@ class ElementwiseExpressions:
             case Binary():
                 first, steps = chain(node) if node.op in OPERATORS else (node.left, [node])
                 return any(self._special(part, within) for part in (first, *(step.right for step in steps)))
-        return False
+            case Number() | Text() | Name() | Transposed() | Shifted() | RowOf() | Pair():
+                return False
+        assert_never(node)
 
     def is_whole(self, node: Expr) -> bool:
         """Whether an expression is no operation between elements: a true product, an inverse."""
@@ -123,7 +95,7 @@ class ElementwiseExpressions:
         wholes: list[Evaluator] = []
         dummies: dict[str, Meaning] = dict(site.scope.dummies)
         of_elements = self._of_elements(node, wholes, dummies)
-        translator = Translator(site.scope.inner(dummies), site.machine.build, site.machine.functions)
+        translator = site.translator.within(site.scope.inner(dummies))
         code, kind = translator.expression(of_elements)
         if kind is Kind.COMPLEX:
             raise ScriptFault("complex-not-possible", node)
@@ -149,7 +121,7 @@ class ElementwiseExpressions:
         if self.is_whole(node) or not self.needed(node):
             name = f" {len(wholes)}"  # no name of the user's
             dummies[name] = Local(f"p{len(wholes)}", Kind.REAL)
-            wholes.append(self._arrays.evaluator(node))
+            wholes.append(self._whole_evaluator(node))
             return Name(name, node.start, node.end)
         match node:
             case Unary(op, operand):
@@ -163,7 +135,9 @@ class ElementwiseExpressions:
                     for place, arg in enumerate(args)
                 ]
                 return Call(name, tuple(elements), node.start, node.end)
-        return node
+            case Number() | Text() | Name() | Element() | Transposed() | Shifted() | RowOf() | Pair():
+                return node
+        assert_never(node)
 
     def _passed_by_name(self, name: str, count: int) -> Collection[int]:
         """Return which arguments of a call are arrays as such: tables, and what a FUNCTION uses as one."""

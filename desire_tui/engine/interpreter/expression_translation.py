@@ -8,13 +8,14 @@ names are cleared, so generated code need not ask again. The place of each node 
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.calls import CallTranslator
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.name_resolution import Local, NameScope, Reference
 from desire_tui.engine.interpreter.python_ast import Typed, at
+from desire_tui.engine.interpreter.scalar_translator import ScalarTranslator
 from desire_tui.engine.interpreter.subscripts import element_slot
 from desire_tui.engine.left_chains import LONG, PIECE, chain, is_long
 from desire_tui.engine.nodes.expressions import (
@@ -27,6 +28,10 @@ from desire_tui.engine.nodes.expressions import (
     Number,
     Pair,
     Relation,
+    RowOf,
+    Shifted,
+    Text,
+    Transposed,
     Unary,
 )
 from desire_tui.engine.nodes.signs import whole_literal
@@ -40,46 +45,22 @@ if TYPE_CHECKING:
 
 _ARITHMETIC: dict[str, ast.operator] = {"+": py.ADD, "-": py.SUBTRACT, "*": py.MULTIPLY, "/": py.DIVIDE}
 _RELATIONS: dict[str, ast.cmpop] = {
-    "=": ast.Eq(), "<": ast.Lt(), ">": ast.Gt(), "<=": ast.LtE(), ">=": ast.GtE(), "<>": ast.NotEq(),
+    "=": py.EQUAL, "<": ast.Lt(), ">": ast.Gt(), "<=": ast.LtE(), ">=": ast.GtE(), "<>": ast.NotEq(),
 }  # fmt: skip
 _WHOLE_POWER_LIMIT = 1 << 31
 
 
-class Translator:
+class ExpressionTranslator(ScalarTranslator):
     """Translates within one scope."""
 
     def __init__(self, scope: NameScope, build: PythonCompiler, functions: UserFunctions) -> None:
-        self.scope = scope
-        self.build = build
-        self.calls = CallTranslator(self, build, functions)
+        super().__init__(scope, build)
+        self._functions = functions
+        self._calls = CallTranslator(self, functions)
 
-    def real(self, node: Expr) -> ast.expr:
-        """Translate an expression that must be real; error 84 for a COMPLEX one."""
-        code, kind = self.finite(node)
-        if kind is Kind.COMPLEX:
-            raise ScriptFault("complex-not-possible", node)
-        return code
-
-    def finite(self, node: Expr) -> Typed:
-        """Translate an expression whose value goes where an infinite one would vanish; error 3 then.
-
-        Divisors, arguments and relations are such places: `1/(x*y)` must not be 0 because x*y is too large.
-        """
-        code, kind = self.expression(node)
-        if not self._may_overflow(node):
-            return Typed(code, kind)
-        value = self.build.fresh("v")
-        difference = py.binary(py.named(value, code), py.SUBTRACT, py.load(value))  # 0 but for inf and nan
-        fits = py.compare(difference, [_RELATIONS["="]], [py.number(0.0)])
-        return Typed(py.choice(fits, py.load(value), at(py.call("overflow"), node)), kind)
-
-    def _may_overflow(self, node: Expr) -> bool:
-        match node:
-            case Unary(_, operand):
-                return self._may_overflow(operand)
-            case Call(name):
-                return name in self.calls.functions.definitions
-        return isinstance(node, Binary)
+    def within(self, scope: NameScope) -> ExpressionTranslator:
+        """Return a translator of the same program within another scope."""
+        return ExpressionTranslator(scope, self.build, self._functions)
 
     def expression(self, node: Expr) -> Typed:
         """Translate an expression."""
@@ -100,8 +81,10 @@ class Translator:
             case Pair(re, im):
                 return Typed(at(py.call("complex", self.real(re), self.real(im)), node), Kind.COMPLEX)
             case Call():
-                return self.calls.call(node)
-        raise ScriptFault("not-in-scalar-expression", node)
+                return self._calls.call(node)
+            case Text() | Transposed() | Shifted() | RowOf():
+                raise ScriptFault("not-in-scalar-expression", node)
+        assert_never(node)
 
     def condition(self, node: Condition) -> ast.expr:
         """Translate a condition; `and` and `or` stop as soon as the answer is known."""

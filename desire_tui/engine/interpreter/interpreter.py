@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NoReturn
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.channels import Channels
 from desire_tui.engine.interpreter.code_table import StatementList
-from desire_tui.engine.interpreter.data_and_input import DataList
+from desire_tui.engine.interpreter.data_and_input import data_item
 from desire_tui.engine.interpreter.machine import ScriptMachine
 from desire_tui.engine.interpreter.statements import make
 from desire_tui.engine.source import Source
@@ -33,9 +33,8 @@ class Interpreter:
     def __init__(self, program: Program, structure: Structure, values: Values, host: Host) -> None:
         self.program = program
         self.structure = structure
-        self._machine = ScriptMachine(values, host, program, structure, make)
-        self.channels = self._machine.channels = Channels(host)
-        self._machine.data = DataList(self._machine)
+        self.channels = Channels(host)
+        self._machine = ScriptMachine(values, host, self.channels, program, structure, make, data_item)
 
     @property
     def stepping(self) -> bool:

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, NoReturn
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.code_table import Codes, Finished, Operation, ScriptCode, StatementList
 from desire_tui.engine.interpreter.compile_python import PythonCompiler
+from desire_tui.engine.interpreter.data_list import DataList
 from desire_tui.engine.interpreter.exception_mapping import Origins, ScriptFault, explain
-from desire_tui.engine.interpreter.expression_translation import Translator
+from desire_tui.engine.interpreter.expression_translation import ExpressionTranslator
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.interpreter.name_resolution import NameScope
 from desire_tui.engine.interpreter.run_count import runs_ahead
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.interpreter.channels import Channels
-    from desire_tui.engine.interpreter.data_and_input import DataList
     from desire_tui.engine.interpreter.host import Host
+    from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.source import Source
     from desire_tui.engine.structure.structure import Structure
@@ -53,21 +54,25 @@ class Stop:
 
 
 class ScriptMachine:
-    """Runs code over values; `make` turns the statement at a place into an operation."""
+    """Runs code over values.
 
-    channels: Channels
-    data: DataList
+    `make` turns the statement at a place into an operation, `data_item` an item of a `data` statement into
+    the function that evaluates it.
+    """
 
     def __init__(
         self,
         values: Values,
         host: Host,
+        channels: Channels,
         program: Program,
         structure: Structure,
         make: Callable[[ScriptMachine, ScriptCode, int], Operation],
+        data_item: Callable[[ScriptMachine, int, Expr], Callable[[], complex]],
     ) -> None:
         self.values = values
         self.host = host
+        self.channels = channels
         self.structure = structure
         self.origins = Origins()
         self.build = PythonCompiler(values, self.origins)
@@ -76,6 +81,7 @@ class ScriptMachine:
         self.scope = NameScope(values, functions, structure.procedures)
         self.functions = UserFunctions(functions, self.scope, self.build, program.source)
         self.codes = Codes(partial(make, self), self._halt)
+        self.data = DataList(program.script, structure.data, partial(data_item, self))
         self.procedures: dict[tuple[object, ...], ScriptCode] = {}
         text = StatementList(program.script, structure, program.source)
         self.script = self.link(text, self.scope, 0, len(program.script))
@@ -101,7 +107,7 @@ class ScriptMachine:
         is_command: bool = False,
     ) -> ScriptCode:
         """Add statements `first` … `last - 1` of a text to the operations."""
-        translator = Translator(scope, self.build, self.functions)
+        translator = ExpressionTranslator(scope, self.build, self.functions)
         return self.codes.link(text, scope, translator, first, last, is_command=is_command)
 
     def forget(self) -> None:

@@ -20,7 +20,7 @@ _P: dict[str, Any] = {"lineno": 1, "col_offset": 0, "end_lineno": 1, "end_col_of
 
 ADD, SUBTRACT, MULTIPLY, DIVIDE = ast.Add(), ast.Sub(), ast.Mult(), ast.Div()
 NOT, MINUS = ast.Not(), ast.USub()
-AT_MOST = ast.LtE()
+AT_MOST, EQUAL = ast.LtE(), ast.Eq()
 
 
 class Typed(NamedTuple):

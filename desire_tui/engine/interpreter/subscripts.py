@@ -14,12 +14,12 @@ from desire_tui.engine.values import Kind
 if TYPE_CHECKING:
     import ast
 
-    from desire_tui.engine.interpreter.expression_translation import Translator
+    from desire_tui.engine.interpreter.scalar_translator import ScalarTranslator
     from desire_tui.engine.nodes.expressions import Element, Expr
     from desire_tui.engine.values import Quantity
 
 
-def element_slot(translator: Translator, node: Element, quantity: Quantity) -> ast.expr:
+def element_slot(translator: ScalarTranslator, node: Element, quantity: Quantity) -> ast.expr:
     """Return code for an element's slot: a constant where all subscripts are number literals."""
     if len(node.subscripts) != len(quantity.shape):
         facts = {"name": node.name, "given": len(node.subscripts), "needed": len(quantity.shape)}
@@ -50,7 +50,7 @@ def _checked(node: Number, size: int, place: int) -> int:
     return int(node.value)
 
 
-def _subscript(translator: Translator, node: Expr, size: int, place: int) -> ast.expr:
+def _subscript(translator: ScalarTranslator, node: Expr, size: int, place: int) -> ast.expr:
     """`int(v) if 1 <= (v := …) <= size else bad_subscript(v, size, place)`."""
     variable = translator.build.fresh("s")
     value = py.named(variable, translator.real(node))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.interpreter.compile_python import PythonCompiler
-    from desire_tui.engine.interpreter.expression_translation import Translator
+    from desire_tui.engine.interpreter.scalar_translator import ScalarTranslator
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
@@ -54,7 +54,7 @@ class UserFunctions:
         """Forget compiled code: all names were cleared, or a FUNCTION was defined anew."""
         self._compiled.clear()
 
-    def call(self, node: Call, translator: Translator) -> Typed:
+    def call(self, node: Call, translator: ScalarTranslator) -> Typed:
         """Translate a call; error 56 for a wrong number of arguments, 52 for recursion."""
         definition, placed = self._definition(node)
         args: list[ast.expr] = []
@@ -67,10 +67,12 @@ class UserFunctions:
             code, kind = translator.finite(argument)
             args.append(code)
             meanings.append(Local(f"p{number}", kind))
-        name, kind = self._function(definition, placed, meanings)
+        name, kind = self._function(definition, placed, meanings, translator)
         return Typed(at(py.call(name, *args), node), kind)
 
-    def of_elements(self, node: Call, scope: NameScope) -> tuple[Callable[..., float], list[bool]]:
+    def of_elements(
+        self, node: Call, translator: ScalarTranslator
+    ) -> tuple[Callable[..., float], list[bool]]:
         """Return a FUNCTION of real numbers, for calls element by element, and which arguments it wants.
 
         Where its body uses a dummy as an array, that array belongs to the function and is no argument.
@@ -79,9 +81,11 @@ class UserFunctions:
         definition, placed = self._definition(node)
         meanings: list[Meaning] = []
         for number, (argument, dummy) in enumerate(zip(node.args, definition.dummies, strict=True)):
-            whole = _whole_array(argument, scope) if is_used_as_array(dummy, definition.body) else None
+            whole = (
+                _whole_array(argument, translator.scope) if is_used_as_array(dummy, definition.body) else None
+            )
             meanings.append(whole if whole is not None else Local(f"p{number}", Kind.REAL))
-        name, kind = self._function(definition, placed, meanings)
+        name, kind = self._function(definition, placed, meanings, translator)
         if kind is Kind.COMPLEX:
             raise ScriptFault("complex-not-possible", node)
         made: Callable[..., float] = self._build.names[name]
@@ -98,9 +102,9 @@ class UserFunctions:
             raise ScriptFault("script-function-recursion", node, name=node.name)
         return definition, placed
 
-    def _function(self, definition: Function, placed: Placed, meanings: list[Meaning]) -> tuple[str, Kind]:
-        from desire_tui.engine.interpreter.expression_translation import Translator
-
+    def _function(
+        self, definition: Function, placed: Placed, meanings: list[Meaning], translator: ScalarTranslator
+    ) -> tuple[str, Kind]:
         key = (definition.name, *(m.kind if isinstance(m, Local) else m for m in meanings))
         known = self._compiled.get(key)
         if known is not None:
@@ -109,7 +113,7 @@ class UserFunctions:
         source = self._sources[definition.name]
         self._open.append(definition.name)
         try:
-            code, kind = Translator(scope, self._build, self).expression(definition.body)
+            code, kind = translator.within(scope).expression(definition.body)
         except ScriptFault as fault:
             if fault.placed is None:
                 fault.placed, fault.source = placed, source
