@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -98,3 +99,34 @@ def test_the_originals_error_numbers_are_those_of_the_messages():
     messages = (ROOT / "docs" / "errors.md").read_text(encoding="utf-8")
     used = {int(number) for number in re.findall(r"^### error (\d+)", messages, re.MULTILINE)}
     assert listed - {int(number) for number in re.findall(r"\d+", unused)} == {n for n in used if n < 400}
+
+
+def test_the_guards_of_the_invariants_are_there():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    rows = [row for row in text.splitlines() if row.startswith("| ")]
+    paths = set(re.findall(r"`((?:tests|docs|desire_tui|\.github)/[\w./-]+)`", text))
+    assert len(paths) > 20
+    assert {path for path in paths if not (ROOT / path).exists()} == set()
+    assert [row for row in rows if "---" not in row and "guarded by" not in row and "`" not in row] == []
+
+
+def test_python_versions_agree():
+    """What pyproject.toml promises is what hosted CI runs, and the oldest is what the tools check against."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    prefix = "Programming Language :: Python :: "
+    promised = [c.removeprefix(prefix) for c in project["project"]["classifiers"] if c.startswith(prefix)]
+    workflow = (ROOT / ".github" / "workflows" / "check.yml").read_text(encoding="utf-8")
+    (matrix,) = re.findall(r"python: \[(.*)\]", workflow)
+    assert re.findall(r"[\d.]+", matrix) == promised
+    oldest = promised[0]
+    assert project["project"]["requires-python"] == f">={oldest}"
+    assert project["tool"]["mypy"]["python_version"] == oldest
+    assert project["tool"]["ruff"]["target-version"] == f"py{oldest.replace('.', '')}"
+
+
+def test_every_dependency_says_what_it_is_for():
+    lines = (
+        (ROOT / "pyproject.toml").read_text(encoding="utf-8").partition("\ndependencies = [")[2].splitlines()
+    )
+    end = lines.index("[project.scripts]")
+    assert [line for line in lines[:end] if re.match(r'    "', line) and "# " not in line] == []
