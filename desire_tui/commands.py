@@ -188,10 +188,18 @@ def parse_line(line: str) -> tuple[Command, str] | None:
         word, rest = word[:cut], word[cut:] + " " + rest
     command = BY_WORD.get(word)
     rest = rest.strip()
-    if command is None or "|" in rest or rest[:1] in {"=", "[", "("}:
+    if command is None or rest[:1] in {"=", "[", "("} or _has_several_statements(line):
         return None
     if rest and not command.argument:
         return None
     if len(rest) >= 2 and rest[0] in "'\"" and rest[-1] == rest[0]:
         rest = rest[1:-1]
     return command, rest
+
+
+def _has_several_statements(line: str) -> bool:
+    if "|" not in line:
+        return False
+    from desire_tui.engine.syntax.tokens import scan
+
+    return len(scan(line).chunks) > 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from desire_tui.actions import Controller
 from desire_tui.common import config
+from desire_tui.common.line_tokens import first_word
 from desire_tui.common.paths import config_file
 from desire_tui.editor.buffer import Buffer
 
@@ -21,7 +22,7 @@ class HelpActions(Controller):
             if not argument and (marks := app.editor.front.marks.problems.get(row)):
                 argument = str(marks[0].code)
         elif not argument and focused is app.command.prompt:
-            argument = app.command.prompt.value.split(" ")[0]
+            argument = first_word(app.command.prompt.value)
         app.open_side("help")
         app.help_pane.show_topic(argument)
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import inspect
-import re
 from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.actions import Controller
 from desire_tui.commands import REFERENCE_WORDS, Command, parse_line
+from desire_tui.common.line_tokens import listed_names
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.status import State
 from desire_tui.panes.value_summary import value_text
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from desire_tui.app import DesireApp
 
-_NAMES = re.compile(r"[A-Za-z][\w$]*(?:\s*[,;]\s*[A-Za-z][\w$]*)*\s*$")
 DURING_A_RUN = "During a run names and write show values. Ctrl+C pauses, Space Enter ends it."
 
 
@@ -113,7 +112,7 @@ class CommandLine(Controller):
     def _during_a_run(self, line: str) -> None:
         """Show values of names, and what only writes; anything else has to wait for the end of the run."""
         self._echo(line)
-        names = re.findall(r"[A-Za-z][\w$]*", line) if _NAMES.match(line.strip()) else []
+        names = listed_names(line)
         session, console = self.app.session, self.app.command.console
         values = session.values
         found = [quantity for name in names if (quantity := values.find(name)) is not None]

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 from textual.geometry import Offset
 
 from desire_tui.common.completion_hook import TypingAid
+from desire_tui.common.line_tokens import word_before
 from desire_tui.editor.code_area import CodeArea
-from desire_tui.editor.completion import OFFERED_MAX, around, is_complete, offers, prefix_of
+from desire_tui.editor.completion import OFFERED_MAX, around, is_complete, offers
 from desire_tui.panes.prompt import Prompt
 
 if TYPE_CHECKING:
@@ -111,7 +112,7 @@ class Completer(TypingAid):
             return
         line, column = _here(target)
         in_a_word = line[column : column + 1].isalnum()
-        if in_a_word or len(prefix_of(line, column)) < self._app.settings.completion_after:
+        if in_a_word or len(word_before(line, column)) < self._app.settings.completion_after:
             self.close()
             return
         self._by_hand = False
@@ -123,14 +124,14 @@ class Completer(TypingAid):
     def _show(self, target: Target) -> int:
         """Open the list; returns how many words it offers."""
         line, column = _here(target)
-        prefix = prefix_of(line, column)
+        prefix = word_before(line, column)
         command = isinstance(target, Prompt)
         area = self._app.editor.front if command else target
         assert isinstance(area, CodeArea)
-        texts, known = [around(area.document.lines, area.cursor_location[0])], self._known()
+        lines, known = around(area.document.lines, area.cursor_location[0]), self._known()
         typed_itself = 0 if command else 1
-        self._complete = is_complete(prefix, texts, known, commands=command, itself=typed_itself)
-        found = offers(prefix, texts, known, commands=command, complete=self._complete)
+        self._complete = is_complete(prefix, lines, known, commands=command, itself=typed_itself)
+        found = offers(prefix, lines, known, commands=command, complete=self._complete)
         if len(found) == 1 and self._complete:
             found = []
         self._target, self._start, self._is_cut = target, _word_start(target), len(found) == OFFERED_MAX
@@ -139,7 +140,7 @@ class Completer(TypingAid):
 
     def _narrow(self, target: Target) -> None:
         """Leave the words in the open list that still fit; close it if none does."""
-        prefix = prefix_of(*_here(target))
+        prefix = word_before(*_here(target))
         same_word = target is self._target and _word_start(target) == self._start
         if not same_word or not prefix.startswith(self._popup.prefix) or not self._popup.prefix:
             self.close()
@@ -156,7 +157,7 @@ class Completer(TypingAid):
         """Whether the list was made for what stands before the cursor now."""
         return (
             target is self._target
-            and prefix_of(*_here(target)) == self._popup.prefix
+            and word_before(*_here(target)) == self._popup.prefix
             and _word_start(target) == self._start
         )
 
@@ -210,4 +211,4 @@ def _here(target: Target) -> tuple[str, int]:
 def _word_start(target: Target) -> tuple[int, int]:
     line, column = _here(target)
     row = target.cursor_location[0] if isinstance(target, CodeArea) else 0
-    return row, column - len(prefix_of(line, column))
+    return row, column - len(word_before(line, column))

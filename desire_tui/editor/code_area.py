@@ -9,6 +9,7 @@ from textual.message import Message
 from textual.widgets.text_area import Selection
 
 from desire_tui.common.completion_hook import TypingAid
+from desire_tui.common.line_tokens import word_at
 from desire_tui.editor import indent
 from desire_tui.editor.program_view import ProgramView
 
@@ -183,10 +184,4 @@ class CodeArea(ProgramView):
     def word_at_cursor(self) -> str:
         """Return the name or word the cursor is on or just behind, or an empty text."""
         row, column = self.cursor_location
-        line = self.document.get_line(row)
-        start, end = column, column
-        while start > 0 and (line[start - 1].isalnum() or line[start - 1] in "_$/"):
-            start -= 1
-        while end < len(line) and (line[end].isalnum() or line[end] in "_$/"):
-            end += 1
-        return line[start:end].strip("/")
+        return word_at(self.document.get_line(row), column)

@@ -8,13 +8,11 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from desire_tui.commands import COMMANDS
+from desire_tui.common.line_tokens import words_in
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-_WORD = re.compile(r"[A-Za-z][A-Za-z0-9_$]*")
-_TAIL = re.compile(r"(?<![A-Za-z0-9_$.])(?:d/[A-Za-z]*|[A-Za-z][A-Za-z0-9_$]*)$")
-"""`d/dt` is the one word with a stroke; what follows a digit or a point is a number's exponent."""
 _TYPED = re.compile(r"d/[A-Za-z]*|[A-Za-z][A-Za-z0-9_$]*")
 OFFERED_MAX = 60
 LINES_SEARCHED, LINE_SEARCHED = 2000, 1000
@@ -31,24 +29,15 @@ class Offer:
     about: str
 
 
-def prefix_of(line: str, column: int) -> str:
-    """Return the beginning of a word that stands before the column; empty inside a comment or a string."""
-    before = line[:column]
-    if "--" in before or before.count("'") % 2 or before.count('"') % 2:
-        return ""
-    found = _TAIL.search(before)
-    return found.group() if found else ""
-
-
-def around(lines: Sequence[str], row: int) -> str:
+def around(lines: Sequence[str], row: int) -> list[str]:
     """Return the lines around a row, as many as are searched for names."""
     top, bottom = max(0, row - LINES_SEARCHED), row + LINES_SEARCHED
-    return "\n".join(line[:LINE_SEARCHED] for line in lines[top:bottom])
+    return [line[:LINE_SEARCHED] for line in lines[top:bottom]]
 
 
 def offers(
     prefix: str,
-    texts: Iterable[str],
+    lines: Iterable[str],
     known: Mapping[str, str],
     *,
     commands: bool = False,
@@ -58,14 +47,13 @@ def offers(
 
     Capitals as typed come before others, the program's names before the language's, words that it uses
     already before the rest, short ones before long ones.
-    `texts` are programs whose names count, `known` are names with a line about each (quantities with their
-    values); with `commands` the command line's words are offered too.
+    `lines` are those of a program whose names count, `known` are names with a line about each (quantities
+    with their values); with `commands` the command line's words are offered too.
     """
     about = _words(commands=commands)
     own: dict[str, str] = dict(known)
-    for text in texts:
-        for word in _names(text):
-            own.setdefault(word, "")
+    for word in _words_like(prefix, lines):
+        own.setdefault(word, "")
     found = [
         Offer(word, about.get(word) or own[word] or OWN_NAME)
         for word in {**about, **own}
@@ -83,24 +71,22 @@ def offers(
 
 
 def is_complete(
-    word: str, texts: Iterable[str], known: Mapping[str, str], *, commands: bool = False, itself: int = 1
+    word: str, lines: Iterable[str], known: Mapping[str, str], *, commands: bool = False, itself: int = 1
 ) -> bool:
-    """Whether a word is one already: the language's, a quantity, or in the texts beyond `itself` times."""
+    """Whether a word is one already: the language's, a quantity, or in the lines beyond `itself` times."""
     if word in known or word in _words(commands=commands):
         return True
-    return sum(name == word for text in texts for name in _names(text)) > itself
+    return sum(name == word for name in _words_like(word, lines)) > itself
 
 
 def _fits(prefix: str, word: str) -> bool:
     return word != prefix and word.casefold().startswith(prefix.casefold())
 
 
-def _names(text: str) -> list[str]:
-    return _WORD.findall(_without_comments(text))
-
-
-def _without_comments(text: str) -> str:
-    return re.sub(r"--.*|'[^'\n]*'|\"[^\"\n]*\"", "", text)
+def _words_like(prefix: str, lines: Iterable[str]) -> Iterator[str]:
+    """Yield the words of those lines that can hold one with that beginning."""
+    folded = prefix.casefold()
+    return (word for line in lines if folded in line.casefold() for word in words_in(line))
 
 
 @cache

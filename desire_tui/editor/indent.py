@@ -4,27 +4,42 @@ from __future__ import annotations
 
 import re
 
+from desire_tui.common.line_tokens import tokens_of
+
 WIDTH = 2
 """Blanks a level."""
 
-_OPENS = re.compile(r"\s*(for|while|repeat|PROCEDURE|SUBMODEL|MACRO)\b(?!\s*=)")
-_THEN = re.compile(r"\s*if\b(?!\s*=).*\bthen\s*(--.*)?$")
-_ELSE = re.compile(r"\s*else\s*(--.*)?$")
-_CLOSES = re.compile(r"\s*(next|until|end|proceed|else)\b(?!\s*=)")
-_CLOSED = re.compile(r"\|\s*(next|until|end while|end|proceed)\b")
+OPENING = frozenset({"for", "while", "repeat", "PROCEDURE", "SUBMODEL"})
+CLOSING = frozenset({"next", "until", "end", "end if", "end while", "proceed"})
+"""First words of statements; `else` closes a block and opens another."""
 COMMENT = re.compile(r"^(\s*)--\s?")
+
+
+def _first_words(line: str) -> list[str]:
+    """Return the kind of each statement's first token: a keyword in its main spelling, `NAME` for a name."""
+    return [statement[0].kind for statement in tokens_of(line).statements if statement]
+
+
+def opens(line: str) -> bool:
+    """Whether a block begins in the line that does not end in it."""
+    words = _first_words(line)
+    if not words or CLOSING.intersection(words[1:]):
+        return False
+    if words[0] == "if":
+        return tokens_of(line).statements[-1][-1].kind == "then"
+    return words[0] in OPENING or words == ["else"]
+
+
+def closes(line: str) -> bool:
+    """Whether the line ends a block, so that it belongs one level further left."""
+    words = _first_words(line)
+    return bool(words) and (words[0] in CLOSING or words[0] == "else")
 
 
 def indent_after(line: str) -> str:
     """Return the blanks that a line after this one starts with."""
     blanks = line[: len(line) - len(line.lstrip())]
-    opens = _OPENS.match(line) or _THEN.match(line) or _ELSE.match(line)
-    return blanks + " " * WIDTH if opens and not _CLOSED.search(line) else blanks
-
-
-def closes(line: str) -> bool:
-    """Whether the line ends a block, so that it belongs one level further left."""
-    return _CLOSES.match(line) is not None
+    return blanks + " " * WIDTH if opens(line) else blanks
 
 
 def closing_indent(lines: list[str], row: int) -> str | None:
@@ -32,11 +47,14 @@ def closing_indent(lines: list[str], row: int) -> str | None:
     depth = 0
     for at in range(row - 1, -1, -1):
         line = lines[at]
-        if _CLOSED.search(line):
+        words = _first_words(line)
+        if CLOSING.intersection(words[1:]):
             continue
-        if closes(line) and not _ELSE.match(line):
+        if words[:1] == ["else"]:
+            continue
+        if closes(line):
             depth += 1
-        elif _OPENS.match(line) or _THEN.match(line):
+        elif opens(line):
             if depth == 0:
                 return line[: len(line) - len(line.lstrip())]
             depth -= 1

@@ -38,6 +38,8 @@ def test_ids_and_words_and_keys_are_unique():
         ("run = 3", None),
         ("line[3] = 2", None),
         ("zz | write x", None),
+        ("find 'a|b'", ("edit.find", "a|b")),
+        ("find a|b", None),
         ("write x", None),
         ("go to 100", None),
         ("", None),

@@ -12,8 +12,9 @@ from textual.events import AppFocus
 
 from desire_tui.actions.file_actions import numbered
 from desire_tui.common.dialogs import Choice
+from desire_tui.common.line_tokens import word_before
 from desire_tui.editor import indent
-from desire_tui.editor.completion import offers, prefix_of
+from desire_tui.editor.completion import offers
 from desire_tui.editor.highlighting import LineHighlights
 
 from .conftest import OSCILLATOR, desktop
@@ -35,10 +36,35 @@ if TYPE_CHECKING:
         ("for = 3", 0),
         ("x = 1", 0),
         ("  else -- otherwise", 4),
+        ("if name = 'then'", 0),
+        ("write 'if x then'", 0),
+        ("if a = '|next' then -- | next", 2),
+        ("while x > 0 -- | end while", 2),
+        ("next[2] = 3", 0),
+        ("for[1] = 2", 0),
+        ("repeat$ = 1", 0),
+        ("10 repeat", 2),
+        ("MACRO m(x)", 2),
     ],
 )
 def test_indent_after(line: str, blanks: int):
     assert indent.indent_after(line) == " " * blanks
+
+
+@pytest.mark.parametrize(
+    ("text", "blanks"),
+    [
+        ("  for i = 1 to 3\n    x = i\n    next", 2),
+        ("for i = 1 to 3\n  if i > 1 then\n    x = i\n  else x = 2\n    proceed", 2),
+        ("  while x\n    next[1] = 2\n    write 'for'\n    -- for ever\n    end while", 2),
+        ("if x then\n  write '| next'\n  proceed", 0),
+        ("x = 1\nnext", None),
+    ],
+)
+def test_a_closing_line_stands_below_its_opener(text: str, blanks: int | None):
+    lines = text.split("\n")
+    found = indent.closing_indent(lines, len(lines) - 1)
+    assert found == (None if blanks is None else " " * blanks)
 
 
 @given(st.lists(st.text("ab=-| 'é\t", max_size=12), min_size=1, max_size=5))
@@ -57,15 +83,15 @@ def test_numbered_lines():
 
 def test_completion_offers_own_names_functions_and_statements():
     text = "omega = 2\n-- comment_word\nwrite 'string_word'"
-    words = {offer.word: offer.about for offer in offers("om", [text], {})}
+    words = {offer.word: offer.about for offer in offers("om", text.split("\n"), {})}
     assert "omega" in words
-    assert not {o.word for o in offers("comment_w", [text], {})}
-    assert not {o.word for o in offers("string_w", [text], {})}
+    assert not {o.word for o in offers("comment_w", text.split("\n"), {})}
+    assert not {o.word for o in offers("string_w", text.split("\n"), {})}
     found = {offer.word: offer.about for offer in offers("si", [], {})}
     assert "sine" in found["sin"]
     assert "dispt" in {o.word for o in offers("disp", [], {})}
     assert "zz" in {o.word for o in offers("z", [], {}, commands=True)}
-    assert offers("om", [text], {"omega": "= 2"})[0].about == "= 2"
+    assert offers("om", text.split("\n"), {"omega": "= 2"})[0].about == "= 2"
 
 
 def test_the_likeliest_completion_comes_first():
@@ -79,9 +105,9 @@ def test_the_likeliest_completion_comes_first():
 
 
 def test_no_completion_inside_comments_and_strings():
-    assert prefix_of("x = sig", 7) == "sig"
-    assert prefix_of("-- sig", 6) == ""
-    assert prefix_of("write 'sig", 10) == ""
+    assert word_before("x = sig", 7) == "sig"
+    assert word_before("-- sig", 6) == ""
+    assert word_before("write 'sig", 10) == ""
 
 
 def test_highlight_ranges_are_bytes():

@@ -10,7 +10,8 @@ import pytest
 from textual import events
 from textual.keys import _character_to_key
 
-from desire_tui.editor.completion import around, is_complete, offers, prefix_of
+from desire_tui.common.line_tokens import word_before
+from desire_tui.editor.completion import around, is_complete, offers
 
 from .conftest import desktop
 
@@ -53,18 +54,21 @@ async def seen(desk: Desktop) -> None:
     ("line", "prefix"),
     [
         ("x = sig", "sig"), ("-- sig", ""), ("write 'sig", ""), ("x = 1E10", ""), ("x = 2.5e", ""), ("d/d", "d/d"),
-        ("y = a/sig", "sig"), ("y2 = a1", "a1"), ("x = ", ""), ("x$i", "x$i"),
+        ("y = a/sig", "sig"), ("y2 = a1", "a1"), ("x = ", ""), ("x$i", "x$i"), ("write 'a--b', om", "om"),
+        ('write "it\'s "; om', "om"), ("x = 1 -- it's om", ""), ("y = d/sig", "sig"), ("Vectr d/d", "d/d"),
+        ("help dis", "dis"), ("10 x = sig", "sig"), ("write ‘sig", ""), ("x = 1 | sig", "sig"), ("x = a$", "a$"),
+        ("end whi", "whi"), ("end while", "while"), ("keep+", ""),
     ],
 )  # fmt: skip
 def test_the_word_before_the_cursor(line: str, prefix: str):
-    assert prefix_of(line, len(line)) == prefix
+    assert word_before(line, len(line)) == prefix
 
 
 def test_a_word_is_complete_if_it_stands_elsewhere_or_belongs_to_the_language():
-    text = "omega = 1\nome"
-    assert not is_complete("ome", [text], {})
-    assert is_complete("ome", [text + "\nome = 2"], {})
-    assert is_complete("omega", [text + "\nomega"], {})
+    lines = ["omega = 1", "ome"]
+    assert not is_complete("ome", lines, {})
+    assert is_complete("ome", [*lines, "ome = 2"], {})
+    assert is_complete("omega", [*lines, "omega"], {})
     assert is_complete("sin", ["sin"], {})
     assert is_complete("kappa", ["kappa"], {"kappa": "= 2"})
     assert not is_complete("zz", ["zz"], {})
@@ -80,8 +84,8 @@ def test_a_complete_word_comes_first_with_its_help():
 
 def test_names_far_away_in_a_long_program_cost_nothing():
     lines = [f"y{n} = 1" for n in range(10_000)]
-    assert "y5000 " in around(lines, 5000)
-    assert "y1 " not in around(lines, 5000)
+    assert "y5000 = 1" in around(lines, 5000)
+    assert "y1 = 1" not in around(lines, 5000)
 
 
 # ---------------------------------------------------------------------------------------------- on screen
