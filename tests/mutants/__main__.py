@@ -1,6 +1,6 @@
 """`make mutants`: put each deliberate fault of the table into a copy of the tree and see whether a test fails.
 
-    python -m tests.mutants [--jobs N] [words of the faults wanted …]
+    python -m tests.mutants [--jobs N] [--first] [words of the faults wanted …]
 
 The tests that should see a fault are run first, then all others of its room (`anchors.ROOM_TESTS`). What survives
 them is a place that no test guards; all survivors are listed at the end.
@@ -97,7 +97,7 @@ def run_tests(tree: Path, targets: Sequence[str]) -> str:
     return failed[0] if failed else f"pytest's end with {ran.returncode}"
 
 
-def try_mutant(mutant: Mutant, trees: Trees) -> Result:
+def try_mutant(mutant: Mutant, trees: Trees, *, first: bool) -> Result:
     """Put a fault in, run tests until one fails, take it out again."""
     began = time.perf_counter()
     tree = trees.mine()
@@ -105,17 +105,17 @@ def try_mutant(mutant: Mutant, trees: Trees) -> Result:
     sound = path.read_text(encoding="utf-8")
     path.write_text(text, encoding="utf-8")
     try:
-        seen = run_tests(tree, mutant.tests)
+        seen = run_tests(tree, mutant.first if first and mutant.first else mutant.tests)
     finally:
         path.write_text(sound, encoding="utf-8")
     return Result(mutant, seen, time.perf_counter() - began)
 
 
-def results(wanted: Sequence[Mutant], jobs: int) -> Iterator[Result]:
+def results(wanted: Sequence[Mutant], jobs: int, *, first: bool) -> Iterator[Result]:
     """Try faults, several at a time."""
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
         trees = Trees(Path(folder))
-        yield from pool.map(lambda mutant: try_mutant(mutant, trees), wanted)
+        yield from pool.map(lambda mutant: try_mutant(mutant, trees, first=first), wanted)
 
 
 def report(line: str) -> None:
@@ -131,12 +131,15 @@ def main() -> None:
     )
     parser.add_argument("words", nargs="*", help="only faults whose titles hold one of these words")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument(
+        "--first", action="store_true", help="only the tests that should see a fault, not its room's"
+    )
     options = parser.parse_args()
     words = options.words
     wanted = [m for m in MUTANTS if not words or any(word in m.title for word in words)]
     began = time.perf_counter()
     survivors = []
-    for number, result in enumerate(results(wanted, options.jobs), 1):
+    for number, result in enumerate(results(wanted, options.jobs, first=options.first), 1):
         how = f"seen by {result.seen}" if result.seen else "SURVIVED"
         report(f"{number:3} {result.seconds:5.0f} s  {result.mutant.title}\n{'':12}{how}")
         if not result.seen:

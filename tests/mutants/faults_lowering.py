@@ -37,11 +37,6 @@ LOWERING = (
         "ranges.touches(slot, 1)",
         *program("dynamic/rule_2_and_5", "dynamic/dt_between_runs"),
     ),
-    _fault(
-        'made.mode == "add" or (isinstance(made, SetMat) and made.mask_slot is not None)',
-        'made.mode == "add"',
-        *program("vectors/masked_matrix_keeps"),
-    ),
     _fault("early[at] < slot + count", "early[at] < slot", "tests/lowering/test_lowering.py"),
     _fault(
         "if not self.set_ranges.covers(slot, count):",

@@ -11,7 +11,7 @@ def _fault(old: str, new: str, *first: str) -> Mutant:
 
 PASSES = (
     # which statements a pass executes
-    _fault('if comm or action.kind == "if":', "if True:", "tests/passes/test_slices.py"),
+    _fault('if comm or action.kind == "if":', "if True:", *program("dynamic/last_of_thinned")),
 Mutant(
         "lowered",
         'return "step" if action.per_step else "point"',
@@ -32,6 +32,12 @@ Mutant(
         "action.persistent or count_draws(*expressions(action))",
         "count_draws(*expressions(action))",
         ("tests/passes/test_slices.py",),
+    ),
+    Mutant(
+        "lowered",
+        "or (action.mask_slot is not None and isinstance(action, SetMat))",
+        "",
+        ("tests/passes/test_pattern_of_masks.py",),
     ),
     # the last sample
     _fault('(role(action) == "definition" and id(action) not in computed)', 'role(action) == "definition"', *program("dynamic/output_lag"), *program("dynamic/term_and_relay")),

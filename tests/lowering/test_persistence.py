@@ -1,0 +1,63 @@
+"""Which assignments are carried out in every pass, where arrays, their elements and their views meet."""
+
+from __future__ import annotations
+
+import pytest
+
+from desire_tui.engine.lowered.segment import StateRange
+from desire_tui.engine.lowered.statements import Set, SetVec
+from desire_tui.engine.lowering.states import StateTable
+from tests.lowering.programs import segment
+
+
+def persistent(body, **arrays):
+    """Whether each assignment of a segment persists, in order."""
+    lowered, _ = segment(body, **arrays)
+    return [action.persistent for action in lowered.body if isinstance(action, Set | SetVec)]
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("Vector a = 1\nDOT s = a*1", [False]),
+        ("a[1] = 1\ny = a[1]", [False, False]),
+        ("y = a[1]\na[1] = 1", [False, True]),
+        ("y = a[2]\na[1] = 1", [False, False]),
+        ("DOT s = a*1\na[3] = 1", [True]),
+        ("a[1] = 1\nDOT s = a*1", [True]),  # of three numbers one is set: the others are those of before
+        ("y = a[3]\nVector a = 1", [False, True]),
+        ("y = a[1]\nVector a = 1", [False, True]),
+        ("y = b[1]\nVector a = 1", [False, False]),
+        ("Vector a = 1\ny = a[3]", [False, False]),
+    ],
+)
+def test_elements_and_whole_vectors(body, expected):
+    assert persistent(body, a=(3,), b=(3,)) == expected
+
+
+def test_a_range_of_states_stands_where_its_first_line_stands():
+    """`d/dt v[2]`, `d/dt z`, `Vectr d/dt v`: v is named by its longest line and numbered by its first."""
+    lines = [
+        StateRange("v[2]", 11, 0, 1, None),
+        StateRange("z", 5, 1, 1, None),
+        StateRange("v", 10, 2, 3, None),
+    ]
+    table = StateTable(lines)
+    assert [(r.name, r.slot, r.first, r.count) for r in table.ranges] == [("v", 10, 0, 3), ("z", 5, 3, 1)]
+    assert [table.number(slot) for slot in (10, 11, 12, 5, 13, 9)] == [0, 1, 2, 3, None, None]
+
+
+def test_a_short_view_inside_a_long_one_ends_nothing():
+    """Ranges 10 … 19, 12 … 13 and 18 … 21: one range of twelve."""
+    spans = [("a", 10, 10), ("b", 12, 2), ("c", 18, 4)]
+    table = StateTable(
+        [StateRange(name, slot, i, count, None) for i, (name, slot, count) in enumerate(spans)]
+    )
+    assert [(r.slot, r.count) for r in table.ranges] == [(10, 12)]
+
+
+def test_subscripts_are_truncated():
+    """language.md 3: 2.7 is element 2, of a matrix too; they are evaluated once."""
+    lowered, values = segment("y = a[2.7]\nz = W[1.9, k]", a=(3,), W=(2, 3), k=2.999)
+    a, w = values.find("a").slot, values.find("W").slot
+    assert [action.value.slot for action in lowered.body] == [a + 1, w + 1]
