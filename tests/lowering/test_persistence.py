@@ -6,6 +6,7 @@ import pytest
 
 from desire_tui.engine.lowered.segment import StateRange
 from desire_tui.engine.lowered.statements import Set, SetVec
+from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.lowering.states import StateTable
 from tests.lowering.programs import segment
 
@@ -13,7 +14,7 @@ from tests.lowering.programs import segment
 def persistent(body, **arrays):
     """Whether each assignment of a segment persists, in order."""
     lowered, _ = segment(body, **arrays)
-    return [action.persistent for action in lowered.body if isinstance(action, Set | SetVec)]
+    return [action.persistent for action in walk_actions(lowered.body) if isinstance(action, Set | SetVec)]
 
 
 @pytest.mark.parametrize(
@@ -29,6 +30,13 @@ def persistent(body, **arrays):
         ("y = a[1]\nVector a = 1", [False, True]),
         ("y = b[1]\nVector a = 1", [False, False]),
         ("Vector a = 1\ny = a[3]", [False, False]),
+        # what only one branch sets may be that of a pass before
+        ("if t\nVector a = 1\nelse\nVector b = 1\nend if\nDOT s = a*1", [True, False]),
+        ("if t\nVector b = 1\nelse\nVector a = 1\nend if\nDOT s = a*1", [False, True]),
+        ("if t\nVector a = 1\nelse\nVector a = 2\nend if\nDOT s = a*1", [False, False]),
+        ("if t\na[1] = 1\nelse\nb[1] = 1\nend if\ny = a[1]", [True, False, False]),
+        ("if t\nb[1] = 1\nelse\na[1] = 1\nend if\ny = a[1]", [False, True, False]),
+        ("if t\na[1] = 1\nelse\na[1] = 2\nend if\ny = a[1]", [False, False, False]),
     ],
 )
 def test_elements_and_whole_vectors(body, expected):

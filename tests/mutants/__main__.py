@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tests.mutants.anchors import ROOT, with_fault
+from tests.mutants.anchors import ROOT, place_of, with_fault
 from tests.mutants.table import MUTANTS
 
 if TYPE_CHECKING:
@@ -137,6 +137,8 @@ def main() -> None:
     options = parser.parse_args()
     words = options.words
     wanted = [m for m in MUTANTS if not words or any(word in m.title for word in words)]
+    for mutant in wanted:
+        place_of(mutant)  # a table that does not fit any more is told now
     began = time.perf_counter()
     survivors = []
     for number, result in enumerate(results(wanted, options.jobs, first=options.first), 1):

@@ -6,7 +6,7 @@ from tests.mutants.anchors import Mutant, program
 
 
 def _fault(old: str, new: str, *first: str) -> Mutant:
-    return Mutant("lowering", old, new, first)
+    return Mutant("lowering", old, new, (*first, "tests/lowering/test_persistence.py"))
 
 
 LOWERING = (
