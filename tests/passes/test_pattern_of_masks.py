@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.engine.passes.sparsity import dependence
+from desire_tui.engine.passes.sparsity import sparsity_pattern
 from tests.lowering.programs import segment
 
 ARRAYS = {"x": (2,), "c": (2,), "W": (2, 2), "M": (2, 2)}
@@ -21,6 +21,6 @@ ARRAYS = {"x": (2,), "c": (2,), "W": (2, 2), "M": (2, 2)}
 )
 def test_a_derivative_through_a_matrix(body, depends):
     lowered, _ = segment(f"{body}\nVectr d/dt x = W*c", **ARRAYS)
-    rows, columns = dependence(lowered)
+    rows, columns = sparsity_pattern(lowered)
     entries = set(zip(rows.tolist(), columns.tolist(), strict=True))
     assert entries == ({(0, 0), (0, 1), (1, 0), (1, 1)} if depends else set())
