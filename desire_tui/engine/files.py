@@ -45,18 +45,19 @@ def decoded(data: bytes, name: str) -> str:
 
 def write_file(path: Path, write: Callable[[IO[str]], object]) -> None:
     """Replace a text file, whole or not at all. DesireError 106: a full disk, no permission, no folder …."""
-    with _writing(path), replacing(path) as file:
+    with writing(path), replacing(path) as file:
         write(file)
 
 
 def write_bytes(path: Path, write: Callable[[IO[bytes]], object], *, sync: bool = True) -> None:
     """Replace a binary file, whole or not at all; `sync` as in `replacing`. DesireError 106."""
-    with _writing(path), replacing(path, "wb", sync=sync) as file:
+    with writing(path), replacing(path, "wb", sync=sync) as file:
         write(file)
 
 
 @contextmanager
-def _writing(path: Path) -> Iterator[None]:
+def writing(path: Path) -> Iterator[None]:
+    """Report what the system refuses about a file as DesireError 106."""
     try:
         yield
     except OSError as reason:

@@ -130,10 +130,10 @@ def test_the_longest_names_a_disk_takes(tmp_path):
 def test_a_pipe_is_written_and_stays_a_pipe(tmp_path):
     pipe, read = tmp_path / "pipe", []
     os.mkfifo(pipe)
-    reader = threading.Thread(target=lambda: read.append(pipe.read_text()))
+    reader = threading.Thread(target=lambda: read.append(pipe.read_text()), daemon=True)
     reader.start()
     replace_text(pipe, "new")
-    reader.join()
+    reader.join(10)
     assert read == ["new"]
     assert pipe.is_fifo()
 

@@ -11,6 +11,7 @@ from threading import RLock
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.files import writing
 from desire_tui.engine.session import notebook_markdown
 
 if TYPE_CHECKING:
@@ -61,11 +62,11 @@ class Notebook:
             self.path, self.is_on = path, True
             self._forget()
             try:
-                self._put(self._heading(path))
-            except OSError as reason:
+                with writing(path):
+                    self._put(self._heading(path))
+            except DesireError:
                 self.is_on = False
-                facts = {"path": path, "reason": reason.strerror or reason}
-                raise DesireError(Diagnostic("file-unwritable", facts=facts)) from None
+                raise
 
     def switch(self, *, on: bool) -> None:
         """`notebook on`, `notebook off`."""
