@@ -11,7 +11,7 @@ import pytest
 
 from desire_tui.engine.interpreter import array_expressions, interruptible
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.interpreter.interruptible import LONG_WORK, patiently
+from desire_tui.engine.interpreter.interruptible import LONG_WORK, run_interruptibly
 from tests.interpreter.stand_in import World, run
 
 
@@ -35,7 +35,7 @@ def test_what_is_broken_off_is_waited_for_by_the_next() -> None:
         order.append("first")
 
     with pytest.raises(Enough):
-        patiently(LONG_WORK, endless, stop)
+        run_interruptibly(LONG_WORK, endless, stop)
     looks: list[None] = []
 
     def look() -> None:
@@ -48,19 +48,19 @@ def test_what_is_broken_off_is_waited_for_by_the_next() -> None:
         order.append("second")
         return 7
 
-    assert patiently(LONG_WORK, second, look) == 7
+    assert run_interruptibly(LONG_WORK, second, look) == 7
     assert order == ["first", "second"]
     assert len(looks) >= 2
 
 
 def test_errors_come_back_to_the_statement() -> None:
     with pytest.raises(np.linalg.LinAlgError):
-        patiently(LONG_WORK, lambda: np.linalg.inv(np.zeros((2, 2))), go_on)
-    assert patiently(LONG_WORK, lambda: 1, go_on) == 1, "the next one gets its turn"
+        run_interruptibly(LONG_WORK, lambda: np.linalg.inv(np.zeros((2, 2))), go_on)
+    assert run_interruptibly(LONG_WORK, lambda: 1, go_on) == 1, "the next one gets its turn"
 
 
 def test_short_work_is_done_on_the_spot() -> None:
-    assert patiently(LONG_WORK - 1, lambda: 3, stop) == 3
+    assert run_interruptibly(LONG_WORK - 1, lambda: 3, stop) == 3
 
 
 SCRIPTS = [
@@ -77,9 +77,9 @@ def test_one_long_operation_can_be_broken_off(script, monkeypatch) -> None:
     for module, name in ((np.linalg, "inv"), (np.fft, "fft")):
         monkeypatch.setattr(module, name, lambda *_: never.wait())
     if "A*A" in script:
-        real = interruptible.patiently
+        real = interruptible.run_interruptibly
         monkeypatch.setattr(
-            array_expressions, "patiently", lambda work, _, check: real(work, never.wait, check)
+            array_expressions, "run_interruptibly", lambda work, _, check: real(work, never.wait, check)
         )
     world = World()
     world.looks_allowed = 3
@@ -137,7 +137,7 @@ def test_a_process_is_left_while_something_goes_on() -> None:
         "from desire_tui.engine.interpreter.interruptible import *\n"
         "def stop(): raise ValueError\n"
         "leave_at_once(3)\n"  # nothing goes on yet
-        "try: patiently(LONG_WORK, Event().wait, stop)\n"
+        "try: run_interruptibly(LONG_WORK, Event().wait, stop)\n"
         "except ValueError: print('broken off')\n"
         "leave_at_once(7)\n"
     )

@@ -71,7 +71,7 @@ def test_messages_quote_only_the_beginning_of_long_words() -> None:
 
 def test_the_store_of_lines_is_bounded(monkeypatch) -> None:
     module = sys.modules[forget_lines.__module__]
-    monkeypatch.setattr(module, "KEPT_MAX", 10_000)
+    monkeypatch.setattr(module, "CACHED_MAX", 10_000)
     forget_lines()
     parse(Source("\n".join(f"x = {i}" for i in range(1_000))))
     assert 0 < len(module._lines) < 100

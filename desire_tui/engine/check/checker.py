@@ -1,4 +1,4 @@
-"""Every problem of a program that can be told before it runs."""
+"""Every problem of a program that can be found before it runs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _WORD = re.compile(r"[A-Za-z][\w$]*")
 
 @undisturbed_allocation
 def check(program: Program) -> tuple[Diagnostic, ...]:
-    """Return all problems that can be told before a run, in the order of the text.
+    """Return all problems that can be found before a run, in the order of the text.
 
     They come from syntax, structure and segments. A name counts as defined if any script statement before the
     segment's first `drun` could assign it; sizes that the script computes are not checked.

@@ -1,4 +1,4 @@
-"""What a script declares and assigns, as far as a look at it tells: the names a segment may use.
+"""What a script declares and assigns, as far as its text shows: the names a segment may use.
 
 Loops, branches and jumps are not followed: an assignment that *could* be executed before the segment's first
 `drun` counts. Where the script jumps (`go to`) or stops (`STOP`: commands may follow), every assignment
@@ -42,7 +42,7 @@ class _Seen:
 
 
 class DeclaredNames:
-    """One walk over the script, kept at each segment's first `drun`."""
+    """The names met on one walk over the script, with those known at each segment's first `drun`."""
 
     def __init__(self, program: Program, structure: Structure) -> None:
         self._program = program

@@ -1,4 +1,4 @@
-"""In which order a program's states stand, told from its text: the order of its `d/dt` lines."""
+"""The order of a program's states in its text: the order of its `d/dt` lines."""
 
 from __future__ import annotations
 

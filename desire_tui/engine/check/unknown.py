@@ -1,4 +1,4 @@
-"""Names that a script uses and nobody ever assigns, declares or defines: most are misspelt.
+"""Names that a script uses and no statement assigns, declares or defines: most are misspelt.
 
 Only what no statement of the whole program could supply is reported, so a correct program never is.
 """
@@ -43,23 +43,23 @@ def unknown_names(
     for procedure in structure.procedures.values():
         subscripted.update(procedure.node.references, procedure.node.values)
     problems: list[Diagnostic] = []
-    complained: set[str] = set()
+    reported: set[str] = set()
     for placed in program.script:
         if id(placed) in in_bodies or isinstance(placed.node, Declare | Display | SegmentOnlyStatement):
             continue
         for part in parts_read(placed.node):
             name = part.name
-            if name in complained:
+            if name in reported:
                 continue
             is_call = isinstance(part, Call)
             if isinstance(part, Element) and name in known and name not in subscripted:
-                complained.add(name)
+                reported.add(name)
                 facts = {"name": name, "close": closest(name, arrays)}
                 problems.append(Diagnostic("not-an-array", placed.span(part), facts, program.source))
                 continue
             if name in (functions if is_call else known) or (is_call and name in known):
                 continue
-            complained.add(name)
+            reported.add(name)
             problems.append(_problem(program, placed, part, functions if is_call else known))
     return problems
 

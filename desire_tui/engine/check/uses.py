@@ -1,6 +1,6 @@
 """What a script calls and runs: PROCEDUREs and segments that exist, with as many arguments as they take.
 
-The script finds these at run time, one by one; here they are told all at once, before a run.
+The script finds these at run time, one by one; here they are reported all at once, before a run.
 """
 
 from __future__ import annotations

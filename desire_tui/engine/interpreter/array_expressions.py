@@ -18,7 +18,7 @@ from desire_tui.engine.interpreter.elementwise import (
     by_elements,
 )
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.interruptible import patiently
+from desire_tui.engine.interpreter.interruptible import run_interruptibly
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.library import LIBRARY, integer_power, power
 from desire_tui.engine.nodes.expressions import (
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.interpreter.elementwise import Evaluator
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.record import Node
     from desire_tui.engine.values import Quantity
@@ -54,11 +54,11 @@ _SINGULAR = 1e-15
 class ArrayExpressions:
     """Makes evaluators of array expressions for one statement."""
 
-    def __init__(self, site: Site, *, true_products: bool) -> None:
-        self._site = site
+    def __init__(self, context: StatementContext, *, true_products: bool) -> None:
+        self._context = context
         self._true_products = true_products
-        self._shapes = ArrayShapes(site.scope, true_products=true_products)
-        self._elements = ElementwiseExpressions(site, self._shapes, self.evaluator)
+        self._shapes = ArrayShapes(context.scope, true_products=true_products)
+        self._elements = ElementwiseExpressions(context, self._shapes, self.evaluator)
 
     def assigned(self, node: Expr, shape: tuple[int, ...]) -> Evaluator:
         """Return a function that evaluates what is assigned to an array of this shape.
@@ -73,7 +73,7 @@ class ArrayExpressions:
         """Return a function that evaluates an expression to a float, a vector or a matrix."""
         shape = self._shapes.of(node)
         if not shape:
-            return self._site.real(node)
+            return self._context.real(node)
         if self._elements.needed(node):
             if not self._elements.is_whole(node):
                 return self._elements.evaluator(node, shape)
@@ -81,10 +81,10 @@ class ArrayExpressions:
                 return self._whole(node)
         match node:
             case Name():
-                view = self._site.numbers(self._site.array(node))
+                view = self._context.numbers(self._context.array(node))
                 return lambda: view
             case Transposed(name):
-                view = self._site.numbers(self._matrix(Name(name, node.start, node.end)))
+                view = self._context.numbers(self._matrix(Name(name, node.start, node.end)))
                 return lambda: view.T
             case Shifted():
                 return self._shifted(node)
@@ -100,16 +100,16 @@ class ArrayExpressions:
         assert_never(node)
 
     def _matrix(self, node: Expr) -> Quantity:
-        quantity = self._site.array(node)
+        quantity = self._context.array(node)
         if len(quantity.shape) != 2:
             raise ScriptFault("not-a-matrix", node, name=quantity.name)
         return quantity
 
     def _shifted(self, node: Shifted) -> Evaluator:
-        quantity = self._site.array(Name(node.name, node.start, node.end))
+        quantity = self._context.array(Name(node.name, node.start, node.end))
         if len(quantity.shape) != 1:
             raise ScriptFault("not-a-vector", node, name=node.name)
-        view, by, size = self._site.numbers(quantity), self._site.real(node.by), quantity.size
+        view, by, size = self._context.numbers(quantity), self._context.real(node.by), quantity.size
 
         def evaluate() -> NDArray[np.float64]:
             k = round(max(-size, min(size, by())))
@@ -127,7 +127,7 @@ class ArrayExpressions:
             scalars = next(i for i, step in enumerate(steps) if self._shapes.of(step.right))
             begin = steps[scalars - 1] if scalars else first
             steps = steps[scalars:]
-        start, check = self.evaluator(begin), self._site.machine.check
+        start, check = self.evaluator(begin), self._context.machine.check
         operations = [(self._operation(step), self.evaluator(step.right)) for step in steps]
 
         def evaluate() -> Any:
@@ -158,7 +158,7 @@ class ArrayExpressions:
 
     def _power(self, node: Binary) -> Evaluator:
         a, b = self.evaluator(node.left), self.evaluator(node.right)
-        check = self._site.machine.check
+        check = self._context.machine.check
         function, domain = _whole_or_real_power, "power-argument"
         return lambda: _elementwise(check, function, node, domain, *self._same(a(), b(), node))
 
@@ -177,18 +177,18 @@ class ArrayExpressions:
             raise ScriptFault("nonconformable", node, have=_size(a), want=_size(b))
         if dimensions != (2, 2):
             return a @ b
-        own = a.copy(), b.copy()  # the product may outlive the statement (`patiently`)
-        return patiently(a.size * b.shape[1], lambda: own[0] @ own[1], self._site.machine.check)
+        own = a.copy(), b.copy()  # the product may outlive the statement (`run_interruptibly`)
+        return run_interruptibly(a.size * b.shape[1], lambda: own[0] @ own[1], self._context.machine.check)
 
     def _call(self, node: Call) -> Evaluator:
         args = [self.evaluator(arg) for arg in node.args]
         if node.name == "$In" and len(args) == 1:
-            return lambda: _inverse(args[0](), node, self._site.machine.check)
+            return lambda: _inverse(args[0](), node, self._context.machine.check)
         if node.name == "$Tr" and len(args) == 1:
             return lambda: np.transpose(args[0]())
-        if node.name in self._site.machine.functions.definitions:
+        if node.name in self._context.machine.functions.definitions:
             return self._own_function(node, args)
-        entry, own = LIBRARY.get(node.name), self._site.scope.functions
+        entry, own = LIBRARY.get(node.name), self._context.scope.functions
         if entry is None and node.name not in own:
             close = closest(node.name, [*LIBRARY, *own])
             raise ScriptFault("undefined-function", node, name=node.name, close=close)
@@ -198,14 +198,14 @@ class ArrayExpressions:
             raise ScriptFault(
                 "argument-count", node, name=node.name, given=len(args), needed=entry.parameters
             )
-        function, check = entry.value, self._site.machine.check
+        function, check = entry.value, self._context.machine.check
 
         domain = entry.domain_error
         return lambda: _elementwise(check, function, node, domain, *(_finite(arg(), node) for arg in args))
 
     def _own_function(self, node: Call, args: list[Evaluator]) -> Evaluator:
         """Apply the program's FUNCTION to each element, from the last to the first as random draws go."""
-        function, wanted = self._site.machine.functions.of_elements(node, self._site.translator)
+        function, wanted = self._context.machine.functions.of_elements(node, self._context.translator)
         used = [arg for arg, is_wanted in zip(args, wanted, strict=True) if is_wanted]
 
         def evaluate() -> Any:
@@ -214,7 +214,7 @@ class ArrayExpressions:
             for other in arrays[1:]:
                 self._same(arrays[0], other, node)
             shape = np.shape(arrays[0]) if arrays else ()
-            return by_elements(function, values, shape, self._site.machine.check)
+            return by_elements(function, values, shape, self._context.machine.check)
 
         return evaluate
 
@@ -261,7 +261,7 @@ def _inverse(matrix: Any, node: Node, check: Callable[[], None]) -> Any:
         raise ScriptFault("not-square", node, have=_size(matrix))
     own = matrix.copy()
     try:
-        inverse = patiently(2 * len(own) ** 3, lambda: np.linalg.inv(own), check)
+        inverse = run_interruptibly(2 * len(own) ** 3, lambda: np.linalg.inv(own), check)
     except np.linalg.LinAlgError:
         raise ScriptFault("singular-matrix", node) from None
     condition = np.linalg.norm(own, 1) * np.linalg.norm(inverse, 1)

@@ -29,7 +29,7 @@ Shape = tuple[int, ...]
 
 
 class ArrayShapes:
-    """Shapes of array expressions, as far as the declarations tell: `()` for numbers."""
+    """Shapes of array expressions, as far as the declarations show: `()` for numbers."""
 
     def __init__(self, scope: NameScope, *, true_products: bool) -> None:
         self._scope = scope

@@ -1,7 +1,7 @@
 """All operations of an interpreter in one list, and the statements they were made from.
 
 The script's stand first, then the body of each PROCEDURE (one for each kind of arguments), then the command
-line in hand. The operation of a statement is made when it is first reached.
+line being executed. The operation of a statement is made when it is first reached.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class ScriptCode:
     loops: dict[int, list[float]] = field(default_factory=dict)
 
 
-class Codes:
+class CodeTable:
     """The list of operations; `make` turns the statement at a place of some code into its operation.
 
     `halt` is called with the address of a statement at which the script is to halt, before it is carried out.
@@ -125,7 +125,7 @@ class Codes:
         self._put(code, place, operation)
         return operation()
 
-    def improve(self, address: int, operation: Operation) -> None:
+    def replace_operation(self, address: int, operation: Operation) -> None:
         """Take a quicker operation for the statement at an address from now on."""
         self._put(*self.locate(address), operation)
 

@@ -57,7 +57,7 @@ class PythonCompiler:
 
     def evaluate(self, code: ast.expr, placed: Placed, source: Source | None) -> Any:
         """Evaluate an expression once."""
-        return self.function([py.give(code)], placed, source)()
+        return self.function([py.return_value(code)], placed, source)()
 
 
 def helpers(values: Values) -> dict[str, Any]:

@@ -18,47 +18,49 @@ if TYPE_CHECKING:
     import ast
 
     from desire_tui.engine.interpreter.code_table import Operation
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
 
 
-def if_then(site: Site, node: If) -> Operation:
+def if_then(context: StatementContext, node: If) -> Operation:
     """`if C then`."""
     if node.condition is None:
         raise ScriptFault("if-without-then", node)
-    condition = site.translator.condition(node.condition)
-    return _choose(site, condition, site.next, _behind(site))
+    condition = context.translator.condition(node.condition)
+    return _choose(context, condition, context.next, _behind(context))
 
 
-def while_loop(site: Site, node: While) -> Operation:
+def while_loop(context: StatementContext, node: While) -> Operation:
     """`while C`."""
-    condition = site.translator.condition(node.condition)
-    return _choose(site, condition, site.next, _behind(site))
+    condition = context.translator.condition(node.condition)
+    return _choose(context, condition, context.next, _behind(context))
 
 
-def until(site: Site, node: Until) -> Operation:
+def until(context: StatementContext, node: Until) -> Operation:
     """`until C`."""
-    again = site.partner + 1
-    leave = py.when(site.translator.condition(node.condition), py.give(py.number(site.next)))
-    check = py.carry_out(py.call("check"))
-    return site.function([leave, check, py.give(py.number(again))])
+    again = context.partner + 1
+    leave = py.if_statement(
+        context.translator.condition(node.condition), py.return_value(py.number(context.next))
+    )
+    check = py.expression_statement(py.call("check"))
+    return context.function([leave, check, py.return_value(py.number(again))])
 
 
-def _behind(site: Site) -> int:
+def _behind(context: StatementContext) -> int:
     """Where control goes when it does not enter the block that opens here."""
-    return site.partner + 1
+    return context.partner + 1
 
 
-def _choose(site: Site, condition: ast.expr, yes: int, no: int) -> Operation:
-    return site.function([py.give(py.choice(condition, py.number(yes), py.number(no)))])
+def _choose(context: StatementContext, condition: ast.expr, yes: int, no: int) -> Operation:
+    return context.function([py.return_value(py.if_else(condition, py.number(yes), py.number(no)))])
 
 
-def end_while(site: Site) -> Operation:
+def end_while(context: StatementContext) -> Operation:
     """`end while`."""
-    return _jump_back(site, site.partner)
+    return _jump_back(context, context.partner)
 
 
-def _jump_back(site: Site, address: int) -> Operation:
-    check = site.machine.check
+def _jump_back(context: StatementContext, address: int) -> Operation:
+    check = context.machine.check
 
     def operation() -> int:
         check()
@@ -67,25 +69,25 @@ def _jump_back(site: Site, address: int) -> Operation:
     return operation
 
 
-def go_to(site: Site, node: GoTo) -> Operation:
+def go_to(context: StatementContext, node: GoTo) -> Operation:
     """`go to L`."""
-    place = site.code.text.structure.place(node.target)
+    place = context.code.text.structure.place(node.target)
     if place is None:
         raise ScriptFault("no-such-label", node, name=node.target)
-    address = site.code.base + place
-    return _jump_back(site, address) if place <= site.place else site.jump(address)
+    address = context.code.base + place
+    return _jump_back(context, address) if place <= context.place else context.jump(address)
 
 
-def for_loop(site: Site, node: For) -> Operation:
+def for_loop(context: StatementContext, node: For) -> Operation:
     """`for v = a to b step s`: bounds are evaluated once; error 48 for a loop variable that is not real."""
-    first, last = site.real(node.first), site.real(node.last)
-    by = site.real(node.by) if node.by is not None else None
-    slot_of, kind = site.slot(node.variable)
+    first, last = context.real(node.first), context.real(node.last)
+    by = context.real(node.by) if node.by is not None else None
+    slot_of, kind = context.slot(node.variable)
     if kind is Kind.COMPLEX:
         raise ScriptFault("loop-variable", node.variable, name=node.variable.name)
     # k, count, first value, step, slot; shared with `next`
-    loop = site.code.loops.setdefault(site.place, [0, 0, 0.0, 1.0, 0])
-    after, body, cells = _behind(site), site.next, site.values.cells
+    loop = context.code.loops.setdefault(context.place, [0, 0, 0.0, 1.0, 0])
+    after, body, cells = _behind(context), context.next, context.values.cells
 
     def operation() -> int:
         a, b = first(), last()
@@ -103,16 +105,21 @@ def for_loop(site: Site, node: For) -> Operation:
     return operation
 
 
-def next_pass(site: Site) -> Operation:
+def next_pass(context: StatementContext) -> Operation:
     """`next`: the variable is computed from the number of passes, so that steps do not drift."""
-    opening = site.code.text.structure.partner[site.place]
-    node = site.code.text.placed[opening].node
+    opening = context.code.text.structure.partner[context.place]
+    node = context.code.text.placed[opening].node
     assert isinstance(node, For)
-    loop = site.code.loops.setdefault(opening, [0, 0, 0.0, 1.0, 0])
-    kind = site.slot_code(node.variable)[1]
+    loop = context.code.loops.setdefault(opening, [0, 0, 0.0, 1.0, 0])
+    kind = context.slot_code(node.variable)[1]
     if isinstance(node.variable, Name):
-        loop[4] = site.slot(node.variable)[0]()  # found anew: `clear` may have moved it
-    cells, body, after, interrupted = site.values.cells, site.partner + 1, site.next, site.host.interrupted
+        loop[4] = context.slot(node.variable)[0]()  # found anew: `clear` may have moved it
+    cells, body, after, interrupted = (
+        context.values.cells,
+        context.partner + 1,
+        context.next,
+        context.host.interrupted,
+    )
     whole = kind is Kind.INTEGER
 
     def operation() -> int:
@@ -129,28 +136,28 @@ def next_pass(site: Site) -> Operation:
     return operation
 
 
-def leave_block(site: Site) -> Operation:
+def leave_block(context: StatementContext) -> Operation:
     """`else` reached from above, a skipped PROCEDURE or SUBMODEL."""
-    return site.jump(_behind(site))
+    return context.jump(_behind(context))
 
 
-def exit_block(site: Site) -> Operation:
+def exit_block(context: StatementContext) -> Operation:
     """`exit`: out of the innermost loop, or back from a PROCEDURE."""
-    closer = site.code.text.structure.exits[site.place]
-    return site.machine.leave if closer is None else site.jump(site.code.base + closer + 1)
+    closer = context.code.text.structure.exits[context.place]
+    return context.machine.leave if closer is None else context.jump(context.code.base + closer + 1)
 
 
-def end_procedure(site: Site) -> Operation:
+def end_procedure(context: StatementContext) -> Operation:
     """`end` of a PROCEDURE."""
-    return site.machine.leave
+    return context.machine.leave
 
 
-def stop(site: Site) -> Operation:
+def stop(context: StatementContext) -> Operation:
     """`STOP`."""
-    following = site.next
-    return lambda: site.machine.stop(following)
+    following = context.next
+    return lambda: context.machine.stop(following)
 
 
-def nothing(site: Site) -> Operation:
+def nothing(context: StatementContext) -> Operation:
     """Labels, data lists, `proceed`, `repeat`, FUNCTION lines."""
-    return site.jump(site.next)
+    return context.jump(context.next)

@@ -10,7 +10,7 @@ from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
 from desire_tui.engine.interpreter.entries import Entries
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.statement_context import Site
+from desire_tui.engine.interpreter.statement_context import StatementContext
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.values import Kind, Quantity
 
@@ -27,51 +27,53 @@ if TYPE_CHECKING:
 
 def data_item(machine: ScriptMachine, place: int, node: Expr) -> Callable[[], complex]:
     """Return the function that evaluates an item of the `data` statement at a place of the script."""
-    site = Site(machine, machine.script, place)
+    context = StatementContext(machine, machine.script, place)
     try:
-        return site.value(node)[0]
+        return context.value(node)[0]
     except ScriptFault as fault:
         if fault.placed is None:
-            fault.placed, fault.source = site.placed, site.code.text.source
+            fault.placed, fault.source = context.placed, context.code.text.source
         raise
 
 
-def read(site: Site, node: Read) -> Operation:
+def read(context: StatementContext, node: Read) -> Operation:
     """`read a, B, c[2]`."""
-    machine = site.machine
-    fillers = [filler(site, target) for target in node.targets]
+    machine = context.machine
+    fillers = [filler(context, target) for target in node.targets]
 
     def action() -> None:
         for fill in fillers:
             fill(machine.data.next)
 
-    return site.then(action)
+    return context.then(action)
 
 
-def restore(site: Site, node: Restore) -> Operation:
+def restore(context: StatementContext, node: Restore) -> Operation:
     """`restore`, `restore label`, `restore 210`; error 68."""
-    data, place = site.machine.data, 0
+    data, place = context.machine.data, 0
     if node.target is not None:
-        found = site.machine.structure.place(node.target)
+        found = context.machine.structure.place(node.target)
         if found is None:
             raise ScriptFault("no-such-label", node, name=node.target)
         place = found
-    return site.then(lambda: data.rewind(place))
+    return context.then(lambda: data.rewind(place))
 
 
-def filler(site: Site, target: Target) -> Callable[[Callable[[], complex]], None]:
+def filler(context: StatementContext, target: Target) -> Callable[[Callable[[], complex]], None]:
     """Return a function that fills a target, a whole array row by row, from a supply of values."""
     if isinstance(target, Name):
-        meaning = site.scope.assigned(target)
+        meaning = context.scope.assigned(target)
         if isinstance(meaning, Quantity) and meaning.shape:
-            return _array_filler(site, target, meaning)
-    store = storer(site, target)
+            return _array_filler(context, target, meaning)
+    store = storer(context, target)
     return lambda supply: store(supply())
 
 
-def _array_filler(site: Site, target: Name, quantity: Quantity) -> Callable[[Callable[[], complex]], None]:
-    cells, slot, size, kind = site.values.cells, quantity.slot, quantity.size, quantity.kind
-    helpers, check = site.machine.build.names, site.machine.check
+def _array_filler(
+    context: StatementContext, target: Name, quantity: Quantity
+) -> Callable[[Callable[[], complex]], None]:
+    cells, slot, size, kind = context.values.cells, quantity.slot, quantity.size, quantity.kind
+    helpers, check = context.machine.build.names, context.machine.check
 
     def fill(supply: Callable[[], complex]) -> None:
         for index in range(size):
@@ -89,33 +91,34 @@ def _array_filler(site: Site, target: Name, quantity: Quantity) -> Callable[[Cal
     return fill
 
 
-def get_input(site: Site, node: Input) -> Operation:
+def get_input(context: StatementContext, node: Input) -> Operation:
     """`input x, A` from the console, `input #n, x` from a file."""
-    if site.code.is_command and node.channel is None:
+    if context.code.is_command and node.channel is None:
         raise ScriptFault("not-a-command", node, word="input")
-    fillers = [filler(site, target) for target in node.targets]
+    fillers = [filler(context, target) for target in node.targets]
     if node.channel is not None:
-        number, channels = site.whole(node.channel), site.machine.channels
+        number, channels = context.truncated(node.channel), context.machine.channels
 
         def from_file() -> None:
             channel = number()
-            entries = Entries(site, lambda: channels.read_line(channel), f"channel {channel}")
+            entries = Entries(context, lambda: channels.read_line(channel), f"channel {channel}")
             for fill in fillers:
                 fill(entries.next)
 
-        return site.then(from_file)
+        return context.then(from_file)
 
     kinds = [
-        (site.scope.assigned(t) if isinstance(t, Name) else site.scope.array(t)).kind for t in node.targets
+        (context.scope.assigned(t) if isinstance(t, Name) else context.scope.array(t)).kind
+        for t in node.targets
     ]
 
     def from_console() -> None:
-        entries = Entries(site, lambda: "", "console")
+        entries = Entries(context, lambda: "", "console")
         for target, kind, fill in zip(node.targets, kinds, fillers, strict=True):
             entries.ask(target.name, partial(_misfit, target.name, kind))
             fill(entries.next)
 
-    return site.then(from_console)
+    return context.then(from_console)
 
 
 def _misfit(name: str, kind: Kind, value: complex) -> Diagnostic | None:

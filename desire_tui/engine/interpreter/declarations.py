@@ -12,25 +12,25 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.interpreter.code_table import Operation
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.declarations import Declare, Declared, DeclaredGroup
     from desire_tui.engine.nodes.record import Node
 
 _KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
 
 
-def declare(site: Site, node: Declare) -> Operation:
+def declare(context: StatementContext, node: Declare) -> Operation:
     """Make the operation of a declaration. Dimensions are evaluated each time it is carried out."""
     groups = [
-        (group, [[site.real(d) for d in part.dimensions] for part in group.parts]) for group in node.groups
+        (group, [[context.real(d) for d in part.dimensions] for part in group.parts]) for group in node.groups
     ]
 
     def action() -> None:
         for group, dimensions in groups:
             shapes = [_shape(part, of) for part, of in zip(group.parts, dimensions, strict=True)]
-            _declare_group(site, node, group, shapes)
+            _declare_group(context, node, group, shapes)
 
-    return site.then(action)
+    return context.then(action)
 
 
 def _shape(part: Declared, dimensions: list[Callable[[], float]]) -> tuple[int, ...]:
@@ -43,48 +43,52 @@ def _shape(part: Declared, dimensions: list[Callable[[], float]]) -> tuple[int, 
     return tuple(shape)
 
 
-def _declare_group(site: Site, node: Declare, group: DeclaredGroup, shapes: list[tuple[int, ...]]) -> None:
+def _declare_group(
+    context: StatementContext, node: Declare, group: DeclaredGroup, shapes: list[tuple[int, ...]]
+) -> None:
     kind, is_state = _KINDS[node.kind], node.kind == "STATE"
     if kind is Kind.COMPLEX:
-        _define_j(site)
+        _define_j(context)
     if group.whole is None:
         for part, shape in zip(group.parts, shapes, strict=True):
-            _declare_one(site, part, part.name, shape, kind, is_state=is_state)
+            _declare_one(context, part, part.name, shape, kind, is_state=is_state)
         return
     if kind is Kind.INTEGER or kind is Kind.COMPLEX:
         raise ScriptFault("overlay-not-real", group, kind=node.kind)
     total = sum(prod(shape) for shape in shapes)
-    whole = _declare_one(site, group, group.whole, (total,), kind, is_state=is_state)
+    whole = _declare_one(context, group, group.whole, (total,), kind, is_state=is_state)
     slot = whole.slot
     for part, shape in zip(group.parts, shapes, strict=True):
-        known = site.values.find(part.name)
+        known = context.values.find(part.name)
         same = known is not None and known.shape == (shape or (1,)) and known.slot == slot
         if not same:
-            _check_free(site, part, part.name, scalar=not shape)
-            site.values.alias(part.name, shape, slot, is_state=is_state)
+            _check_free(context, part, part.name, scalar=not shape)
+            context.values.alias(part.name, shape, slot, is_state=is_state)
         slot += prod(shape)
 
 
 def _declare_one(
-    site: Site, node: Node, name: str, shape: tuple[int, ...], kind: Kind, *, is_state: bool
+    context: StatementContext, node: Node, name: str, shape: tuple[int, ...], kind: Kind, *, is_state: bool
 ) -> Quantity:
     """Make one quantity; the same declaration again zeroes it."""
-    values = site.values
+    values = context.values
     known = values.find(name)
     if known is not None and (known.shape, known.kind, known.is_state) == (shape, kind, is_state) and shape:
         values.zero(known)
         return known
-    _check_free(site, node, name, scalar=not shape)
+    _check_free(context, node, name, scalar=not shape)
     if not shape:
-        return _declare_scalar(site, node, name, kind, is_state=is_state)
+        return _declare_scalar(context, node, name, kind, is_state=is_state)
     if prod(shape) >= values.capacity:
         raise ScriptFault("array-too-large", node, name=name, elements=prod(shape), room=values.capacity)
     values.names.pop(name, None)
     return values.array(name, shape, kind, is_state=is_state)
 
 
-def _declare_scalar(site: Site, node: Node, name: str, kind: Kind, *, is_state: bool) -> Quantity:
-    values = site.values
+def _declare_scalar(
+    context: StatementContext, node: Node, name: str, kind: Kind, *, is_state: bool
+) -> Quantity:
+    values = context.values
     known = values.find(name)
     if known is not None and known.kind is not kind:
         if values.is_defined(known):
@@ -98,9 +102,9 @@ def _declare_scalar(site: Site, node: Node, name: str, kind: Kind, *, is_state: 
     return made
 
 
-def _check_free(site: Site, node: Node, name: str, *, scalar: bool) -> None:
+def _check_free(context: StatementContext, node: Node, name: str, *, scalar: bool) -> None:
     """Errors 28, 55, 73 for a name that is in use already."""
-    scope, values = site.scope, site.values
+    scope, values = context.scope, context.values
     if name in SYSTEM_VARIABLES:
         raise ScriptFault("system-variable-declared", node, name=name)
     if name in scope.functions or name in scope.procedures:
@@ -116,14 +120,14 @@ def _check_free(site: Site, node: Node, name: str, *, scalar: bool) -> None:
         raise ScriptFault("name-of-something-else", node, name=name, what="a number")
 
 
-def _define_j(site: Site) -> None:
+def _define_j(context: StatementContext) -> None:
     """Define j, the square root of −1, at the first COMPLEX line."""
-    values = site.values
+    values = context.values
     known = values.find("j")
     if known is not None and known.kind is Kind.COMPLEX:
         return
     if values.names.pop("j", None) is not None:
-        site.machine.forget()  # code made so far knows another j
+        context.machine.forget()  # code made so far knows another j
     made = values.scalar("j", Kind.COMPLEX)
     values.assign(made.slot, 0.0)
     values.cells[made.slot + 1] = 1.0

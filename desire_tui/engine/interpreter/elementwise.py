@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
 
     from desire_tui.engine.interpreter.array_shapes import ArrayShapes, Shape
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.expressions import Expr
 
     Evaluator = Callable[[], Any]
@@ -52,8 +52,10 @@ class ElementwiseExpressions:
     `evaluator` makes those of the parts that are evaluated as whole arrays.
     """
 
-    def __init__(self, site: Site, shapes: ArrayShapes, evaluator: Callable[[Expr], Evaluator]) -> None:
-        self._site, self._shapes, self._whole_evaluator = site, shapes, evaluator
+    def __init__(
+        self, context: StatementContext, shapes: ArrayShapes, evaluator: Callable[[Expr], Evaluator]
+    ) -> None:
+        self._context, self._shapes, self._whole_evaluator = context, shapes, evaluator
 
     def needed(self, node: Expr) -> bool:
         """Whether an expression draws, or looks up an array's elements in a table."""
@@ -62,7 +64,7 @@ class ElementwiseExpressions:
     def _special(self, node: Expr, within: tuple[str, ...]) -> bool:
         match node:
             case Call(name, args):
-                placed = self._site.machine.functions.definitions.get(name)
+                placed = self._context.machine.functions.definitions.get(name)
                 if placed is not None:
                     body = placed.node.body if isinstance(placed.node, Function) else None
                     if body is not None and name not in within and self._special(body, (*within, name)):
@@ -91,18 +93,18 @@ class ElementwiseExpressions:
 
     def evaluator(self, node: Expr, shape: Shape) -> Evaluator:
         """Return a function that evaluates an expression to an array of this shape."""
-        site = self._site
+        context = self._context
         wholes: list[Evaluator] = []
-        dummies: dict[str, Meaning] = dict(site.scope.dummies)
+        dummies: dict[str, Meaning] = dict(context.scope.dummies)
         of_elements = self._of_elements(node, wholes, dummies)
-        translator = site.translator.within(site.scope.inner(dummies))
+        translator = context.translator.within(context.scope.inner(dummies))
         code, kind = translator.expression(of_elements)
         if kind is Kind.COMPLEX:
             raise ScriptFault("complex-not-possible", node)
         parameters = tuple(f"p{number}" for number in range(len(wholes)))
-        body = [py.give(code)]
-        function = site.machine.build.function(body, site.placed, site.code.text.source, parameters)
-        check = site.machine.check
+        body = [py.return_value(code)]
+        function = context.machine.build.function(body, context.placed, context.code.text.source, parameters)
+        check = context.machine.check
 
         def evaluate() -> Any:
             values = [whole() for whole in wholes]
@@ -141,7 +143,7 @@ class ElementwiseExpressions:
 
     def _passed_by_name(self, name: str, count: int) -> Collection[int]:
         """Return which arguments of a call are arrays as such: tables, and what a FUNCTION uses as one."""
-        placed = self._site.machine.functions.definitions.get(name)
+        placed = self._context.machine.functions.definitions.get(name)
         if placed is None or not isinstance(placed.node, Function):
             return range(NUMBERS_OF_TABLE_FUNCTIONS.get(name, count), count)
         body = placed.node.body

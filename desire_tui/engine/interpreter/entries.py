@@ -16,7 +16,7 @@ from desire_tui.engine.source import Source, Span
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.program import Placed
 
 _SEPARATOR = re.compile(r"[,;\t]")
@@ -26,8 +26,8 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 class Entries:
     """Values in the order they come. From the console a bad entry is asked for again, and `!` breaks off."""
 
-    def __init__(self, site: Site, read_line: Callable[[], str], origin: str) -> None:
-        self._site = site
+    def __init__(self, context: StatementContext, read_line: Callable[[], str], origin: str) -> None:
+        self._context = context
         self._read_line = read_line
         self._origin = origin
         self._prompt: str | None = None
@@ -37,7 +37,7 @@ class Entries:
     def ask(self, name: str, fits: Callable[[complex], Diagnostic | None]) -> None:
         """Take values from the console from now on, prompting with a name.
 
-        `fits` tells what is wrong with a value that the name cannot take.
+        `fits` returns what is wrong with a value that the name cannot take.
         """
         self._prompt = f"{name} ? "
         self._fits = fits
@@ -57,13 +57,13 @@ class Entries:
                 if self._prompt is None:
                     facts = {"entry": text, "origin": self._origin, "reason": problem.diagnostics[0].message}
                     raise DesireError(Diagnostic("bad-entry", facts=facts)) from problem
-                self._site.host.warn(problem)
+                self._context.host.warn(problem)
                 self._waiting.clear()
 
     def _ask_line(self) -> str:
         assert self._prompt is not None
         try:
-            return self._site.host.ask(self._prompt)
+            return self._context.host.ask(self._prompt)
         except EOFError:
             raise DesireError(Diagnostic("input-ended")) from None
 
@@ -89,10 +89,10 @@ class Entries:
             raise DesireError(Diagnostic("entry-not-a-value", Span(0, len(text)), {"entry": text}, source))
         placed: Placed = statements[0]
         assert isinstance(placed.node, Bare)
-        machine = self._site.machine
+        machine = self._context.machine
         known = len(machine.origins)
         try:
-            code, _ = self._site.translator.finite(placed.node.value)
+            code, _ = self._context.translator.finite(placed.node.value)
             value: complex = machine.build.evaluate(code, placed, source)
         except Interrupted:
             raise

@@ -96,7 +96,7 @@ class ExpressionTranslator(ScalarTranslator):
                 return at(py.compare(a, [_RELATIONS[op]], [b]), node)
             case Logical(op, first, second):
                 joint: ast.boolop = ast.And() if op == "and" else ast.Or()
-                return at(py.joined(joint, [self.condition(first), self.condition(second)]), node)
+                return at(py.and_or(joint, [self.condition(first), self.condition(second)]), node)
             case Not(operand):
                 return at(py.unary(py.NOT, self.condition(operand)), node)
 
@@ -115,7 +115,7 @@ class ExpressionTranslator(ScalarTranslator):
         flag = py.index(meaning.variable, py.number(1))
         missing = at(py.call("undefined", py.text(node.name)), node)
         value, kind = self.stored(node, slot, meaning.kind)
-        return Typed(at(py.choice(flag, value, missing), node), kind)
+        return Typed(at(py.if_else(flag, value, missing), node), kind)
 
     def _element(self, node: Element) -> Typed:
         quantity = self.scope.array(node)
@@ -142,12 +142,12 @@ class ExpressionTranslator(ScalarTranslator):
                 raise ScriptFault("matrix-operator", step, operator="&")
             if levels >= PIECE or (deep and levels):
                 name = self.build.fresh("v")
-                pieces.append(py.named(name, result.code))
+                pieces.append(py.assign_inline(name, result.code))
                 result, levels = Typed(py.load(name), result.kind), 0
             right = self.finite(step.right) if step.op == "/" else self.expression(step.right)
             result = self._arithmetic(step, step.op, result, right)
             levels = LONG if deep else levels + 1
-        return Typed(py.last([*pieces, result.code]), result.kind) if pieces else result
+        return Typed(py.last_of([*pieces, result.code]), result.kind) if pieces else result
 
     def _arithmetic(self, node: Node, op: str, left: Typed, right: Typed) -> Typed:
         kinds = {left.kind, right.kind}
@@ -166,7 +166,7 @@ class ExpressionTranslator(ScalarTranslator):
                 return Typed(base, kind)
             if exponent == 2:
                 once = self.build.fresh("v")
-                first = py.named(once, base)
+                first = py.assign_inline(once, base)
                 return Typed(at(py.binary(first, py.MULTIPLY, py.load(once)), node), kind)
             result = kind if exponent > 0 else Kind.COMPLEX if kind is Kind.COMPLEX else Kind.REAL
             return Typed(at(py.call("integer_power", base, py.number(exponent)), node), result)

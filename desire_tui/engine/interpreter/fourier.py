@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.interruptible import patiently
+from desire_tui.engine.interpreter.interruptible import run_interruptibly
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,23 +16,23 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.interpreter.code_table import Operation
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.commands import Fft
 
 WORK_PER_ELEMENT = 50
-"""What a transform costs, in multiplications, roughly (`patiently`)."""
+"""What a transform costs, in multiplications, roughly (`run_interruptibly`)."""
 _ROOM_PER_ELEMENT = 8
 """Numbers that a transform holds at a time: copies, complex input, complex output."""
 
 
-def fft(site: Site, node: Fft) -> Operation:
+def fft(context: StatementContext, node: Fft) -> Operation:
     """Make the operation of an FFT statement; errors 61 (not a vector), 72 (length), 3 (overflow)."""
-    count = site.whole(node.args[0])
-    quantities = [site.array(arg) for arg in node.args[1:]]
+    count = context.truncated(node.args[0])
+    quantities = [context.array(arg) for arg in node.args[1:]]
     for argument, quantity in zip(node.args[1:], quantities, strict=True):
         if len(quantity.shape) != 1:
             raise ScriptFault("fft-array", argument, name=quantity.name)
-    views = [site.numbers(q) for q in quantities]
+    views = [context.numbers(q) for q in quantities]
 
     def action() -> None:
         n = count()
@@ -44,15 +44,15 @@ def fft(site: Site, node: Fft) -> Operation:
         for first, second in combinations(quantities, 2):
             if abs(first.slot - second.slot) < n:
                 raise ScriptFault("fft-arrays-overlap", node, name=first.name, other=second.name)
-        site.needs_room(_ROOM_PER_ELEMENT * n, node.args[0])
+        context.require_memory(_ROOM_PER_ELEMENT * n, node.args[0])
         parts = [view[:n].copy() for view in views]
-        patiently(WORK_PER_ELEMENT * n, lambda: _transform(node.kind, parts), site.machine.check)
+        run_interruptibly(WORK_PER_ELEMENT * n, lambda: _transform(node.kind, parts), context.machine.check)
         if not all(np.isfinite(part).all() for part in parts):
             raise ScriptFault("overflow", node)
         for view, part in zip(views, parts, strict=True):
             view[:n] = part
 
-    return site.then(action)
+    return context.then(action)
 
 
 def _transform(kind: str, parts: list[NDArray[np.float64]]) -> None:

@@ -16,48 +16,48 @@ from desire_tui.engine.values import Kind
 if TYPE_CHECKING:
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.host import Host
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.display import Display, Plot, Show
     from desire_tui.engine.nodes.files import Connect, Disconnect
 
 
-def drun(site: Site, node: Drun) -> Operation:
+def drun(context: StatementContext, node: Drun) -> Operation:
     """`drun L`, `drunr L`."""
 
     def action() -> None:
-        site.machine.channels.flush()
-        site.machine.run_at = site.code, site.place
-        site.host.drun(node.label, site.placed, star=node.star)
+        context.machine.channels.flush()
+        context.machine.run_at = context.code, context.place
+        context.host.drun(node.label, context.placed, star=node.star)
         if node.reset:
-            site.host.reset()
+            context.host.reset()
 
-    return site.then(action)
+    return context.then(action)
 
 
-def reset(site: Site) -> Operation:
+def reset(context: StatementContext) -> Operation:
     """`reset`."""
-    return site.then(site.host.reset)
+    return context.then(context.host.reset)
 
 
-def clear(site: Site) -> Operation:
+def clear(context: StatementContext) -> Operation:
     """`clear`: all names are forgotten, so every operation is made anew."""
 
     def action() -> None:
-        machine = site.machine
+        machine = context.machine
         if machine.returns:
-            raise ScriptFault("clear-in-procedure", site.node)
-        site.values.clear()
+            raise ScriptFault("clear-in-procedure", context.node)
+        context.values.clear()
         machine.refresh()
 
-    return site.then(action)
+    return context.then(action)
 
 
-def irule(site: Site, node: Irule) -> Operation:
+def irule(context: StatementContext, node: Irule) -> Operation:
     """`irule n`, or the current rule; error 86."""
-    host = site.host
+    host = context.host
     if node.rule is None:
-        return site.then(lambda: host.write(f"irule {host.rule}\n"))
-    rule, argument = site.whole(node.rule), node.rule
+        return context.then(lambda: host.write(f"irule {host.rule}\n"))
+    rule, argument = context.truncated(node.rule), node.rule
 
     def action() -> None:
         number = rule()
@@ -65,34 +65,34 @@ def irule(site: Site, node: Irule) -> Operation:
             raise ScriptFault("no-such-rule", argument, rule=number)
         host.rule = number
 
-    return site.then(action)
+    return context.then(action)
 
 
-def seed(site: Site, node: Seed) -> Operation:
+def seed(context: StatementContext, node: Seed) -> Operation:
     """`SEED n`."""
-    number, random = site.whole(node.value), site.values.random
+    number, random = context.truncated(node.value), context.values.random
 
     def action() -> None:
         random[0] = seeded(number())
 
-    return site.then(action)
+    return context.then(action)
 
 
-def display(site: Site, node: Display) -> Operation:
+def display(context: StatementContext, node: Display) -> Operation:
     """`display …`; `display 2` is for scripts only."""
-    host = site.host
-    if site.code.is_command and node.mode == "2":
+    host = context.host
+    if context.code.is_command and node.mode == "2":
         raise ScriptFault("not-a-command", node, word="display 2")
-    args = [site.real(arg) for arg in node.args]
-    return site.then(lambda: host.display(node.mode, [arg() for arg in args]))
+    args = [context.real(arg) for arg in node.args]
+    return context.then(lambda: host.display(node.mode, [arg() for arg in args]))
 
 
-def plot(site: Site, node: Plot) -> Operation:
+def plot(context: StatementContext, node: Plot) -> Operation:
     """`plot x, y [, c]`, `plot z [, c]`."""
-    host = site.host
-    first, kind = site.value(node.args[0])
+    host = context.host
+    first, kind = context.value(node.args[0])
     is_complex = kind is Kind.COMPLEX
-    rest = [site.real(arg) for arg in node.args[1:]]
+    rest = [context.real(arg) for arg in node.args[1:]]
     colors = rest if is_complex else rest[1:]
     if len(colors) > 1 or not (rest or is_complex):
         raise ScriptFault("plot-arguments", node)
@@ -102,74 +102,74 @@ def plot(site: Site, node: Plot) -> Operation:
         y = z.imag if is_complex else rest[0]()
         host.plot(z.real, y, int(colors[0]()) if colors else None)
 
-    return site.then(action)
+    return context.then(action)
 
 
-def show(site: Site, node: Show) -> Operation:
+def show(context: StatementContext, node: Show) -> Operation:
     """`SHOW A, ncol`; error 112. Without ncol a matrix keeps its columns, a vector becomes about square."""
-    quantity = site.array(Name(node.name, node.start, node.end))
+    quantity = context.array(Name(node.name, node.start, node.end))
     square = max(1, round(quantity.size**0.5))
     usual = quantity.shape[-1] if len(quantity.shape) > 1 else square
-    given = site.whole(node.columns) if node.columns is not None else None
+    given = context.truncated(node.columns) if node.columns is not None else None
 
     def action() -> None:
         count = given() if given is not None else usual
         if not 1 <= count <= quantity.size:
             raise ScriptFault("script-show-columns", node, columns=count, size=quantity.size)
-        site.host.show(quantity, count)
+        context.host.show(quantity, count)
 
-    return site.then(action)
+    return context.then(action)
 
 
-def connect(site: Site, node: Connect) -> Operation:
+def connect(context: StatementContext, node: Connect) -> Operation:
     """`connect 'f' as input n`."""
     if not isinstance(node.file, Text):
         raise ScriptFault("file-name-missing", node.file)
-    name, number, channels = node.file.value, site.whole(node.channel), site.machine.channels
-    return site.then(lambda: channels.connect(name, node.mode, number()))
+    name, number, channels = node.file.value, context.truncated(node.channel), context.machine.channels
+    return context.then(lambda: channels.connect(name, node.mode, number()))
 
 
-def disconnect(site: Site, node: Disconnect) -> Operation:
+def disconnect(context: StatementContext, node: Disconnect) -> Operation:
     """`disconnect n, m`."""
-    numbers, channels = [site.whole(channel) for channel in node.channels], site.machine.channels
+    numbers, channels = [context.truncated(channel) for channel in node.channels], context.machine.channels
 
     def action() -> None:
         for number in numbers:
             channels.disconnect(number())
 
-    return site.then(action)
+    return context.then(action)
 
 
-def time(site: Site) -> Operation:
+def time(context: StatementContext) -> Operation:
     """`time`: date, time of day, CPU seconds so far."""
 
     def action() -> None:
         now = clock.strftime("%Y-%m-%d %H:%M:%S")
-        site.host.write(f"{now}   CPU {clock.process_time():.2f} s\n")
+        context.host.write(f"{now}   CPU {clock.process_time():.2f} s\n")
 
-    return site.then(action)
+    return context.then(action)
 
 
-def trace(site: Site) -> Operation:
+def trace(context: StatementContext) -> Operation:
     """`trace`: single-step from here on; again: run freely."""
-    following = site.next
-    return lambda: site.machine.turn_tracing(following)
+    following = context.next
+    return lambda: context.machine.toggle_tracing(following)
 
 
 _IN_SCRIPTS = {"snapshot", "notebook", "help", "sh", "list", "list+", "compare", "bye"}
 
 
-def host_command(site: Site, node: FileCommand | Simple) -> Operation:
+def host_command(context: StatementContext, node: FileCommand | Simple) -> Operation:
     """Commands about editors, files, programs; error 199 for those that a script may not give."""
-    host = site.host
+    host = context.host
     argument = node.argument if isinstance(node, FileCommand) else None
-    if not site.code.is_command and node.word not in _IN_SCRIPTS:
+    if not context.code.is_command and node.word not in _IN_SCRIPTS:
         raise ScriptFault("command-only", node, word=node.word)
     if node.word == "sh":
-        return site.then(lambda: host.shell(argument or ""))
-    if node.word == "bye" and not site.code.is_command:
+        return context.then(lambda: host.shell(argument or ""))
+    if node.word == "bye" and not context.code.is_command:
         return lambda: _leave(host)
-    return site.then(lambda: host.command(node.word, argument))
+    return context.then(lambda: host.command(node.word, argument))
 
 
 def _leave(host: Host) -> NoReturn:
@@ -178,8 +178,8 @@ def _leave(host: Host) -> NoReturn:
     raise Finished
 
 
-def go(site: Site) -> Operation:
+def go(context: StatementContext) -> Operation:
     """`go` as a command."""
-    if not site.code.is_command:
-        raise ScriptFault("command-only", site.node, word="go")
-    return site.then(site.machine.resume)
+    if not context.code.is_command:
+        raise ScriptFault("command-only", context.node, word="go")
+    return context.then(context.machine.resume)

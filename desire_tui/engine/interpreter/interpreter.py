@@ -47,7 +47,7 @@ class Interpreter:
 
     def halt_at(self, lines: Iterable[int]) -> None:
         """Stop as at a STOP before the first statement of each of these lines (from 1), from now on."""
-        self._machine.codes.halt_at(self._places(frozenset(lines)))
+        self._machine.code_table.halt_at(self._places(frozenset(lines)))
 
     def _places(self, lines: frozenset[int]) -> frozenset[int]:
         """Return the places of the first statements of lines, where they have one."""
@@ -62,11 +62,11 @@ class Interpreter:
         """The statement that `go` would carry out next, after a STOP; else None."""
         if self._machine.stopped is None:
             return None
-        code, place = self._machine.codes.locate(self._machine.stopped.address)
+        code, place = self._machine.code_table.locate(self._machine.stopped.address)
         return code.text.placed[min(place, len(code.text.placed) - 1)]
 
     def runs_ahead(self) -> int | None:
-        """Return how many runs come after the one being made; None: that cannot be told."""
+        """Return how many runs come after the one being made; None: unknown."""
         return self._machine.runs_ahead()
 
     def run(self) -> None:
@@ -107,7 +107,7 @@ class Interpreter:
             if (
                 machine.stopped is None or machine.stopped is stopped
             ):  # else a PROCEDURE stopped, and comes back here
-                machine.codes.unlink(code)
+                machine.code_table.unlink(code)
 
     def _run(self, address: int) -> None:
         try:

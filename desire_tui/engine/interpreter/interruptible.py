@@ -1,7 +1,7 @@
 """Waiting for one long NumPy operation in such a way that Ctrl-C gets through.
 
 LAPACK inverts a large matrix in one call that nothing can break off. It lets other threads run meanwhile, so
-it gets a thread of its own, and the interpreter waits for that, looking around (`check`) twenty times a
+it gets a thread of its own, and the interpreter waits for that, calling `check` twenty times a
 second. What is broken off goes on unseen until LAPACK is done, and its result is dropped; the next long
 operation waits for that, so that there is never more than one. A process that ends meanwhile must not wait
 for LAPACK, nor run the clearing up of Python and BLAS beside it (that may hang): it is left at once. (An
@@ -39,10 +39,10 @@ def leave_at_once(status: int) -> None:
         os._exit(status)
 
 
-def patiently(work: int, operation: Callable[[], Result], check: Callable[[], None]) -> Result:
+def run_interruptibly(work: int, operation: Callable[[], Result], check: Callable[[], None]) -> Result:
     """Return what `operation` returns, or raise what it raises, or what `check` raises meanwhile.
 
-    `work` tells about how many multiplications it takes. It must not read what others may change.
+    `work` is about how many multiplications it takes. It must not read what others may change.
     """
     if work < LONG_WORK:
         return operation()

@@ -2,7 +2,7 @@
 
 Each statement becomes one operation, a Python function without arguments that returns the address of the
 next one. All operations stand in one list: the script's first, then the body of each PROCEDURE (one for each
-kind of arguments), then the command line in hand. A call pushes the address to come back to.
+kind of arguments), then the command line being executed. A call pushes the address to come back to.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.interpreter.code_table import Codes, Finished, Operation, ScriptCode, StatementList
+from desire_tui.engine.interpreter.code_table import CodeTable, Finished, Operation, ScriptCode, StatementList
 from desire_tui.engine.interpreter.compile_python import PythonCompiler
 from desire_tui.engine.interpreter.data_list import DataList
 from desire_tui.engine.interpreter.exception_mapping import Origins, ScriptFault, explain
@@ -34,11 +34,11 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 _BURST = 1000
-"""Operations between two looks at the world (`Host.interrupted`, tracing); every jump back looks too."""
+"""Operations between two checks for interruption and tracing; every jump back checks, too."""
 
 
-class Turned(Exception):  # noqa: N818 - control flow
-    """Tracing was turned on or off; `address` comes next."""
+class TracingToggled(Exception):  # noqa: N818 - control flow
+    """Tracing was toggled on or off; `address` comes next."""
 
     def __init__(self, address: int) -> None:
         super().__init__()
@@ -80,7 +80,7 @@ class ScriptMachine:
         functions = dict(structure.functions)  # commands may add to it
         self.scope = NameScope(values, functions, structure.procedures)
         self.functions = UserFunctions(functions, self.scope, self.build, program.source)
-        self.codes = Codes(partial(make, self), self._halt)
+        self.code_table = CodeTable(partial(make, self), self._halt)
         self.data = DataList(program.script, structure.data, partial(data_item, self))
         self.procedures: dict[tuple[object, ...], ScriptCode] = {}
         text = StatementList(program.script, structure, program.source)
@@ -108,14 +108,14 @@ class ScriptMachine:
     ) -> ScriptCode:
         """Add statements `first` … `last - 1` of a text to the operations."""
         translator = ExpressionTranslator(scope, self.build, self.functions)
-        return self.codes.link(text, scope, translator, first, last, is_command=is_command)
+        return self.code_table.link(text, scope, translator, first, last, is_command=is_command)
 
     def forget(self) -> None:
         """Make all operations anew when they are next reached, and PROCEDUREs' bodies when next called."""
         self.procedures.clear()
         self.functions.forget()
         self.data.forget()
-        self.codes.forget()
+        self.code_table.forget()
 
     def refresh(self) -> None:
         """Forget all operations if all names were cleared since they were made."""
@@ -139,15 +139,15 @@ class ScriptMachine:
             while True:
                 try:
                     self._loop(address)
-                except Turned as turned:
-                    address = turned.address
+                except TracingToggled as toggled:
+                    address = toggled.address
         except Finished:
             pass
         finally:
             self.returns = before
 
     def _loop(self, address: int) -> None:
-        operations, host = self.codes.operations, self.host
+        operations, host = self.code_table.operations, self.host
         try:
             while True:
                 while not self.stepping:
@@ -155,33 +155,35 @@ class ScriptMachine:
                         address = operations[address]()
                     self.check()
                 while self.stepping:
-                    code, place = self.codes.locate(address)
+                    code, place = self.code_table.locate(address)
                     if place < code.last:
                         self._address = address
                         host.before(code.text.placed[place])
                     address = operations[address]()
-        except (Finished, Turned, Interrupted):
+        except (Finished, TracingToggled, Interrupted):
             raise
         except Exception as error:
-            code, place = self.codes.locate(address)
+            code, place = self.code_table.locate(address)
             placed = code.text.placed[place]
             raise explain(error, placed, code.text.source, self.origins, self._callers()) from error
 
     def runs_ahead(self) -> int | None:
-        """Return how many runs come after the one being made, where loops tell."""
+        """Return how many runs come after the one being made, where loops show it."""
         if self.run_at is None:
             return None
-        return runs_ahead([self.run_at, *(self.codes.locate(back - 1) for back, _ in reversed(self.returns))])
+        return runs_ahead(
+            [self.run_at, *(self.code_table.locate(back - 1) for back, _ in reversed(self.returns))]
+        )
 
     def _callers(self) -> list[tuple[Placed, Source | None]]:
         """Return the `call` statements that led here, the innermost first."""
-        found = (self.codes.locate(back - 1) for back, _ in reversed(self.returns))
+        found = (self.code_table.locate(back - 1) for back, _ in reversed(self.returns))
         return [(code.text.placed[place], code.text.source) for code, place in found]
 
-    def turn_tracing(self, address: int) -> NoReturn:
+    def toggle_tracing(self, address: int) -> NoReturn:
         """`trace`: on, or off again; go on at `address`."""
         self.stepping = not self.stepping
-        raise Turned(address)
+        raise TracingToggled(address)
 
     def check(self) -> None:
         """Let the user in: called at every jump back."""
@@ -220,5 +222,5 @@ class ScriptMachine:
         if self.stopped is None:
             raise DesireError(Diagnostic("go-without-stop"))
         stop, self.stopped = self.stopped, None
-        self._passing = stop.address if self.codes.halts_before(stop.address) else None
+        self._passing = stop.address if self.code_table.halts_before(stop.address) else None
         self.run(stop.address, stop.returns)

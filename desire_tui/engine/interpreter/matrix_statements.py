@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.interpreter.code_table import Operation
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.assignments import Dot, MatrixAssign, VectorAssign
     from desire_tui.engine.values import Quantity
 
@@ -27,22 +27,22 @@ TEMPORARIES = 3
 """Arrays of the target's size that a statement holds at a time."""
 
 
-def matrix(site: Site, node: MatrixAssign) -> Operation:
+def matrix(context: StatementContext, node: MatrixAssign) -> Operation:
     """`MATRIX C = A * B + …`; `= 1` the identity, `= 0` all zeroes; `DELTA` adds."""
-    target = site.array(Name(node.name, node.start, node.end))
+    target = context.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 2:
         raise ScriptFault("not-a-matrix", Name(node.name, node.start, node.end), name=node.name)
     rows, columns = target.shape
-    expressions = ArrayExpressions(site, true_products=True)
+    expressions = ArrayExpressions(context, true_products=True)
     value = expressions.assigned(node.value, target.shape)
-    bounds = [site.real(b) if b is not None else None for b in (node.lower, node.upper)]
-    mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
-    view = site.numbers(target)
+    bounds = [context.real(b) if b is not None else None for b in (node.lower, node.upper)]
+    mask = context.numbers(context.array(Name(node.mask))) if node.mask else None
+    view = context.numbers(target)
     identity = isinstance(node.value, Number) and node.value.value == 1.0 and not node.delta
 
     @np.errstate(all="ignore")  # the result is looked at
     def action() -> None:
-        site.needs_room(TEMPORARIES * target.size, node)
+        context.require_memory(TEMPORARIES * target.size, node)
         result = value()
         if identity:
             result = np.eye(rows, columns)
@@ -58,21 +58,21 @@ def matrix(site: Site, node: MatrixAssign) -> Operation:
         else:
             view[...] = result
 
-    return site.then(action)
+    return context.then(action)
 
 
-def vector(site: Site, node: VectorAssign) -> Operation:
+def vector(context: StatementContext, node: VectorAssign) -> Operation:
     """`Vector y = A * x + b`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
-    target = site.array(Name(node.name, node.start, node.end))
+    target = context.array(Name(node.name, node.start, node.end))
     if len(target.shape) != 1:
         raise ScriptFault("not-a-vector", Name(node.name, node.start, node.end), name=node.name)
-    value = ArrayExpressions(site, true_products=False).assigned(node.value, target.shape)
-    mask = site.numbers(site.array(Name(node.mask))) if node.mask else None
-    view = site.numbers(target)
+    value = ArrayExpressions(context, true_products=False).assigned(node.value, target.shape)
+    mask = context.numbers(context.array(Name(node.mask))) if node.mask else None
+    view = context.numbers(target)
 
     @np.errstate(all="ignore")  # the result is looked at
     def action() -> None:
-        site.needs_room(TEMPORARIES * target.size, node)
+        context.require_memory(TEMPORARIES * target.size, node)
         result = conform(value(), target.shape, node, node.name)
         if node.delta:
             result = view + result
@@ -82,7 +82,7 @@ def vector(site: Site, node: VectorAssign) -> Operation:
             result = np.where(conform(mask, target.shape, node, node.name) != 0.0, 0.0, result)
         view[...] = result
 
-    return site.then(action)
+    return context.then(action)
 
 
 def _largest_only(vector: Array) -> Array:
@@ -93,17 +93,17 @@ def _largest_only(vector: Array) -> Array:
     return result
 
 
-def dot(site: Site, node: Dot) -> Operation:
+def dot(context: StatementContext, node: Dot) -> Operation:
     """`DOT s = u*v + u*1 + u*A*v + u*A%*v`; `AVG` divides by the vectors' length."""
-    terms = [_DotTerm(site, sign, term) for sign, term in signed_terms(node.value)]
-    store = storer(site, node.target)
+    terms = [_DotTerm(context, sign, term) for sign, term in signed_terms(node.value)]
+    store = storer(context, node.target)
 
     @np.errstate(all="ignore")  # the result is looked at
     def action() -> None:
         total = sum(term.value() for term in terms)
         store(float(total / terms[0].length if node.average else total))
 
-    return site.then(action)
+    return context.then(action)
 
 
 def _factors(node: Expr) -> list[Expr]:
@@ -119,37 +119,37 @@ def _factors(node: Expr) -> list[Expr]:
 class _DotTerm:
     """One product: a vector, perhaps a matrix, and a vector or 1."""
 
-    def __init__(self, site: Site, sign: float, node: Expr) -> None:
+    def __init__(self, context: StatementContext, sign: float, node: Expr) -> None:
         factors = _factors(node)
         if not 2 <= len(factors) <= 3:
             raise ScriptFault("script-dot-term", node)
         own, first = unsigned(factors[0])  # `-u*v`
         self._sign = sign * own
-        left = self._vector(site, first)
-        self._left = site.numbers(left)
+        left = self._vector(context, first)
+        self._left = context.numbers(left)
         self.length = left.size
         last = factors[-1]
         ones = isinstance(last, Number) and last.value == 1.0 and len(factors) == 2
-        self._right = None if ones else site.numbers(self._vector(site, last))
-        self._matrix = self._find_matrix(site, factors[1]) if len(factors) == 3 else None
+        self._right = None if ones else context.numbers(self._vector(context, last))
+        self._matrix = self._find_matrix(context, factors[1]) if len(factors) == 3 else None
         shape = self._matrix.shape if self._matrix is not None else (self.length, self.length)
         right = self.length if self._right is None else len(self._right)
         if shape != (self.length, right):
             have = str(self.length) if self._matrix is None else f"{self.length}, {shape[0]}×{shape[1]}"
             raise ScriptFault("nonconformable", node, have=have, want=right)
 
-    def _vector(self, site: Site, node: Expr) -> Quantity:
-        quantity = site.array(node)
+    def _vector(self, context: StatementContext, node: Expr) -> Quantity:
+        quantity = context.array(node)
         if len(quantity.shape) != 1:
             raise ScriptFault("not-a-vector", node, name=quantity.name)
         return quantity
 
-    def _find_matrix(self, site: Site, node: Expr) -> Array:
+    def _find_matrix(self, context: StatementContext, node: Expr) -> Array:
         name = Name(node.name, node.start, node.end) if isinstance(node, Transposed) else node
-        quantity = site.array(name)
+        quantity = context.array(name)
         if len(quantity.shape) != 2:
             raise ScriptFault("not-a-matrix", node, name=quantity.name)
-        view = site.numbers(quantity)
+        view = context.numbers(quantity)
         return view.T if isinstance(node, Transposed) else view
 
     def value(self) -> float:

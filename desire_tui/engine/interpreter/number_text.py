@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 _PER_LINE = 5
 _PIECE = 100
-"""Elements turned into text at a time, so that a huge array needs no memory and can be broken off."""
+"""Elements toggled into text at a time, so that a huge array needs no memory and can be broken off."""
 
 
 def scalar_text(value: complex, kind: Kind) -> str:

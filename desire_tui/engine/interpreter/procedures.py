@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.interpreter.code_table import Operation, ScriptCode
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.control import CallProcedure
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.structure.structure import ProcedureText
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 Box = list[int]
 
 
-def call(site: Site, node: CallProcedure) -> Operation:
+def call(context: StatementContext, node: CallProcedure) -> Operation:
     """Make the operation of a call; errors 201 and 56."""
-    procedures = site.machine.structure.procedures
+    procedures = context.machine.structure.procedures
     found = procedures.get(node.name)
     if found is None:
         raise ScriptFault("undefined-procedure", node, name=node.name, close=closest(node.name, procedures))
@@ -40,15 +40,15 @@ def call(site: Site, node: CallProcedure) -> Operation:
         if len(given) != len(needed):
             facts = {"given": len(given), "needed": len(needed), "where": where}
             raise ScriptFault("arguments-do-not-match", node, name=node.name, **facts)
-    values = [site.value(value) for value in node.values]
-    references = [_Bound(site, reference) for reference in node.references]
-    code = _body(site, found, [kind for _, kind in values], references)
+    values = [context.value(value) for value in node.values]
+    references = [_Bound(context, reference) for reference in node.references]
+    code = _body(context, found, [kind for _, kind in values], references)
     dummies = code.scope.dummies
     slots = [meaning.slot for name in wanted.values if isinstance(meaning := dummies[name], Quantity)]
     boxes = [m.box if isinstance(m := dummies[name], Reference) else None for name in wanted.references]
-    entry, back, machine = code.base + found.opens + 1, site.next, site.machine
+    entry, back, machine = code.base + found.opens + 1, context.next, context.machine
     store_complex = machine.build.names["set_complex"]
-    cells = site.values.cells
+    cells = context.values.cells
     stores = [
         (evaluate, slot, kind is Kind.COMPLEX) for (evaluate, kind), slot in zip(values, slots, strict=True)
     ]
@@ -75,27 +75,27 @@ def call(site: Site, node: CallProcedure) -> Operation:
 class _Bound:
     """An argument by reference: a whole array, or a scalar or element whose slot each call finds."""
 
-    def __init__(self, site: Site, node: Expr) -> None:
+    def __init__(self, context: StatementContext, node: Expr) -> None:
         self.array: Quantity | None = None
         self.kind = Kind.REAL
         self.fill: Callable[[Box], None] | None = None
         if isinstance(node, Element):
-            slot_of, self.kind = site.slot(node)
+            slot_of, self.kind = context.slot(node)
             self.fill = _fill_element(slot_of)
         elif isinstance(node, Name):
-            self._name(site, node)
+            self._name(context, node)
         else:
             raise ScriptFault("reference-expected", node)
 
-    def _name(self, site: Site, node: Name) -> None:
-        meaning = site.scope.assigned(node)
+    def _name(self, context: StatementContext, node: Name) -> None:
+        meaning = context.scope.assigned(node)
         self.kind = meaning.kind
         if isinstance(meaning, Reference):
             self.fill = _fill_again(meaning.box)
         elif meaning.shape:
             self.array = meaning
         else:
-            self.fill = _fill_scalar(meaning.slot, site.values.defined)
+            self.fill = _fill_scalar(meaning.slot, context.values.defined)
 
 
 def _fill_element(slot_of: Callable[[], int]) -> Callable[[Box], None]:
@@ -119,9 +119,11 @@ def _fill_scalar(slot: int, defined: bytearray) -> Callable[[Box], None]:
     return fill
 
 
-def _body(site: Site, found: ProcedureText, kinds: list[Kind], references: list[_Bound]) -> ScriptCode:
+def _body(
+    context: StatementContext, found: ProcedureText, kinds: list[Kind], references: list[_Bound]
+) -> ScriptCode:
     """Return the body's code for these kinds of arguments."""
-    machine = site.machine
+    machine = context.machine
     wanted = found.node
     key = (wanted.name, *kinds, *((b.kind, b.array) for b in references))
     known = machine.procedures.get(key)

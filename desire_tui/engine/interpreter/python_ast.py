@@ -87,22 +87,22 @@ def compare(left: ast.expr, operators: list[ast.cmpop], right: list[ast.expr]) -
     return ast.Compare(left, operators, right, **_P)
 
 
-def joined(operator: ast.boolop, parts: list[ast.expr]) -> ast.expr:
+def and_or(operator: ast.boolop, parts: list[ast.expr]) -> ast.expr:
     """Return conditions joined by `and` or `or`."""
     return ast.BoolOp(operator, parts, **_P)
 
 
-def choice(condition: ast.expr, yes: ast.expr, no: ast.expr) -> ast.expr:
+def if_else(condition: ast.expr, yes: ast.expr, no: ast.expr) -> ast.expr:
     """Return `yes if condition else no`."""
     return ast.IfExp(condition, yes, no, **_P)
 
 
-def named(variable: str, value: ast.expr) -> ast.expr:
+def assign_inline(variable: str, value: ast.expr) -> ast.expr:
     """Return `(variable := value)`."""
     return ast.NamedExpr(ast.Name(variable, _STORE, **_P), value, **_P)
 
 
-def last(values: list[ast.expr]) -> ast.expr:
+def last_of(values: list[ast.expr]) -> ast.expr:
     """Return `(a, b, …)[-1]`: all are evaluated in their order, the last is the value."""
     return ast.Subscript(ast.Tuple(values, _LOAD, **_P), number(-1), _LOAD, **_P)
 
@@ -117,17 +117,17 @@ def set_cell(slot: ast.expr, value: ast.expr) -> ast.stmt:
     return ast.Assign([ast.Subscript(load("c"), slot, _STORE, **_P)], value, **_P)
 
 
-def carry_out(expression: ast.expr) -> ast.stmt:
+def expression_statement(expression: ast.expr) -> ast.stmt:
     """Return an expression as a statement."""
     return ast.Expr(expression, **_P)
 
 
-def give(value: ast.expr) -> ast.stmt:
+def return_value(value: ast.expr) -> ast.stmt:
     """Return `return value`."""
     return ast.Return(value, **_P)
 
 
-def when(condition: ast.expr, *body: ast.stmt) -> ast.stmt:
+def if_statement(condition: ast.expr, *body: ast.stmt) -> ast.stmt:
     """Return `if condition: body`."""
     return ast.If(condition, list(body), [], **_P)
 

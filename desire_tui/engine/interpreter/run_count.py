@@ -1,7 +1,8 @@
 """How many runs are still to come: for `run 3 of 5` while a script makes its runs in loops.
 
 What is known at a `drun`: how often each `for` around it was passed, and how often it will be. Where a run
-hangs on a condition, a `go to` or the bounds of a loop not reached yet, nobody knows, and nothing is said.
+depends on a condition, a `go to` or the bounds of a loop not reached yet, the number is not known, and none
+is shown.
 """
 
 from __future__ import annotations
@@ -31,11 +32,11 @@ _ANY = "*"
 
 
 class _Unknown(Exception):  # noqa: N818 - control flow
-    """The number of runs is known to nobody."""
+    """The number of runs is not known."""
 
 
 def runs_ahead(frames: Sequence[tuple[ScriptCode, int]]) -> int | None:
-    """Return how many runs come after the one being made; None: that cannot be told.
+    """Return how many runs come after the one being made; None: unknown.
 
     `frames` names the place of the `drun`, then those of the `call`s that led to it, the innermost first.
     """

@@ -50,9 +50,11 @@ class ScalarTranslator(ABC):
         if not self._may_overflow(node):
             return Typed(code, kind)
         value = self.build.fresh("v")
-        difference = py.binary(py.named(value, code), py.SUBTRACT, py.load(value))  # 0 but for inf and nan
+        difference = py.binary(
+            py.assign_inline(value, code), py.SUBTRACT, py.load(value)
+        )  # 0 but for inf and nan
         fits = py.compare(difference, [py.EQUAL], [py.number(0.0)])
-        return Typed(py.choice(fits, py.load(value), at(py.call("overflow"), node)), kind)
+        return Typed(py.if_else(fits, py.load(value), at(py.call("overflow"), node)), kind)
 
     def _may_overflow(self, node: Expr) -> bool:
         match node:

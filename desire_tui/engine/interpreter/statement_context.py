@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Quantity
 
 
-class Site:
+class StatementContext:
     """One statement of some code."""
 
     def __init__(self, machine: ScriptMachine, code: ScriptCode, place: int) -> None:
@@ -79,16 +79,16 @@ class Site:
         if quantity is not None:
             cells, slot = self.values.cells, quantity.slot
             return lambda: cells[slot]
-        return self.function([py.give(self.translator.real(node))])
+        return self.function([py.return_value(self.translator.real(node))])
 
     def value(self, node: Expr) -> tuple[Callable[[], complex], Kind]:
         """Return a function that evaluates any scalar expression, and the kind of its value."""
         if literal(node) is not None:
             return self.real(node), Kind.REAL
         code, kind = self.translator.finite(node)
-        return self.function([py.give(code)]), kind
+        return self.function([py.return_value(code)]), kind
 
-    def whole(self, node: Expr) -> Callable[[], int]:
+    def truncated(self, node: Expr) -> Callable[[], int]:
         """Return a function that evaluates an expression and truncates its value."""
         value = self.real(node)
 
@@ -113,10 +113,10 @@ class Site:
                 return slot
 
             return constant, kind
-        body: list[ast.stmt] = [py.give(code)]
+        body: list[ast.stmt] = [py.return_value(code)]
         meaning = self.scope.dummies.get(target.name)
         if isinstance(meaning, Reference):
-            body.insert(0, py.carry_out(py.call("mark", py.load(meaning.variable))))
+            body.insert(0, py.expression_statement(py.call("mark", py.load(meaning.variable))))
         return self.function(body), kind
 
     def slot_code(self, target: Target) -> tuple[ast.expr, Kind]:
@@ -132,7 +132,7 @@ class Site:
             raise self.scope.whole_array(target, meaning)
         return py.number(meaning.slot), meaning.kind
 
-    def needs_room(self, numbers: int, part: Node) -> None:
+    def require_memory(self, numbers: int, part: Node) -> None:
         """Refuse a statement that would fill the machine's memory for a moment (error 40)."""
         if numbers > self.values.spare:
             raise ScriptFault("out-of-memory", part, elements=numbers)

@@ -17,7 +17,7 @@ from desire_tui.engine.interpreter.assignment import assign
 from desire_tui.engine.interpreter.declarations import declare
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.fourier import fft
-from desire_tui.engine.interpreter.statement_context import Site
+from desire_tui.engine.interpreter.statement_context import StatementContext
 from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple, Word
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
@@ -58,109 +58,109 @@ _COMMANDS = [
 
 def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
     """Make the operation of a statement."""
-    site = Site(machine, code, place)
-    node = site.node
+    context = StatementContext(machine, code, place)
+    node = context.node
     if code.is_command:
         _must_be_command(node)
     match node:
         case Assign():
-            return assign(site, node)
+            return assign(context, node)
         case Simple():
-            return _make_word(site, node)
+            return _make_word(context, node)
         case Bare():
-            return _bare(site, node)
+            return _bare(context, node)
         case If():
-            return control.if_then(site, node)
+            return control.if_then(context, node)
         case For():
-            return control.for_loop(site, node)
+            return control.for_loop(context, node)
         case While():
-            return control.while_loop(site, node)
+            return control.while_loop(context, node)
         case Until():
-            return control.until(site, node)
+            return control.until(context, node)
         case GoTo():
-            return control.go_to(site, node)
+            return control.go_to(context, node)
         case Label() | Data() | Function():
-            return control.nothing(site)
+            return control.nothing(context)
         case Procedure() | Submodel():
-            return control.leave_block(site)
+            return control.leave_block(context)
         case CallProcedure():
-            return procedures.call(site, node)
+            return procedures.call(context, node)
         case Declare():
-            return declare(site, node)
+            return declare(context, node)
         case Read():
-            return data_and_input.read(site, node)
+            return data_and_input.read(context, node)
         case Restore():
-            return data_and_input.restore(site, node)
+            return data_and_input.restore(context, node)
         case Input():
-            return data_and_input.get_input(site, node)
+            return data_and_input.get_input(context, node)
         case Write():
-            return writing.write(site, node)
+            return writing.write(context, node)
         case Note():
-            return writing.note(site, node)
+            return writing.note(context, node)
         case Dump():
-            return writing.dump(site, node)
+            return writing.dump(context, node)
         case Connect():
-            return host_statements.connect(site, node)
+            return host_statements.connect(context, node)
         case Disconnect():
-            return host_statements.disconnect(site, node)
+            return host_statements.disconnect(context, node)
         case Irule():
-            return host_statements.irule(site, node)
+            return host_statements.irule(context, node)
         case Seed():
-            return host_statements.seed(site, node)
+            return host_statements.seed(context, node)
         case Drun():
-            return host_statements.drun(site, node)
+            return host_statements.drun(context, node)
         case Fft():
-            return fft(site, node)
+            return fft(context, node)
         case Display():
-            return host_statements.display(site, node)
+            return host_statements.display(context, node)
         case Plot():
-            return host_statements.plot(site, node)
+            return host_statements.plot(context, node)
         case Show():
-            return host_statements.show(site, node)
+            return host_statements.show(context, node)
         case MatrixAssign():
-            return matrix_statements.matrix(site, node)
+            return matrix_statements.matrix(context, node)
         case VectorAssign():
-            return matrix_statements.vector(site, node)
+            return matrix_statements.vector(context, node)
         case Dot():
-            return matrix_statements.dot(site, node)
+            return matrix_statements.dot(context, node)
         case FileCommand():
-            return host_statements.host_command(site, node)
+            return host_statements.host_command(context, node)
     if isinstance(node, SegmentOnlyStatement):
         raise ScriptFault("not-in-script", node)
     assert_never(node)
 
 
-def _make_word(site: Site, node: Simple) -> Operation:
+def _make_word(context: StatementContext, node: Simple) -> Operation:
     """Make the operation of a statement that is a word."""
     match node.word:
         case "else":
-            return control.leave_block(site)
+            return control.leave_block(context)
         case "proceed" | "repeat":
-            return control.nothing(site)
+            return control.nothing(context)
         case "next":
-            return control.next_pass(site)
+            return control.next_pass(context)
         case "end while":
-            return control.end_while(site)
+            return control.end_while(context)
         case "end":
-            return control.end_procedure(site)
+            return control.end_procedure(context)
         case "exit":
-            return control.exit_block(site)
+            return control.exit_block(context)
         case "STOP":
-            return control.stop(site)
+            return control.stop(context)
         case "go":
-            return host_statements.go(site)
+            return host_statements.go(context)
         case "reset":
-            return host_statements.reset(site)
+            return host_statements.reset(context)
         case "clear":
-            return host_statements.clear(site)
+            return host_statements.clear(context)
         case "time":
-            return host_statements.time(site)
+            return host_statements.time(context)
         case "trace":
-            return host_statements.trace(site)
+            return host_statements.trace(context)
         case "OUT" | "step" | "JACOBIAN" | "end if" | "DYNAMIC":
             raise ScriptFault("not-in-script", node)
         case "erun" | "run" | "bye" | "new" | "NEW" | "list" | "list+" | "ed" | "edit" | "reload" | "keep+":
-            return host_statements.host_command(site, node)
+            return host_statements.host_command(context, node)
     assert_never(node.word)
 
 
@@ -180,12 +180,12 @@ def _must_be_command(node: Statement) -> None:
         raise ScriptFault("not-a-command", node, word=word)
 
 
-def _bare(site: Site, node: Bare) -> Operation:
+def _bare(context: StatementContext, node: Bare) -> Operation:
     """Print an expression that stands alone as a command."""
     try:
-        line = writing.line_of(site, (WriteItem(node.value, "", "", node.start, node.end),))
+        line = writing.line_of(context, (WriteItem(node.value, "", "", node.start, node.end),))
     except ScriptFault as fault:
         if fault.key == "undefined-variable" and isinstance(node.value, Name):
             fault.facts["close"] = fault.facts["close"] or closest(node.value.name, _COMMANDS)
         raise
-    return site.then(lambda: site.host.write("".join(line())))
+    return context.then(lambda: context.host.write("".join(line())))

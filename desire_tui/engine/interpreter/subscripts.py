@@ -53,7 +53,7 @@ def _checked(node: Number, size: int, place: int) -> int:
 def _subscript(translator: ScalarTranslator, node: Expr, size: int, place: int) -> ast.expr:
     """`int(v) if 1 <= (v := …) <= size else bad_subscript(v, size, place)`."""
     variable = translator.build.fresh("s")
-    value = py.named(variable, translator.real(node))
+    value = py.assign_inline(variable, translator.real(node))
     inside = py.compare(py.number(1), [py.AT_MOST, py.AT_MOST], [value, py.number(size)])
     failed = py.call("bad_subscript", py.load(variable), py.number(size), py.number(place))
-    return at(py.choice(inside, py.call("int", py.load(variable)), at(failed, node)), node)
+    return at(py.if_else(inside, py.call("int", py.load(variable)), at(failed, node)), node)

@@ -121,9 +121,9 @@ class UserFunctions:
         finally:
             self._open.pop()
         if self._calls_in(definition.body) > 1:  # such FUNCTIONs may take for ever: 2, 4, 8 … calls
-            code = py.last([py.call("check"), code])
+            code = py.last_of([py.call("check"), code])
         parameters = tuple(m.variable for m in meanings if isinstance(m, Local))
-        made = self._build.function([py.give(code)], placed, source, parameters)
+        made = self._build.function([py.return_value(code)], placed, source, parameters)
         name = self._build.share("u", made)
         self._compiled[key] = name, kind
         return name, kind

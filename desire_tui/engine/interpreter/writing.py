@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from desire_tui.engine.interpreter.code_table import Operation
-    from desire_tui.engine.interpreter.statement_context import Site
+    from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.files import Dump, Note, Write, WriteItem
     from desire_tui.engine.values import Values
 
@@ -30,21 +30,21 @@ if TYPE_CHECKING:
 _SEPARATORS = {",": "\t", ";": "", "": ""}
 
 
-def write(site: Site, node: Write) -> Operation:
+def write(context: StatementContext, node: Write) -> Operation:
     """`write …`, `write #n, …`, `write ##n, …`."""
-    line = line_of(site, node.items, raw=node.raw)
+    line = line_of(context, node.items, raw=node.raw)
     if node.channel is None:
-        return site.then(lambda: _send(site, line, site.host.write))
-    number, channels = site.whole(node.channel), site.machine.channels
+        return context.then(lambda: _send(context, line, context.host.write))
+    number, channels = context.truncated(node.channel), context.machine.channels
 
     def action() -> None:
         channel = number()
-        _send(site, line, lambda text: channels.write(channel, text))
+        _send(context, line, lambda text: channels.write(channel, text))
 
-    return site.then(action)
+    return context.then(action)
 
 
-def _send(site: Site, line: Piece, sink: Callable[[str], None]) -> None:
+def _send(context: StatementContext, line: Piece, sink: Callable[[str], None]) -> None:
     """Send a statement's text as one piece, or a long array's in several."""
     pending: list[str] = []
     for piece in line():
@@ -52,20 +52,20 @@ def _send(site: Site, line: Piece, sink: Callable[[str], None]) -> None:
         if len(pending) == 1000:
             sink("".join(pending))
             pending.clear()
-            site.machine.check()
+            context.machine.check()
     if pending:
         sink("".join(pending))
 
 
-def note(site: Site, node: Note) -> Operation:
+def note(context: StatementContext, node: Note) -> Operation:
     """`note 'text'; x`: one line of the notebook."""
-    line = line_of(site, node.items, raw=False)
-    return site.then(lambda: site.host.note("".join(line()).rstrip("\n")))
+    line = line_of(context, node.items, raw=False)
+    return context.then(lambda: context.host.note("".join(line()).rstrip("\n")))
 
 
-def line_of(site: Site, items: tuple[WriteItem, ...], *, raw: bool = False) -> Piece:
+def line_of(context: StatementContext, items: tuple[WriteItem, ...], *, raw: bool = False) -> Piece:
     """Return a function that yields the pieces of the text of `write`'s items."""
-    pieces = [(_item(site, item, raw=raw), _SEPARATORS[item.separator]) for item in items]
+    pieces = [(_item(context, item, raw=raw), _SEPARATORS[item.separator]) for item in items]
     stays_open = bool(items) and items[-1].separator != ""
 
     def ends_line(piece: str) -> bool:
@@ -85,26 +85,26 @@ def line_of(site: Site, items: tuple[WriteItem, ...], *, raw: bool = False) -> P
     return line
 
 
-def _item(site: Site, item: WriteItem, *, raw: bool) -> Piece:
-    node, values = item.value, site.values
+def _item(context: StatementContext, item: WriteItem, *, raw: bool) -> Piece:
+    node, values = item.value, context.values
     if isinstance(node, Text):
         return lambda: iter((node.value,))
     if isinstance(node, Name) and not item.form:
-        meaning = site.scope.find(node.name)
+        meaning = context.scope.find(node.name)
         if isinstance(meaning, Quantity) and meaning.shape:
             if raw:
                 return lambda: raw_array_text(values, meaning)
             return lambda: array_text(values, meaning, node.name)
     if item.form:
-        return _coded(site, item)
-    value, kind = site.value(node)
+        return _coded(context, item)
+    value, kind = context.value(node)
     show = raw_text if raw else scalar_text
     return lambda: iter((show(value(), kind),))
 
 
-def _coded(site: Site, item: WriteItem) -> Piece:
+def _coded(context: StatementContext, item: WriteItem) -> Piece:
     """`$n` one character, `%n` octal, `%%n` hexadecimal."""
-    number, node = site.whole(item.value), item.value
+    number, node = context.truncated(item.value), item.value
     if item.form == "$":
 
         def character() -> Iterator[str]:
@@ -118,19 +118,19 @@ def _coded(site: Site, item: WriteItem) -> Piece:
     return lambda: iter((convert(number()),))
 
 
-def dump(site: Site, node: Dump) -> Operation:
+def dump(context: StatementContext, node: Dump) -> Operation:
     """`dump`, `dump #n`; `dump run` shows the last run's settings and counters."""
     if node.what == "run":
-        return site.then(lambda: site.host.command("dump", "run"))
+        return context.then(lambda: context.host.command("dump", "run"))
     if node.channel is None:
-        return site.then(lambda: _send(site, lambda: all_text(site.values), site.host.write))
-    number, channels = site.whole(node.channel), site.machine.channels
+        return context.then(lambda: _send(context, lambda: all_text(context.values), context.host.write))
+    number, channels = context.truncated(node.channel), context.machine.channels
 
     def action() -> None:
         channel = number()
-        _send(site, lambda: all_text(site.values), lambda text: channels.write(channel, text))
+        _send(context, lambda: all_text(context.values), lambda text: channels.write(channel, text))
 
-    return site.then(action)
+    return context.then(action)
 
 
 def all_text(values: Values) -> Iterator[str]:

@@ -31,11 +31,11 @@ def vector_assign(builder: SegmentBuilder, node: VectorAssign) -> None:
         return
     count = quantity.shape[0]
     mask = _mask(builder, node, node.mask, (count,))
-    context.target = (quantity.slot, count)
+    context.assigned_slots = (quantity.slot, count)
     if node.delta:
         context.flow.read_range(quantity.slot, count)
     value = context.lower(node.value, (count,))
-    context.target = None
+    context.assigned_slots = None
     mode: Literal["set", "add", "largest"] = "add" if node.delta else "largest" if node.largest else "set"
     made = SetVec(quantity.slot, count, value, context.where(node), mode, mask)
     builder.body.append(made)
@@ -52,7 +52,7 @@ def vector_derivative(builder: SegmentBuilder, node: VectorDerivative) -> None:
     count = quantity.shape[0]
     value = context.lower(node.value, (count,))
     if count != UNKNOWN:
-        if builder.is_second(quantity.slot, count):
+        if builder.is_second_derivative(quantity.slot, count):
             context.report("state-twice", node, name=quantity.name)
         elif other := builder.overlaid(quantity.slot, count, quantity):
             context.report("state-twice-overlaid", node, name=quantity.name, other=other)
@@ -76,13 +76,13 @@ def matrix_assign(builder: SegmentBuilder, node: MatrixAssign) -> None:
     rows, cols = quantity.shape
     size = size_of(quantity)
     mask = _mask(builder, node, node.mask, (rows, cols))
-    context.target = (quantity.slot, size)
+    context.assigned_slots = (quantity.slot, size)
     if node.delta or mask is not None:
         context.flow.read_range(quantity.slot, size)
     value = context.lower(node.value, (rows, cols))
     lower_bound = None if node.lower is None else context.lower(node.lower, (rows, cols))
     upper_bound = None if node.upper is None else context.lower(node.upper, (rows, cols))
-    context.target = None
+    context.assigned_slots = None
     made = SetMat(
         quantity.slot, rows, cols, value, context.where(node), "add" if node.delta else "set",
         lower_bound, upper_bound, mask,

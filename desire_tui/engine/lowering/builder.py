@@ -25,10 +25,10 @@ Path = tuple[tuple[int, bool], ...]
 
 @dataclass
 class OpenGuard:
-    """A guard whose end has not been reached; `otherwise` tells that its `else` was passed.
+    """A guard whose end has not been reached; `otherwise` says that its `else` was passed.
 
-    `serial` tells it from other guards; `outer` is the body that it will be a statement of. What has surely
-    been set: `saved` at its beginning, `after_then` at the end of the branch `then`.
+    `serial` distinguishes it from other guards; `outer` is the body that it will be a statement of. What has
+    surely been set: `saved` at its beginning, `after_then` at the end of the branch `then`.
     """
 
     kind: GuardKind
@@ -189,7 +189,7 @@ class SegmentBuilder:
         )
         self.body.append(made)
 
-    def is_second(self, slot: int, count: int) -> bool:
+    def is_second_derivative(self, slot: int, count: int) -> bool:
         """Whether this state already has a `d/dt` that could hold in the same pass (error 101)."""
         path = self.path if self.guards else ()
         earlier = self.derivative_paths.setdefault((slot, count), [])

@@ -66,7 +66,7 @@ def _expanded(context: LoweringContext, node: Call, extent: Extent) -> Value:
         )
     context.expansions += 1
     if context.expansions > EXPANSIONS_MOST:
-        if context.once("FUNCTION expansions"):
+        if context.first_report("FUNCTION expansions"):
             context.report("too-many-expansions", node, name=node.name, most=EXPANSIONS_MOST)
         return BAD
     arguments = {d: Argument(a, frame) for d, a in zip(dummies, node.args, strict=True)}

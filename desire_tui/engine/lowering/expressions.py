@@ -80,7 +80,7 @@ def _name(context: LoweringContext, node: Name, extent: Extent) -> Value:
         actual = context.actual(node.name)
         if quantity is not None and quantity.shape:
             return products.operand(context, node, extent)
-        if quantity is None and actual not in context.assigned and actual != context.own:
+        if quantity is None and actual not in context.assigned and actual != context.assigned_scalar:
             return products.unknown(context, node)
     return context.read(node)
 

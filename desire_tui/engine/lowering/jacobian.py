@@ -36,8 +36,8 @@ def lower_jacobian(builder: SegmentBuilder, lines: Sequence[Line]) -> Jacobian |
         if not isinstance(target, Element) or quantity is None or len(quantity.shape) != 2:
             place = len(builder.body)
             assign(builder, node)
-            builder.body[place:place] = context.before
-            context.before.clear()
+            builder.body[place:place] = context.computed_first
+            context.computed_first.clear()
             continue
         if matrix not in (None, quantity.name):
             context.report("second-jacobian", target, name=quantity.name, first=matrix)
@@ -47,8 +47,8 @@ def lower_jacobian(builder: SegmentBuilder, lines: Sequence[Line]) -> Jacobian |
             context.report("subscript-count", target, name=matrix, count=2)
             continue
         value = context.lower(node.value)
-        builder.body += context.before
-        context.before.clear()
+        builder.body += context.computed_first
+        context.computed_first.clear()
         row, column = (constant(context, s) for s in target.subscripts)
         if row is None or column is None:
             continue

@@ -60,7 +60,7 @@ def _kept(context: LoweringContext, node: Expr, value: Value, extent: Extent) ->
     """
     if isinstance(value, Const | Load | Vec):
         return value
-    context.reads.append("")  # the statement's own part alone must not be kept
+    context.reads.append("")  # the statement's own part alone must not be cached
     if UNKNOWN in extent:
         return BAD  # a check before the run: nothing is computed
     if extent and count_draws(value):
@@ -68,12 +68,12 @@ def _kept(context: LoweringContext, node: Expr, value: Value, extent: Extent) ->
     count, where = prod(extent), context.where(node)
     slot = context.scope.hidden(count)
     if not extent:
-        context.before.append(Set(slot, value, where))
+        context.computed_first.append(Set(slot, value, where))
         return Load(slot)
     if len(extent) == 1:
-        context.before.append(SetVec(slot, count, value, where))
+        context.computed_first.append(SetVec(slot, count, value, where))
     else:
-        context.before.append(SetMat(slot, extent[0], extent[1], value, where))
+        context.computed_first.append(SetMat(slot, extent[0], extent[1], value, where))
     return Vec(slot, count)
 
 

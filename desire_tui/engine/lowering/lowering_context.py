@@ -31,7 +31,7 @@ Extent = tuple[int, ...]
 SCALAR: Extent = ()
 
 BAD = Const(0.0)
-"""Stands for an expression that has been complained about."""
+"""Stands for an expression with a problem that has been reported."""
 
 DEPTH_MAX = 60
 """Nested FUNCTION calls and invocations; deeper ones are recursion in all but name."""
@@ -103,16 +103,16 @@ class LoweringContext(ABC):
         self.derivative_places: dict[int, Where] = {}
         self.assigned_arrays = False
         self.expansions = 0
-        self.own: str | None = None
+        self.assigned_scalar: str | None = None
         """The scalar that the present statement assigns."""
-        self.target: tuple[int, int] | None = None
+        self.assigned_slots: tuple[int, int] | None = None
         """Slots of the array that the present statement assigns; None where it may be read freely."""
-        self.complained: set[str] = set()
+        self.reported: set[str] = set()
         self.reads: list[str] = []
         """Names that the expression being lowered has read; "" for what is more than reading a name."""
         self.row_chosen: Where | None = None
         """Where a row `P#` is read first, if the segment leaves iRow to the script."""
-        self.before: list[Action] = []
+        self.computed_first: list[Action] = []
         """What the present statement computes first: the pieces of its long chains (`long_chains`)."""
         self.redefines_library = not functions.keys().isdisjoint(LIBRARY)
 
@@ -150,11 +150,11 @@ class LoweringContext(ABC):
         self.problems.append(Diagnostic(key, span, facts, self.source, related=related))
         return BAD
 
-    def once(self, name: str) -> bool:
-        """Whether this name has not been complained about yet."""
-        if name in self.complained:
+    def first_report(self, name: str) -> bool:
+        """Whether no problem with this name has been reported yet; from now on one has."""
+        if name in self.reported:
             return False
-        self.complained.add(name)
+        self.reported.add(name)
         return True
 
     # ------------------------------------------------------------------------------------------ names
@@ -196,15 +196,15 @@ class LoweringContext(ABC):
     def _undefined(self, node: Name, name: str, quantity: Quantity | None) -> Value:
         places = self.assigned.get(name)
         if places is None:
-            if self.once(name):
+            if self.first_report(name):
                 known = [n for n in (*self.scope.names, *self.assigned) if n != name]
                 self.report("undefined-in-segment", node, name=name, close=closest(name, known))
             return BAD
-        if name == self.own and quantity is not None:
+        if name == self.assigned_scalar and quantity is not None:
             # difference equation x = x + e whose target is new: starts at 0 [O]
             self.flow.read_slot(quantity.slot)
             return Load(quantity.slot)
-        if self.once(name):
+        if self.first_report(name):
             line = self.source.position(places[0].start).row
             self.report("used-before-set", node, name=name, line=line)
         return BAD

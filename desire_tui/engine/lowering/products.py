@@ -103,7 +103,7 @@ def operand(context: LoweringContext, node: Expr, extent: Extent) -> Value:
 def unknown(context: LoweringContext, node: Name) -> Value:
     """Report error 70: a name in a vector expression that is neither array nor number."""
     name = context.actual(node.name)
-    if context.once(name):
+    if context.first_report(name):
         close = closest(name, context.scope.names)
         context.report("undefined-in-vector", node, name=name, close=close)
     return BAD
@@ -118,7 +118,7 @@ def array(context: LoweringContext, node: Expr) -> Quantity | None:
     if quantity is None or not quantity.shape:
         if quantity is not None or actual in context.assigned:
             context.report("number-as-array", node, name=actual)
-        elif context.once(actual):
+        elif context.first_report(actual):
             arrays = [q.name for q in context.scope.names.values() if q.shape]
             context.report("undefined-in-vector", node, name=actual, close=closest(actual, arrays))
         return None
@@ -144,9 +144,9 @@ def note_read(context: LoweringContext, node: Expr, slot: int, count: int, shift
         return
     if context.assigned_arrays:
         context.flow.read_range(slot, count)
-    if context.target is None:
+    if context.assigned_slots is None:
         return
-    start, size = context.target
+    start, size = context.assigned_slots
     if slot < start + size and start < slot + count and (shift is None or slot + shift > start):
         context.report("vector-recursion", node)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.lowered.segment import Picture, SampleColumn, SampleRequest
 from desire_tui.engine.lowering.scope import UNKNOWN, size_of
-from desire_tui.engine.lowering.subscripts import constant, element, whole
+from desire_tui.engine.lowering.subscripts import constant, element, truncated
 from desire_tui.engine.nodes.expressions import Element
 from desire_tui.engine.values import Kind
 
@@ -38,7 +38,7 @@ def request(builder: SegmentBuilder, node: Request) -> None:
     elif node.kind == "recover":
         builder.recover.extend(columns)
     else:
-        channel = None if node.channel is None else whole(context, node.channel)
+        channel = None if node.channel is None else truncated(context, node.channel)
         builder.requests.append(SampleRequest(node.kind, columns, channel, context.where(node)))
 
 
@@ -60,7 +60,7 @@ def column(builder: SegmentBuilder, item: Target) -> SampleColumn | None:
         context.report("complex-in-dynamic", item, name=name)
         return None
     if quantity is None or not (name in context.assigned or context.scope.is_defined(quantity)):
-        if context.once(name):
+        if context.first_report(name):
             close = closest(name, [n for n in (*context.scope.names, *context.assigned) if n != name])
             context.report("undefined-in-segment", item, name=name, close=close)
         return None

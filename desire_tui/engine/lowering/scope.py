@@ -1,7 +1,7 @@
 """What a segment may name: the script's quantities as they are, or as they could be.
 
 `LiveScope` and `StaticScope` both hand out `Quantity` objects. A static scope does not know every size: a
-dimension it cannot tell is `UNKNOWN`, which agrees with any other.
+dimension it does not know is `UNKNOWN`, which agrees with any other.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ class SegmentScope(Protocol):
         ...
 
     def hidden(self, count: int) -> int:
-        """Return the first of `count` slots of the compiler's own, kept from run to run."""
+        """Return the first of `count` slots of the compiler's own, whose values last from run to run."""
         ...
 
     def constant(self, quantity: Quantity, offset: int = 0) -> float | None:
-        """Return the present value of a number; None if it cannot be told yet."""
+        """Return the present value of a number; None if it is not known yet."""
         ...
 
 
@@ -81,7 +81,7 @@ class LiveScope:
 
 
 class StaticScope:
-    """Quantities as a look at the script tells them, for checks before a run. Slots are only identities."""
+    """Quantities as the text of the script shows them, for checks before a run. Slots are only identities."""
 
     def __init__(
         self,

@@ -79,9 +79,9 @@ def lower_segment(
         except RecursionError:
             context.enter(frame)
             context.report("expression-too-deep", node, limit=LEVELS_MOST)
-        if context.before:
-            outer[place:place] = context.before
-            context.before.clear()
+        if context.computed_first:
+            outer[place:place] = context.computed_first
+            context.computed_first.clear()
     body = builder.finish()
     jacobian = lower_jacobian(builder, jacobian_lines) if jacobian_lines else None
     context.flow.mark_persistent([(r.slot, r.count) for r in builder.states.ranges])
@@ -190,10 +190,10 @@ def _element_state(
     context: LoweringContext, node: Derivative, target: Element, number: int
 ) -> list[StateRange]:
     # problems of the subscripts are reported when the statement itself is lowered
-    known, complained = len(context.problems), set(context.complained)
+    known, reported = len(context.problems), set(context.reported)
     slot = targets.scalar_slot(context, target)
     del context.problems[known:]
-    context.complained = complained
+    context.reported = reported
     quantity = context.quantity(target.name)
     if slot is None or quantity is None:
         return []
@@ -208,7 +208,7 @@ def _element_state(
 
 
 def _ready_from_start(builder: SegmentBuilder, lines: Sequence[Line]) -> None:
-    """States that nobody assigns, t, and recovered variables can be read anywhere."""
+    """States that are not assigned, t, and recovered variables can be read anywhere."""
     context = builder.context
     ready = context.flow.ready
     if "t" not in context.assigned:

@@ -44,10 +44,10 @@ def assign(builder: SegmentBuilder, node: Assign) -> None:
     """`y = e`: defined variable or difference equation."""
     context = builder.context
     target = node.target
-    context.own = context.actual(target.name) if isinstance(target, Name) else None
+    context.assigned_scalar = context.actual(target.name) if isinstance(target, Name) else None
     slot = scalar_slot(context, target)
     value = lower_cached(context, node.value)
-    context.own = None
+    context.assigned_scalar = None
     if slot is not None:
         made = Set(slot, value, context.where(node))
         builder.body.append(made)
@@ -63,7 +63,7 @@ def derivative(builder: SegmentBuilder, node: Derivative) -> None:
     if slot is None:
         return
     array_of = context.quantity(node.target.name) if isinstance(node.target, Element) else None
-    if builder.is_second(slot, 1):
+    if builder.is_second_derivative(slot, 1):
         context.report("state-twice", node.target, name=context.actual(node.target.name))
     elif array_of is not None and UNKNOWN not in array_of.shape:
         other = builder.overlaid(slot, 1, array_of)

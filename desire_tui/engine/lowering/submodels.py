@@ -60,7 +60,7 @@ def _invoke(
         context.report("submodel-recursion", node, name=name)
         return
     if len(lines) > LINES_MOST:
-        if context.once("SUBMODEL expansions"):
+        if context.first_report("SUBMODEL expansions"):
             context.report("too-many-lines", node, name=name, most=LINES_MOST)
         return
     if len(args) != len(submodel.dummies):

@@ -44,7 +44,7 @@ def constant(context: LoweringContext, node: Expr) -> float | None:
         return None
 
 
-def whole(context: LoweringContext, node: Expr) -> int | None:
+def truncated(context: LoweringContext, node: Expr) -> int | None:
     """Return the present value, truncated."""
     value = constant(context, node)
     if value is None:
@@ -125,7 +125,7 @@ def _named(context: LoweringContext, node: Name) -> float | None:
     quantity = context.quantity(name)
     if quantity is None or not (quantity.shape or context.scope.is_defined(quantity)):
         name = context.actual(name)
-        if context.once(name):
+        if context.first_report(name):
             context.report("undefined-subscript", node, name=name, close=closest(name, context.scope.names))
         return None
     if quantity.shape:

@@ -48,7 +48,7 @@ def highlight(text_line: str) -> list[tuple[int, int, Class]]:
 def before(lines: Sequence[str], row: int) -> str:
     """Return the rows of a statement that goes on in this row, each with its line feed; else an empty text.
 
-    With it in front `highlight` tells what the row holds: no statement begins there.
+    With it in front `highlight` shows what the row holds: no statement begins there.
     """
     top, start = row, row
     while top > 0 and row - top < ROWS_SEARCHED:

@@ -1,4 +1,4 @@
-"""LALR tables of `desire.lark`: made by lark once, kept in the user's cache, read back without lark.
+"""LALR tables of `desire.lark`: made by lark once, stored in the user's cache, read back without lark.
 
 lark takes 50 ms to import and 250 ms to build the tables; reading them back takes 2 ms, and then
 `automaton` steps through them. lark stays the only thing that understands the grammar file (`lalr_builder`);

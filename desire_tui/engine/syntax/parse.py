@@ -1,6 +1,6 @@
 """From a program's text to its statements; every bad statement of the text is reported in one go.
 
-Lines are kept by their text: an edit parses one line anew, a second run none.
+Lines are cached by their text: an edit parses one line anew, a second run none.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
     Item = tuple[Statement | TokenFault, int]
     Entry = tuple[tuple[Item, ...], bool]
 
-KEPT_MAX = 20_000_000
-"""Characters of lines kept before the store is emptied; a longer program runs too, it only starts slower."""
+CACHED_MAX = 20_000_000
+"""Characters of lines cached before the cache is emptied; a longer program runs, but starts slower."""
 LINE_COST = 100
 """What a line adds to that beside its characters."""
 
 _lines: dict[str, Entry] = {}
-_kept = 0
+_cached = 0
 _NUMBERED = re.compile(r"[ \t]*([0-9]+)(?=[ \t]*(?:\r?\Z|--|—)|[ \t]+[A-Za-z|])")
 _HEADER = re.compile(r"[ \t]*(?:/[ \t]*(?:NEW)?[ \t\r]*\Z|PIC[ \t]*['\"‘’“”])")
 _STARTS_ODD = frozenset("0123456789/P \t")
@@ -116,9 +116,9 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
 
 def forget_lines() -> None:
     """Empty the store of parsed lines."""
-    global _kept  # noqa: PLW0603 - as in _parse_line
+    global _cached  # noqa: PLW0603 - as in _parse_line
     _lines.clear()
-    _kept = 0
+    _cached = 0
 
 
 def _number_before(text: str, end: int) -> Span:
@@ -224,9 +224,9 @@ def _parse_line(line: str) -> Entry:
     """Parse the statements of a logical line, and keep them."""
     scanned = scan(line)
     entry: Entry = (tuple((_item(chunk), chunk.base) for chunk in scanned.chunks), scanned.continues)
-    global _kept  # noqa: PLW0603 - it belongs to the store beside it
-    _kept += len(line) + LINE_COST
-    if _kept > KEPT_MAX:
+    global _cached  # noqa: PLW0603 - it belongs to the store beside it
+    _cached += len(line) + LINE_COST
+    if _cached > CACHED_MAX:
         forget_lines()
     _lines[line] = entry
     return entry

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 SHAPES_MAX = 5_000
 SHARED_TOKENS_MAX = 300
-"""Longer statements (mostly data lists) share no shape: they seldom look alike, and their text is kept."""
+"""Longer statements (mostly data lists) share no shape: they seldom look alike, and lines are cached."""
 _LETTERED = frozenset({"display", "FFT"})
 """Statements whose letter decides how many arguments they take: it is part of their shape."""
 _patterns: dict[tuple[str, ...], Statement] = {}
