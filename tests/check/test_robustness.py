@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from desire_tui.engine.check.checker import check
 from desire_tui.engine.check.state_order import state_order
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax.format.program import format_program
 from desire_tui.engine.syntax.parse import parse
 from tests.strategies import programs
+from tests.syntax.format.program import format_program
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted(ROOT.glob("examples/**/*.src"))

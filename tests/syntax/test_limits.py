@@ -14,8 +14,8 @@ from desire_tui.engine.nodes.files import Data
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import structure
 from desire_tui.engine.syntax import lalr_tables as tables_module
-from desire_tui.engine.syntax.format.statements import format_statement
 from desire_tui.engine.syntax.parse import forget_lines, parse
+from tests.syntax.format.statements import format_statement
 
 WRONG = disk_cache._check(marshal.dumps({"start": 1})) + marshal.dumps({"start": 1})
 """Whole, but not what it should be."""

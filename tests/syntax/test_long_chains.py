@@ -13,11 +13,11 @@ from desire_tui.engine.left_chains import chain
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.expressions import Binary
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax.format.statements import format_statement
 from desire_tui.engine.syntax.parse import parse
 from tests.programs.execution import execute
 from tests.programs.expectations import read_expectations
 from tests.programs.runner import faults_of_program
+from tests.syntax.format.statements import format_statement
 
 BACKENDS = ["native", "reference"]
 

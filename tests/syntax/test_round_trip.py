@@ -13,12 +13,12 @@ from desire_tui.engine.nodes.expressions import Binary, Expr, Number, Unary
 from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import structure
-from desire_tui.engine.syntax.format.program import format_program
-from desire_tui.engine.syntax.format.statements import format_statement
 from desire_tui.engine.syntax.highlighting import highlight
 from desire_tui.engine.syntax.parse import parse, parse_command
 from desire_tui.engine.syntax.shapes import forget
 from tests.strategies import broken_texts, programs, statements
+from tests.syntax.format.program import format_program
+from tests.syntax.format.statements import format_statement
 
 
 @settings(deadline=None, max_examples=300)

@@ -24,6 +24,7 @@ from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
     DerivVec,
+    EffectAction,
     GetHistory,
     Guard,
     LearningStep,
@@ -198,9 +199,9 @@ def role(action: SimpleAction) -> Role:
         case Set() | SetVec() | SetMat() | SetDot():
             remembers = action.persistent or count_draws(*expressions(action))
             return "effect" if remembers else "definition"
-        case StoreHistory() | GetHistory() | DelayLine() | UpdateTrackHold() | Terminate() | LearningStep():
-            return "effect"
         case _:
+            if isinstance(action, EffectAction):
+                return "effect"
             assert_never(action)
 
 

@@ -207,17 +207,10 @@ Assignment = Set | SetVec | SetMat | SetDot
 ArrayAction = SetVec | SetMat | SetDot | DerivVec | LearningStep
 """Statements that loop over the elements of arrays."""
 
-SimpleAction = (
-    Assignment
-    | Deriv
-    | DerivVec
-    | StoreHistory
-    | GetHistory
-    | DelayLine
-    | UpdateTrackHold
-    | Terminate
-    | LearningStep
-)
+EffectAction = StoreHistory | GetHistory | DelayLine | UpdateTrackHold | Terminate | LearningStep
+"""Statements that do more than compute a value from others: they remember, learn, end the run."""
+
+SimpleAction = Assignment | Deriv | DerivVec | EffectAction
 """Statements that hold no others."""
 
 Action = SimpleAction | Guard

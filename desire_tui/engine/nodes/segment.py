@@ -126,3 +126,10 @@ class Invoke(Node):
     args: tuple[Expr, ...]
     start: int = 0
     end: int = 0
+
+
+SegmentOnly = (
+    Derivative | VectorDerivative | Store | Get | Delay | TrackHold | FunctionTable | Term | Sample | Learn
+    | Invoke
+)  # fmt: skip
+"""The statements of this module: a new class goes in here, too."""

@@ -1,7 +1,7 @@
 """The statements of the language as unions of their classes: what each dispatch over statements must know.
 
 A class that is missing in a dispatch is named by the type checker: every `match` over statements ends in
-`assert_never`. A new class goes into one of the three unions first.
+`assert_never`. A new class goes into one of the unions first (those of `segment` have theirs there).
 """
 
 from __future__ import annotations
@@ -12,19 +12,7 @@ from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label,
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, Plot, Request, Show
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
-from desire_tui.engine.nodes.segment import (
-    Delay,
-    Derivative,
-    FunctionTable,
-    Get,
-    Invoke,
-    Learn,
-    Sample,
-    Store,
-    Term,
-    TrackHold,
-    VectorDerivative,
-)
+from desire_tui.engine.nodes.segment import SegmentOnly
 
 SharedStatement = Assign | Bare | Dot | MatrixAssign | VectorAssign | If | Simple | Show
 """Statements of both the script and DYNAMIC segments."""
@@ -37,10 +25,7 @@ ScriptOnlyStatement = (
 )  # fmt: skip
 """Statements and commands that no segment may hold."""
 
-SegmentOnlyStatement = (
-    Derivative | VectorDerivative | Store | Get | Delay | TrackHold | FunctionTable
-    | Term | Sample | Request | Learn | Invoke
-)  # fmt: skip
+SegmentOnlyStatement = SegmentOnly | Request
 """Statements that only segments (and the submodels they invoke) may hold."""
 
 Statement = SharedStatement | ScriptOnlyStatement | SegmentOnlyStatement

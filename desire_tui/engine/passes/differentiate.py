@@ -26,20 +26,15 @@ from desire_tui.engine.lowered.expressions import (
     Vec,
 )
 from desire_tui.engine.lowered.statements import (
-    DelayLine,
     Deriv,
     DerivVec,
     DotTerm,
-    GetHistory,
+    EffectAction,
     Guard,
-    LearningStep,
     Set,
     SetDot,
     SetMat,
     SetVec,
-    StoreHistory,
-    Terminate,
-    UpdateTrackHold,
 )
 from desire_tui.engine.passes.dead_code import without_dead_code
 from desire_tui.engine.passes.derivative_rules import DERIVATIVE_RULES, ZERO, op, plus
@@ -106,11 +101,9 @@ class _Differentiator:
                     raise NotDifferentiable(action)
                 made.extend(self._assignment(action))
                 made.append(action)
-            case (
-                StoreHistory() | GetHistory() | DelayLine() | UpdateTrackHold() | Terminate() | LearningStep()
-            ):
-                raise NotDifferentiable(action)
             case _:
+                if isinstance(action, EffectAction):
+                    raise NotDifferentiable(action)
                 assert_never(action)
 
     def _assignment(self, action: Assignment) -> Iterable[Action]:

@@ -25,16 +25,12 @@ from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
     DerivVec,
-    GetHistory,
+    EffectAction,
     Guard,
-    LearningStep,
     Set,
     SetDot,
     SetMat,
     SetVec,
-    StoreHistory,
-    Terminate,
-    UpdateTrackHold,
 )
 from desire_tui.engine.lowered.walk import simple_actions, walk_values
 from desire_tui.engine.runtime.plan import ROUNDING
@@ -98,12 +94,11 @@ def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[TimedDelay]:
             case Guard():
                 yield from _lines(action.body, before.copy())
                 yield from _lines(action.orelse, before.copy())
-            case SetVec() | SetMat() | SetDot() | Deriv() | DerivVec() | StoreHistory() | GetHistory():
-                pass
-            case UpdateTrackHold() | Terminate() | LearningStep():
+            case SetVec() | SetMat() | SetDot() | Deriv() | DerivVec():
                 pass
             case _:
-                assert_never(action)
+                if not isinstance(action, EffectAction):
+                    assert_never(action)
 
 
 def _needed(tau: Value, before: list[Set]) -> tuple[Set, ...]:

@@ -1,5 +1,4 @@
-"""From text to nodes: tokenizer, grammar, parser, and back again.
+"""From text to nodes: tokenizer, grammar, parser.
 
-`parse` a program, `parse_command` a command line; `highlight` a line for an editor; `format_program` and
-`format_statement` write nodes as text.
+`parse` a program, `parse_command` a command line; `highlight` a line for an editor.
 """

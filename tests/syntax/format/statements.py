@@ -34,7 +34,7 @@ from desire_tui.engine.nodes.segment import (
     TrackHold,
     VectorDerivative,
 )
-from desire_tui.engine.syntax.format.expressions import condition, expression, listed, quoted
+from tests.syntax.format.expressions import condition, expression, listed, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

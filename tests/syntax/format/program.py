@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import For, If, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Submodel
-from desire_tui.engine.syntax.format.statements import format_statement
+from tests.syntax.format.statements import format_statement
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
