@@ -16,7 +16,7 @@ DECAY = "x = 1 | TMAX = 1 | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\nd/dt x = -x\ndispt
 
 def threads():
     """All but those of the sessions' own heartbeats, which end with their sessions."""
-    return {thread for thread in threading.enumerate() if thread.name != "desire-ticker"}
+    return {thread for thread in threading.enumerate() if thread.name != "desire-heartbeat"}
 
 
 def test_more_sessions_start_no_threads_and_add_no_handlers():

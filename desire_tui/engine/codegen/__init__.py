@@ -1,4 +1,4 @@
-"""Lowered segments as native code (the only home of llvmlite).
+"""Lowered segments as native code.
 
 `NativeBackend().model(segment, rule, values)` gives a `runtime.backend.Model`. What back ends share, the code
 and the threads that compile it, is one `compiler_state`. The rooms, from text to machine code:
@@ -13,6 +13,10 @@ and the threads that compile it, is one `compiler_state`. The rooms, from text t
               `register_storage` small models of scalars: states, parameters and passes in one function
               `array_storage`    all others: tables of pieces, one loop for all models of a rule
     `stiff`   rules 9 … 16: CVODE's callbacks and interval loop as native functions
+    `plain_python` compiles readable Python to IR: `integration.bdf`, most of `stiff`
+
+All IR is text. Code that belongs to a model, its helper functions and run loop included, is written through
+`ir.text`; native code that no model changes is a text in plain Python.
 
 Loops that others drive (rules 9 … 16) take the passes as C functions:
 

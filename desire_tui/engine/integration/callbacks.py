@@ -1,6 +1,7 @@
 """CVODE's callbacks in Python, for the reference back end and for tests.
 
-They do what `codegen.stiff.callbacks` does natively, to the same `SolverProblem`, with the same formulas.
+They do what `codegen.stiff`'s `model_calls` and `jacobian_fill` do natively, to the same `SolverProblem`,
+with the same formulas.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from desire_tui.engine.integration.system import Natives
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.integration.bdf.memory import Reals
+    from desire_tui.engine.integration.plain_types import Reals
     from desire_tui.engine.integration.system import StiffSystem
 
     Array = NDArray[np.float64]

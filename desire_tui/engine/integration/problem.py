@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 from enum import IntEnum
+from typing import Any
 
 _ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
 
@@ -31,6 +32,18 @@ tolerances. With 1/50 rules 9 … 16 keep 10·ERMAX on all problems of docs/rule
 FLOOR = 1e-20
 """A wave that runs into states at rest moves distant ones by 1e-200 at once; to follow those to ERMAX of
 themselves would take the smallest of steps, and 1/1e-320 is no number at all."""
+
+
+FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
+    "derivatives": (_INT, (_ADDRESS, _ADDRESS)),
+    "tangent": (_INT, (_ADDRESS, _ADDRESS)),
+    "jacobian": (_INT, (_ADDRESS, _ADDRESS)),
+    "step": (_INT, (_ADDRESS, _ADDRESS)),
+    "data_of": (_ADDRESS, (_ADDRESS,)),
+    "indices_of": (_ADDRESS, (_ADDRESS,)),
+    "starts_of": (_ADDRESS, (_ADDRESS,)),
+}
+"""What the functions are whose addresses stand in a `SolverProblem`: results and arguments."""
 
 
 class Matrix(IntEnum):
@@ -106,4 +119,7 @@ class SolverProblem(ctypes.Structure):
         ("watch_steps", _INT),  # steps since chattering was last looked for, and t and failures then
         ("watch_t", _REAL),
         ("watch_failed", _INT),
+        ("reached", _REAL * 1),  # where CVODE's functions write what they find
+        ("size", _REAL * 1),
+        ("count", _INT * 1),
     )

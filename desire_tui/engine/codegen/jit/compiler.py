@@ -1,4 +1,4 @@
-"""LLVM: text in, addresses out. The only file that touches llvmlite."""
+"""LLVM: text in, addresses out. The only file that touches llvmlite (an import contract holds it so)."""
 
 from __future__ import annotations
 

@@ -1,23 +1,21 @@
-"""`…_interval`: one communication interval under a rule 9 … 16, step by step, without Python.
+"""One communication interval under a rule 9 … 16, step by step, in plain Python.
 
-    int32 cvode_interval(Problem*, RunMemory*, double t_next, int32 passed)
+`interval` starts from t and the states in the values, where the pass at the first step's start has been done,
+and comes back with `Ended.RUNNING` once t is `t_next`; with STOPPED where `stop` was set; TERM with the
+statement's number in `which`; SOLVER with CVODE's flag in `which`.
 
-starts from t and the states in the values and comes back with `Ended.RUNNING` once t is `t_next`; with
-STOPPED where `stop` was set; TERM with the statement's number in `which`; SOLVER with CVODE's flag in
-`which`. `passed` is 1 if the pass at the first step's start has been done (it always is at a communication
-point), 0 to go on inside an interval.
-
-`own_interval` does the same with the other of the two `steppers`. They keep a history of the solution and
-begin anew where the states in the values are not what they left there: at a run's start, where
-difference-equation code changed one, where the user did.
+The steps are those of `cvode_steps` or `own_steps`, whichever this text is compiled with. Solvers keep a
+history of the solution and begin anew where the states in the values are not what they left there: at a run's
+start, where difference-equation code changed one, where the user did.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.stiff.callbacks import scatter
-from desire_tui.engine.codegen.stiff.ir_builder import INT, INT32, POINTER, REAL, VOID, FixedFunction
+from desire_tui.engine.codegen.plain_python.library import copy
+from desire_tui.engine.codegen.stiff.cvode_steps import begin, failures, last_size, take_step
+from desire_tui.engine.codegen.stiff.model_calls import gather, scatter
 from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
     CHATTER_PART,
@@ -27,145 +25,108 @@ from desire_tui.engine.integration.problem import (
     STUCK_MOST,
 )
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
-from desire_tui.engine.runtime.run_memory import Ended, RunMemory
+from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.stiff.steppers import Stepper
+    from desire_tui.engine.integration.plain_types import Int32, Reals
+    from desire_tui.engine.integration.problem import SolverProblem
+    from desire_tui.engine.runtime.run_memory import RunMemory
 
 
-def add_interval(module: Any, stepper: Stepper) -> None:
-    """Add the interval of a stepper to a module that has the callbacks and `desire_gather`."""
-    _add_sync(module, stepper)
-    _add_interval(module, stepper)
+def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
+    """Make the steps of an interval."""
+    values: Reals = problem.values
+    states: Reals = problem.states
+    last: Reals = problem.last
+    synchronise(problem)
+    while True:
+        if problem.stuck == 0:
+            problem.suspect = -1
+        flag = take_step(problem, t_next)
+        t: float = problem.reached[0]
+        done = flag == TSTOP_RETURN or t >= t_next
+        if done:
+            t = t_next
+        flag = watch_progress(problem, t, flag)
+        flag = watch_chatter(problem, memory, t, flag)
+        values[T] = t
+        problem.t = t
+        scatter(problem, states)
+        copy(last, 0, states, 0, problem.n)
+        if flag < 0:
+            memory.which = flag
+            return Ended.SOLVER
+        size = last_size(problem)
+        values[DT] = size
+        record_step(memory, size)
+        if done:
+            return Ended.RUNNING
+        if memory.stop != 0:
+            return Ended.STOPPED
+        if problem.step != 0:  # pass(-, STEP) at a step's start
+            fired: int = problem.step(memory, states)
+            if fired != 0:
+                memory.which = fired - 1
+                return Ended.TERM
+            synchronise(problem)
 
 
-def add_gather(module: Any) -> None:
-    """Add `desire_gather`: copy the states' values to the solver's vector."""
-    f = FixedFunction(module, "desire_gather", VOID, [POINTER])
-    (problem,) = f.arguments
-    values, ranges, states = (f.get(problem, name) for name in ("values", "ranges", "states"))
-    with f.loop(INT(0), f.get(problem, "range_count")) as i:
-        at = f.build.mul(i, INT(3))
-        slot, first, count = (f.load(ranges, f.build.add(at, INT(k)), INT) for k in range(3))
-        f.copy(f.at(states, first), f.at(values, slot), f.build.mul(count, INT(8)))
-    f.build.ret_void()
-
-
-def _add_sync(module: Any, stepper: Stepper) -> None:
+def synchronise(problem: SolverProblem) -> None:
     """Begin anew if t or a state is not what the solver left."""
-    f = FixedFunction(module, f"{stepper.prefix}_sync", VOID, [POINTER])
-    (problem,) = f.arguments
-    f.outside("desire_gather", VOID, [problem])
-    states, last = f.get(problem, "states"), f.get(problem, "last")
-    t = f.load(f.get(problem, "values"), INT(T))
-    differ = f.build.alloca(INT)
-    same_t = f.build.fcmp_ordered("==", t, f.get(problem, "t"))
-    going = f.build.icmp_signed("!=", f.get(problem, "started"), INT(0))
-    f.build.store(f.build.select(f.build.and_(same_t, going), INT(0), INT(1)), differ)
-    with f.loop(INT(0), f.get(problem, "n")) as i:
-        other = f.build.fcmp_unordered("!=", f.load(states, i), f.load(last, i))
-        f.build.store(f.build.or_(f.build.load(differ, typ=INT), f.build.zext(other, INT)), differ)
-    with f.build.if_then(f.build.icmp_signed("==", f.build.load(differ, typ=INT), INT(0)), likely=True):
-        f.build.ret_void()
-    f.add(problem, "failed", stepper.failed(f, problem))  # the solver starts to count at 0
-    with f.build.if_else(going) as (again, first):
-        with again:  # no step size is left to trust: the solver looks for one
-            stepper.restart(f, problem, t, REAL(0.0))
-            f.add(problem, "restarts", INT(1))
-        with first:
-            stepper.restart(f, problem, t, f.get(problem, "first_step"))
-    f.put(problem, "started", INT(1))
-    f.put(problem, "t", t)
-    f.build.ret_void()
+    gather(problem)
+    values: Reals = problem.values
+    states: Reals = problem.states
+    last: Reals = problem.last
+    t = values[T]
+    going = problem.started != 0
+    differ = 0
+    for i in range(problem.n):
+        differ += states[i] != last[i]
+    if going and t == problem.t and differ == 0:
+        return
+    problem.failed += failures(problem)  # the solver starts to count at 0
+    if going:  # no step size is left to trust: the solver looks for one
+        begin(problem, t, 0.0)
+        problem.restarts += 1
+    else:
+        begin(problem, t, problem.first_step)
+    problem.started = 1
+    problem.t = t
 
 
-def _add_interval(module: Any, stepper: Stepper) -> None:
-    f = FixedFunction(module, f"{stepper.prefix}_interval", INT32, [POINTER, POINTER, REAL, INT32])
-    problem, memory, t_next, passed = f.arguments
-    build = f.build
-    values, states, last = (f.get(problem, name) for name in ("values", "states", "last"))
-    step = f.get(problem, "step")
-    bytes_ = build.mul(f.get(problem, "n"), INT(8))
-    reached = build.alloca(REAL)
-    start, again, go = (f.function.append_basic_block(name) for name in ("start", "again", "go"))
-
-    f.outside(f"{stepper.prefix}_sync", VOID, [problem])
-    build.cbranch(build.icmp_signed("!=", passed, INT32(0)), go, start)
-
-    build.position_at_end(start)  # pass(-, STEP) at a step's start
-    build.cbranch(build.icmp_unsigned("==", build.ptrtoint(step, INT), INT(0)), go, again)
-    build.position_at_end(again)
-    fired = f.call(step, INT, [memory, states])
-    with build.if_then(build.icmp_signed("!=", fired, INT(0)), likely=False):
-        f.put(memory, "which", build.sub(fired, INT(1)), RunMemory)
-        build.ret(INT32(Ended.TERM.value))
-    f.outside(f"{stepper.prefix}_sync", VOID, [problem])
-    build.branch(go)
-
-    build.position_at_end(go)
-    moving = build.icmp_signed("==", f.get(problem, "stuck"), INT(0))
-    f.put(problem, "suspect", build.select(moving, INT(-1), f.get(problem, "suspect")))
-    flag = stepper.step(f, problem, t_next, reached)
-    t = build.load(reached, typ=REAL)
-    done = build.or_(build.icmp_signed("==", flag, INT32(TSTOP_RETURN)), build.fcmp_ordered(">=", t, t_next))
-    t = build.select(done, t_next, t)
-    flag = _watch_chatter(f, stepper, (problem, memory), t, _watch_progress(f, problem, t, flag))
-    f.store(values, INT(T), t)
-    f.put(problem, "t", t)
-    scatter(f, problem, states)
-    f.copy(last, states, bytes_)
-    with build.if_then(build.icmp_signed("<", flag, INT32(0)), likely=False):
-        f.put(memory, "which", build.sext(flag, INT), RunMemory)
-        build.ret(INT32(Ended.SOLVER.value))
-    dt = stepper.last_step(f, problem)
-    f.store(values, INT(DT), dt)
-    _record_step(f, memory, dt)
-    with build.if_then(done):
-        build.ret(INT32(Ended.RUNNING.value))
-    stop = build.icmp_signed("!=", f.get(memory, "stop", RunMemory), INT32(0))
-    with build.if_then(stop, likely=False):
-        build.ret(INT32(Ended.STOPPED.value))
-    build.branch(start)
-
-
-def _watch_progress(f: FixedFunction, problem: Any, t: Any, flag: Any) -> Any:
+def watch_progress(problem: SolverProblem, t: float, flag: int) -> int:
     """Count steps that do not change t; too many of them make a failure of a success."""
-    same = f.build.fcmp_ordered("==", t, f.get(problem, "t"))
-    stuck = f.build.select(same, f.build.add(f.get(problem, "stuck"), INT(1)), INT(0))
-    f.put(problem, "stuck", stuck)
-    hopeless = f.build.icmp_signed(">", stuck, INT(STUCK_MOST))
-    edge = f.build.icmp_signed(">=", f.get(problem, "suspect"), INT(0))
-    reason = f.build.select(edge, INT32(STUCK_AT_EDGE_FLAG), INT32(STUCK_FLAG))
-    return f.build.select(hopeless, reason, flag)
+    if t == problem.t:
+        problem.stuck += 1
+    else:
+        problem.stuck = 0
+    if problem.stuck > STUCK_MOST:
+        return STUCK_AT_EDGE_FLAG if problem.suspect >= 0 else STUCK_FLAG
+    return flag
 
 
-def _watch_chatter(f: FixedFunction, stepper: Stepper, run: tuple[Any, Any], t: Any, flag: Any) -> Any:
+def watch_chatter(problem: SolverProblem, memory: RunMemory, t: float, flag: int) -> int:
     """Make a failure of steps that fail about as often as they succeed and get nowhere."""
-    build, (problem, memory) = f.build, run
-    with build.goto_entry_block():  # this stands in a loop: an alloca here would eat the stack
-        result = build.alloca(INT32)
-    build.store(flag, result)
-    steps = build.add(f.get(problem, "watch_steps"), INT(1))
-    f.put(problem, "watch_steps", steps)
-    with build.if_then(build.icmp_signed(">=", steps, INT(CHATTER_STEPS)), likely=False):
-        failed = build.add(stepper.failed(f, problem), f.get(problem, "failed"))
-        often = build.sub(failed, f.get(problem, "watch_failed"))
-        far = build.fmul(f.get(memory, "comint", RunMemory), REAL(CHATTER_PART))
-        near = build.fcmp_ordered("<", build.fsub(t, f.get(problem, "watch_t")), far)
-        chatter = build.and_(near, build.icmp_signed(">=", often, INT(CHATTER_STEPS // 2)))
-        good = build.icmp_signed(">=", flag, INT32(0))
-        build.store(build.select(build.and_(chatter, good), INT32(CHATTER_FLAG), flag), result)
-        f.put(problem, "watch_t", t)
-        f.put(problem, "watch_failed", failed)
-        f.put(problem, "watch_steps", INT(0))
-    return build.load(result, typ=INT32)
+    problem.watch_steps += 1
+    if problem.watch_steps < CHATTER_STEPS:
+        return flag
+    failed = failures(problem) + problem.failed
+    often = failed - problem.watch_failed
+    near = t - problem.watch_t < memory.comint * CHATTER_PART
+    problem.watch_t = t
+    problem.watch_failed = failed
+    problem.watch_steps = 0
+    if near and 2 * often >= CHATTER_STEPS and flag >= 0:
+        return CHATTER_FLAG
+    return flag
 
 
-def _record_step(f: FixedFunction, memory: Any, dt: Any) -> None:
-    first = f.build.icmp_signed("==", f.get(memory, "steps", RunMemory), INT(0))
-    f.add(memory, "steps", INT(1), RunMemory)
-    for field, better in (("dt_least", "<"), ("dt_most", ">")):
-        known = f.get(memory, field, RunMemory)
-        other = f.build.fcmp_ordered(better, dt, known)
-        f.put(memory, field, f.build.select(f.build.or_(first, other), dt, known), RunMemory)
+def record_step(memory: RunMemory, size: float) -> None:
+    """Count a step, and note the least and the largest."""
+    first = memory.steps == 0
+    memory.steps += 1
+    if first or size < memory.dt_least:
+        memory.dt_least = size
+    if first or size > memory.dt_most:
+        memory.dt_most = size

@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from ctypes import sizeof
+from functools import cache
 from hashlib import blake2b
 from importlib.resources import files
 from threading import Lock
-from typing import Any, NamedTuple
-
-from llvmlite import ir
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from desire_tui.engine.codegen.jit.compiler import (
     MachineCode,
@@ -19,34 +18,57 @@ from desire_tui.engine.codegen.jit.compiler import (
     kept_code,
     machine,
 )
-from desire_tui.engine.codegen.stiff.callbacks import add_callbacks
-from desire_tui.engine.codegen.stiff.interval import add_gather, add_interval
-from desire_tui.engine.codegen.stiff.plain_python import PlainPython
-from desire_tui.engine.codegen.stiff.steppers import CvodeStepper, OwnStepper
-from desire_tui.engine.integration.bdf import choice, coefficients, newton, start, step
-from desire_tui.engine.integration.bdf.memory import Bdf
-from desire_tui.engine.integration.problem import SolverProblem
+from desire_tui.engine.codegen.plain_python.kinds import Signature, of_declaration, of_function
+from desire_tui.engine.codegen.plain_python.program import Module, write_program
+from desire_tui.engine.codegen.plain_python.surroundings import Outside
+from desire_tui.engine.codegen.stiff import (
+    cvode_callbacks,
+    cvode_steps,
+    interval,
+    jacobian_fill,
+    model_calls,
+    own_steps,
+)
+from desire_tui.engine.integration import problem
+from desire_tui.engine.integration.bdf import choice, coefficients, memory, newton, start, step
+from desire_tui.engine.integration.bdf.memory import Bdf, Evaluate, Fill, Weigh
+from desire_tui.engine.integration.problem import FUNCTIONS, SolverProblem
+from desire_tui.engine.integration.sundials import signatures
 from desire_tui.engine.integration.sundials.library import libraries
-from desire_tui.engine.integration.sundials.signatures import address
+from desire_tui.engine.integration.sundials.signatures import CVODE, address
+from desire_tui.engine.runtime import run_memory
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, T
+
+if TYPE_CHECKING:
+    from types import ModuleType
 
 _CALLED = (
     "CVode", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
 )  # fmt: skip
-_SOURCES = (
-    "codegen/stiff/plain_expressions.py", "codegen/stiff/plain_python.py", "codegen/stiff/steppers.py",
-    "codegen/stiff/ir_builder.py",
-    "codegen/stiff/callbacks.py", "codegen/stiff/interval.py", "codegen/stiff/solver_routines.py",
-    "integration/bdf/choice.py", "integration/bdf/coefficients.py", "integration/bdf/memory.py",
-    "integration/bdf/newton.py", "integration/bdf/start.py", "integration/bdf/step.py",
-    "integration/problem.py", "runtime/run_memory.py",
-)  # fmt: skip
-"""All that the code depends on: kept code of other texts is not looked at."""
-_BDF = (choice, coefficients, newton, start, step)
-_TEXTS = {name: (files("desire_tui.engine") / name).read_bytes() for name in _SOURCES}
+_MODEL = (model_calls, jacobian_fill, interval)
+_CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
+_OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
+_CONSTANTS = (memory, problem, run_memory, signatures)
+_ENGINE = files("desire_tui.engine")
+
+
+def _source(module: ModuleType) -> bytes:
+    return (_ENGINE / f"{module.__name__.partition('.engine.')[2].replace('.', '/')}.py").read_bytes()
+
+
+def _sources(folder: str) -> list[bytes]:
+    found = [file for file in (_ENGINE / folder).iterdir() if file.name.endswith(".py")]
+    return [file.read_bytes() for file in sorted(found, key=lambda file: file.name)]
+
+
+_TEXTS = {module: _source(module) for module in (*_CVODE, *_OWN)}
 """Read now, when the modules are: files may change under a process that lives for days."""
+_DEPENDS_ON = b"".join(
+    (*_TEXTS.values(), *map(_source, _CONSTANTS), *_sources("codegen/plain_python"), *_sources("codegen/ir"))
+)
+"""Kept code of other texts is not looked at."""
 
 _ANY = 0
 """In place of a number of states: code for all."""
@@ -57,15 +79,12 @@ LARGE = 200
 
 
 class StiffFunctions(NamedTuple):
-    """Addresses, 0 for what is not there; `keep` owns the code."""
+    """Addresses; `keep` owns the code. CVODE's callbacks are 0 where `integration.bdf` makes the steps."""
 
+    interval: int
     rhs: int
     weights: int
     jacobian: int
-    interval: int
-    """Of CVODE …"""
-    own_interval: int
-    """… and of `integration.bdf`."""
     keep: Any
 
 
@@ -85,7 +104,6 @@ class SolverRoutines:
         """Return what a run can start with at once: fast code if there is some, else quick code."""
         if not own:
             return self._with_cvode(_FAST if n > LARGE else 0)
-        # Writing our solver as IR takes 0.1 s, which every program with one run would pay
         return self._kept(n) or self._kept(_ANY) or self._make_own(_ANY, level=0)
 
     def fast(self, n: int, *, own: bool) -> StiffFunctions:
@@ -98,7 +116,7 @@ class SolverRoutines:
         self._connect()
         with self._locks[level]:
             if level not in self._cvode:
-                self._cvode[level] = _found(compile_text(str(_module(own=False)), level=level), own=False)
+                self._cvode[level] = _found(compile_text(_cvode_text(), level=level), own=False)
             return self._cvode[level]
 
     def _make_own(self, n: int, *, level: int) -> StiffFunctions:
@@ -106,7 +124,7 @@ class SolverRoutines:
         self._connect()
         with self._locks[level]:
             if n not in self._own:
-                text = str(_module(own=True, n=n))
+                text = _own_text(n)
                 code = compile_and_keep(text, _name(n), level=level, vectorize=level > 0)
                 self._own[n] = _found(code, own=True)
             return self._own[n]
@@ -132,35 +150,43 @@ class SolverRoutines:
         self._connected = True
 
 
+@cache
 def _name(n: int) -> str:
     layouts = repr(
         [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory))]
     )
-    everything = b"".join(_TEXTS.values()) + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
+    everything = _DEPENDS_ON + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
     return f"bdf-{n}-{blake2b(everything, digest_size=8).hexdigest()}"
 
 
-def _module(*, own: bool, n: int = _ANY) -> ir.Module:
-    """Write callbacks and interval loops; `own`: with our solver, for n states only if that is not `_ANY`."""
-    module = ir.Module("stiff")
-    add_callbacks(module)
-    add_gather(module)
-    add_interval(module, CvodeStepper())
-    if own:
-        natives = {name: module.globals[f"desire_{name}"] for name in ("evaluate", "weigh", "fill")}
-        known = {"n": n} if n else {}
-        sources = {_TEXTS[f"integration/bdf/{m.__name__.rpartition('.')[2]}.py"]: vars(m) for m in _BDF}
-        own_solver = PlainPython(module, sources, Bdf, "bdf_", natives, known)
-        add_interval(module, OwnStepper(own_solver.functions))
-    return module
+def _modules(modules: tuple[ModuleType, ...]) -> list[Module]:
+    return [Module(_TEXTS[module], vars(module)) for module in modules]
+
+
+def _cvode_text() -> str:
+    called = {name: of_declaration(*CVODE[name], name) for name in _CALLED}
+    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory}
+    outside = Outside(structures, _of_the_problem(), modules={"cvode": called})
+    public = frozenset(("interval", "rhs", "weights", "jacobian"))
+    return write_program(_modules(_CVODE), outside, "solver_", public)
+
+
+def _own_text(n: int) -> str:
+    """Write our solver, for n states only if that is not `_ANY`; all in one function takes LLVM 1 s more."""
+    callbacks = {"evaluate": Evaluate, "weigh": Weigh, "fill": Fill}
+    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Bdf": Bdf}
+    pointers = _of_the_problem() | {name: of_function(kind, "") for name, kind in callbacks.items()}
+    direct = {name: name for name in callbacks}
+    outside = Outside(structures, pointers, direct, {"n": n} if n else {})
+    return write_program(_modules(_OWN), outside, "solver_")
+
+
+def _of_the_problem() -> dict[str, Signature]:
+    return {name: of_declaration(*kinds, "") for name, kinds in FUNCTIONS.items()}
 
 
 def _found(code: MachineCode, *, own: bool) -> StiffFunctions:
-    return StiffFunctions(
-        rhs=code.address("desire_rhs"),
-        weights=code.address("desire_weights"),
-        jacobian=code.address("desire_jacobian"),
-        interval=code.address("cvode_interval"),
-        own_interval=code.address("own_interval") if own else 0,
-        keep=code,
+    rhs, weights, jacobian = (
+        0 if own else code.address(f"solver_{name}") for name in ("rhs", "weights", "jacobian")
     )
+    return StiffFunctions(code.address("solver_interval"), rhs, weights, jacobian, code)

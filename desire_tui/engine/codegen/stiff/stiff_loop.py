@@ -17,15 +17,13 @@ if TYPE_CHECKING:
 
 
 class StiffDriver(Driver):
-    """Calls `desire_interval` where others make a step; it also makes the step passes inside the interval."""
+    """Calls `the interval` where others make a step; it also makes the step passes inside the interval."""
 
     def _step(self, tableau: Tableau) -> None:  # noqa: ARG002 - CVODE has its own coefficients
         text = self.text
         text.begin("step")
         call = f"call i32 {self.context.load('interval')}("
-        ended = text.op(
-            f"{call}ptr {self.context.load('problem')}, ptr %m, double {self.get('t_next')}, i32 1)"
-        )
+        ended = text.op(f"{call}ptr {self.context.load('problem')}, ptr %m, double {self.get('t_next')})")
         self.put("steps", self.memory.load("steps"))  # counted where they are made
         others = (Ended.STOPPED, Ended.TERM, Ended.SOLVER)
         cases = " ".join(f"i32 {int(e)}, label %interval.{e.name.lower()}" for e in others)

@@ -97,7 +97,7 @@ class StiffModel:
         """Connect the solver's callbacks and the interval loop."""
         self._natives = natives  # owns the code
         self.system = self._system(Natives(natives.rhs, natives.weights, natives.jacobian, self._own))
-        self.context.interval = natives.own_interval if self._own else natives.interval
+        self.context.interval = natives.interval
         self.context.problem = ctypes.addressof(self.system.problem)
 
     def _fill_context(self, segment: Segment) -> None:

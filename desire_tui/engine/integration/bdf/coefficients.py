@@ -12,7 +12,7 @@ from desire_tui.engine.integration.bdf.memory import ORDER_MOST, Bdf
 def set_coefficients(s: Bdf) -> None:
     """Set `l`, the tests' `tq` and gamma for order and step size [cvSetBDF, cvSetTqBDF]."""
     l, tau, tq, q, h = s.l, s.tau, s.tq, s.order, s.h  # noqa: E741 - the literature's letter
-    equal = 1
+    equal = True
     for j in range(1, q):
         equal = equal and tau[j] == h
     if equal and s.l_order == q and s.l_h == h and s.wait != 1:

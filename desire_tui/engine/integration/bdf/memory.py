@@ -3,13 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from typing import TYPE_CHECKING
 
 import numpy as np
-
-if TYPE_CHECKING:
-    Reals = ctypes._Pointer[ctypes.c_double]  # noqa: SLF001 - the type of what ctypes.POINTER makes
-    Ints = ctypes._Pointer[ctypes.c_int64]  # noqa: SLF001
 
 ORDER_MOST = 5
 """BDF of order 6 is unstable for nearly every stiff problem."""

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.integration.bdf.memory import SETUP_FAILED
 
 if TYPE_CHECKING:
-    from desire_tui.engine.integration.bdf.memory import Bdf, Ints, Reals
+    from desire_tui.engine.integration.bdf.memory import Bdf
+    from desire_tui.engine.integration.plain_types import Ints, Reals
 
 TOO_SLOW = 1
 """The corrector did not converge; so is a derivative that a callback could not give. Try a smaller step."""

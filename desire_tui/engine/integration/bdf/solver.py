@@ -14,7 +14,7 @@ from desire_tui.engine.integration.sundials.solver import MATRIX_CONVERGENCE, Co
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.integration.bdf.memory import Reals
+    from desire_tui.engine.integration.plain_types import Reals
 
 
 class OwnSolver:

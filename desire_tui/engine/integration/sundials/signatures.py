@@ -49,6 +49,7 @@ CVODE: Signatures = {
     "CVodeGetEstLocalErrors": (_I, (_P, _P)),
     "CVodeGetErrWeights": (_I, (_P, _P)),
     "CVodeGetIntegratorStats": (_I, (_P,) * 11),
+    "CVodeGetNumErrTestFails": (_I, (_P, _P)),
     "CVodeGetNumStepSolveFails": (_I, (_P, _P)),
     "CVodeGetNumLinRhsEvals": (_I, (_P, _P)),
     "CVodeGetNumJacEvals": (_I, (_P, _P)),

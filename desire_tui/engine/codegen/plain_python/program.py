@@ -1,0 +1,106 @@
+"""From texts in plain Python to LLVM IR."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+
+from desire_tui.engine.codegen.ir.text import IrText
+from desire_tui.engine.codegen.plain_python.expressions import Variable
+from desire_tui.engine.codegen.plain_python.kinds import Signature, Value
+from desire_tui.engine.codegen.plain_python.refusal import PlainPythonError
+from desire_tui.engine.codegen.plain_python.statements import Statements
+from desire_tui.engine.codegen.plain_python.surroundings import BUILTINS, Outside, Surroundings
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+_HARMLESS = (ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign, ast.Expr, ast.If)
+"""At a module's top: they make the names that functions find in the module."""
+
+
+class Module(NamedTuple):
+    """A text and the names of its module: constants, types."""
+
+    text: str | bytes
+    names: Mapping[str, Any]
+
+
+def write_program(
+    modules: Iterable[Module], outside: Outside, prefix: str, public: frozenset[str] | None = None
+) -> str:
+    """Return the IR of all functions of modules that see each other; their names get a prefix.
+
+    `public`: only these can be called from outside; LLVM puts others in line where they are called once.
+    """
+    found = [(node, module) for module in modules for node in _functions(module)]
+    signatures: dict[str, Signature] = {}
+    for node, module in found:
+        if node.name in signatures or node.name in BUILTINS:
+            _refuse(node, module, f"'{node.name}' once more")
+        signatures[node.name] = _signature(node, module, outside, prefix)
+    needs: dict[str, None] = {}
+    texts = []
+    for node, module in found:
+        text = IrText()
+        _write(node, signatures[node.name], Surroundings(outside, module.names, signatures), text)
+        needs |= dict.fromkeys(sorted(text.needs))
+        texts.append(text)
+    heads = (_head(signatures[node.name], public=public is None or node.name in public) for node, _ in found)
+    return "\n".join((*needs, *(f"{h} {{\n{text.body()}\n}}" for h, text in zip(heads, texts, strict=True))))
+
+
+def _functions(module: Module) -> Iterable[ast.FunctionDef]:
+    for node in ast.parse(module.text).body:
+        if isinstance(node, ast.FunctionDef):
+            yield node
+        elif not isinstance(node, _HARMLESS):
+            _refuse(node, module, f"{type(node).__name__} outside functions")
+
+
+def _signature(node: ast.FunctionDef, module: Module, outside: Outside, prefix: str) -> Signature:
+    given = node.args
+    others = (given.posonlyargs, given.kwonlyargs, given.vararg, given.kwarg, given.defaults)
+    if any(others) or node.decorator_list or getattr(node, "type_params", None):
+        _refuse(node, module, f"the head of '{node.name}'")
+    kinds = []
+    for argument in given.args:
+        kind = outside.kind(argument.annotation)
+        if kind is None or kind.ir == "i1":
+            _refuse(argument, module, f"the type of '{argument.arg}' in '{node.name}'")
+        kinds.append(kind)
+    nothing = isinstance(node.returns, ast.Constant) and node.returns.value is None
+    result = None if nothing else outside.kind(node.returns)
+    if result is None and not nothing:
+        _refuse(node, module, f"the type of the result of '{node.name}'")
+    if result is not None and result.ir == "i1":
+        _refuse(node, module, f"a truth value as the result of '{node.name}'")
+    return Signature(prefix + node.name, result, tuple(kinds))
+
+
+def _refuse(node: ast.AST, module: Module, what: str) -> NoReturn:
+    raise PlainPythonError(f"{module.names.get('__name__', '')} line {getattr(node, 'lineno', '?')}: {what}")
+
+
+def _head(signature: Signature, *, public: bool) -> str:
+    arguments = ", ".join(f"{kind.ir} %a{k}" for k, kind in enumerate(signature.arguments))
+    return f"define {'' if public else 'internal '}{signature.returns} @{signature.symbol}({arguments})"
+
+
+def _write(node: ast.FunctionDef, signature: Signature, around: Surroundings, text: IrText) -> None:
+    body = Statements(around, node.name, text)
+    body.result = signature.result
+    names = (part for part in ast.walk(node) if isinstance(part, ast.Name))
+    changed = {name.id for name in names if isinstance(name.ctx, ast.Store)}
+    arguments = [argument.arg for argument in node.args.args]
+    body.local = changed | set(arguments)
+    body.assigned = set(arguments)
+    for k, (name, declared) in enumerate(zip(arguments, signature.arguments, strict=True)):
+        value = body.widened(Value(f"%a{k}", declared))
+        if name in changed:
+            cell = text.alloca(value.kind.ir)
+            text.do(f"store {value.kind.ir} {value.text}, ptr {cell}")
+            body.variables[name] = Variable(cell, "", value.kind)
+        else:
+            body.variables[name] = Variable("", value.text, value.kind)
+    body.write_body(node)

@@ -1,0 +1,42 @@
+"""CVODE as `interval` drives it, in plain Python."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.integration.sundials.signatures import ONE_STEP
+
+if TYPE_CHECKING:
+    from desire_tui.engine.integration.plain_types import cvode  # noqa: TC004 - is compiled, never run
+    from desire_tui.engine.integration.problem import SolverProblem
+
+
+def begin(problem: SolverProblem, t: float, first_step: float) -> None:
+    """Begin anew from the states in `problem.states`; a first step of 0: the solver looks for one."""
+    cvode.CVodeReInit(problem.solver, t, problem.vector)
+    cvode.CVodeSetInitStep(problem.solver, first_step)
+
+
+def take_step(problem: SolverProblem, t_next: float) -> int:
+    """Take a step to `t_next` at most; `reached[0]` and the states are then the solution. Return the flag."""
+    cvode.CVodeSetStopTime(problem.solver, t_next)
+    flag: int = cvode.CVode(problem.solver, t_next, problem.vector, problem.reached, ONE_STEP)
+    return flag
+
+
+def last_size(problem: SolverProblem) -> float:
+    """Return the last step's size."""
+    cvode.CVodeGetLastStep(problem.solver, problem.size)
+    size: float = problem.size[0]
+    return size
+
+
+def failures(problem: SolverProblem) -> int:
+    """Return the number of tries that failed, whole steps each, since the solver began."""
+    problem.count[0] = 0
+    cvode.CVodeGetNumErrTestFails(problem.solver, problem.count)
+    tests: int = problem.count[0]
+    problem.count[0] = 0
+    cvode.CVodeGetNumStepSolveFails(problem.solver, problem.count)
+    corrections: int = problem.count[0]
+    return tests + corrections

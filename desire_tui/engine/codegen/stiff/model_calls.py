@@ -1,0 +1,89 @@
+"""What solvers ask of a model, in plain Python: derivatives, error weights, states to and from the values.
+
+They know the model only through `integration.problem.SolverProblem`; `integration.callbacks` does the same
+with numpy for the reference back end.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.plain_python.library import copy
+from desire_tui.engine.integration.problem import FLOOR
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.integration.plain_types import Int32, Ints, Reals
+    from desire_tui.engine.integration.problem import SolverProblem
+
+GO_BACK = 1
+"""A callback's result for: try a smaller step."""
+_LARGEST = 1.7976931348623157e308
+
+
+def scatter(problem: SolverProblem, y: Reals) -> None:
+    """Write a state vector to the states' places among the values."""
+    values: Reals = problem.values
+    ranges: Ints = problem.ranges
+    for i in range(problem.range_count):
+        slot = ranges[3 * i]
+        first = ranges[3 * i + 1]
+        count = ranges[3 * i + 2]
+        if count == 1:
+            values[slot] = y[first]
+        else:
+            copy(values, slot, y, first, count)
+
+
+def gather(problem: SolverProblem) -> None:
+    """Copy the states' values to the solver's vector."""
+    values: Reals = problem.values
+    ranges: Ints = problem.ranges
+    states: Reals = problem.states
+    for i in range(problem.range_count):
+        copy(states, ranges[3 * i + 1], values, ranges[3 * i], ranges[3 * i + 2])
+
+
+def evaluate(problem: SolverProblem, t: float, y: Reals, derivatives: Reals) -> Int32:
+    """Where a derivative is not finite, name the state `suspect` and ask for a smaller step."""
+    values: Reals = problem.values
+    values[T] = t
+    scatter(problem, y)
+    problem.derivative_calls += 1
+    problem.derivatives(problem.memory, derivatives)
+    n = problem.n
+    wild = 0
+    for i in range(n):
+        wild += not abs(derivatives[i]) <= _LARGEST
+    if wild == 0:
+        return 0
+    for i in range(n):
+        if not abs(derivatives[i]) <= _LARGEST:
+            problem.suspect = i
+    return GO_BACK
+
+
+def weigh(problem: SolverProblem, y: Reals, weights: Reals) -> Int32:
+    """1 / (ERMAX·max |y| so far), the maximum taken as 1 while it is 0 (language.md 11)."""
+    largest: Reals = problem.largest
+    tolerance: float = problem.tolerance
+    n = problem.n
+    most = 0.0
+    for i in range(n):
+        size = max(largest[i], abs(y[i]))
+        largest[i] = size
+        most = max(most, size)
+    problem.floor = most * FLOOR
+    for i in range(n):
+        weights[i] = 1.0 / (tolerance * scale(problem, i))
+    return 0
+
+
+def scale(problem: SolverProblem, i: int) -> float:
+    """Return the largest magnitude of state i so far, 1 for 0."""
+    largest: Reals = problem.largest
+    size: float = largest[i]
+    if size == 0.0:
+        return 1.0
+    floor: float = problem.floor
+    return max(floor, size)

@@ -1,0 +1,40 @@
+"""`integration.bdf` as `interval` drives it, in plain Python; the functions are those of `cvode_steps`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.integration.bdf.start import restart
+from desire_tui.engine.integration.bdf.step import advance
+
+if TYPE_CHECKING:
+    from desire_tui.engine.integration.bdf.memory import Bdf
+    from desire_tui.engine.integration.problem import SolverProblem
+
+
+def begin(problem: SolverProblem, t: float, first_step: float) -> None:
+    """Begin anew from the states in `problem.states`; a first step of 0: the solver looks for one."""
+    solver: Bdf = problem.solver
+    restart(solver, t, first_step)
+
+
+def take_step(problem: SolverProblem, t_next: float) -> int:
+    """Take a step to `t_next` at most; `reached[0]` and the states are then the solution. Return the flag."""
+    solver: Bdf = problem.solver
+    flag = advance(solver, t_next)
+    problem.reached[0] = solver.t
+    return flag
+
+
+def last_size(problem: SolverProblem) -> float:
+    """Return the last step's size."""
+    solver: Bdf = problem.solver
+    size: float = solver.h_last
+    return size
+
+
+def failures(problem: SolverProblem) -> int:
+    """Return the number of tries that failed, whole steps each, since the solver began."""
+    solver: Bdf = problem.solver
+    count: int = solver.failed_tests + solver.failed_corrections
+    return count
