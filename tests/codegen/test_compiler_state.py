@@ -8,6 +8,7 @@ import threading
 from desire_tui.engine.codegen import compiler_state
 from desire_tui.engine.codegen.backend import NativeBackend
 from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
+from desire_tui.engine.session import compiled_segments
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
@@ -64,8 +65,8 @@ def test_a_state_of_ones_own_ends_when_it_is_closed(monkeypatch):
     monkeypatch.setattr(atexit, "unregister", registered.remove)
     before = threads()
     own = CompilerState()
+    monkeypatch.setattr(compiled_segments, "make_backend", lambda _name: NativeBackend(own))
     session = Session()
-    session._desk.segments._backend = NativeBackend(own)
     session.erun(Source(DECAY))
     assert session.runs[-1].count == 3
     assert own.code is not shared_state().code
