@@ -39,19 +39,19 @@ async def rate(path: Path, name: str, seconds: float) -> float:
             await pilot.pause(0.02)
         values = app.session.values
         start = values.cells[values.names[name].slot]
-        app.live.ask(
+        app.live_mode.ask(
             {name: start}, overlay=False
         )  # the first re-run compiles what the slider's program needs
         while app.engine.is_busy:
             await pilot.pause(0.02)
-        runs, began = app.live.runs_made, perf_counter()
+        runs, began = app.live_mode.runs_made, perf_counter()
         while perf_counter() - began < seconds:
             if not app.engine.is_busy:
-                app.live.ask({name: start * (1 + 0.001 * app.live.runs_made)}, overlay=False)
+                app.live_mode.ask({name: start * (1 + 0.001 * app.live_mode.runs_made)}, overlay=False)
             await asyncio.sleep(0.001)
         while app.engine.is_busy:
             await pilot.pause(0.02)
-        return (app.live.runs_made - runs) / (perf_counter() - began)
+        return (app.live_mode.runs_made - runs) / (perf_counter() - began)
 
 
 def main(arguments: list[str]) -> None:

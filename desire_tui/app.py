@@ -27,20 +27,17 @@ from desire_tui.common.key_names import key_names
 from desire_tui.desktop import alt_keys
 from desire_tui.desktop.app_base import AppBase
 from desire_tui.desktop.command_line import CommandLine
-from desire_tui.desktop.completer import Completer
-from desire_tui.desktop.engine_messages import Checked, EngineFault, EngineMessage
-from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
+from desire_tui.desktop.engine_messages import CheckFinished, EngineFault, EngineMessage
 from desire_tui.desktop.first_tabs import open_first
 from desire_tui.desktop.frame_pacing import FramePacing
-from desire_tui.desktop.live_mode import Live
+from desire_tui.desktop.live_mode import LiveMode
 from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.message_handlers import MessageHandlers
 from desire_tui.desktop.tour import Tour
-from desire_tui.editor.checkpoints import Keeper
+from desire_tui.editor.checkpoints import Checkpoints
 from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.editor.live_check import LiveChecker
-from desire_tui.panes.command_history import CommandHistory
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.console_view import Console
 from desire_tui.panes.graph_pane import GraphPane
@@ -59,6 +56,7 @@ if TYPE_CHECKING:
     from desire_tui.actions import Controller
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.session.permissions import Permissions
+    from desire_tui.engine.source import Source
 
 STATUS_EVERY_S, QUANTITIES_EVERY_S = 0.1, 0.6
 """Numbers to read: drawing the table of quantities takes as long as five frames of the graph."""
@@ -79,88 +77,85 @@ class DesireApp(AppBase):
 
     def __init__(self, files: Sequence[Path] = (), *, permissions: Permissions | None = None) -> None:
         alt_keys.teach()
-        super().__init__()
+        super().__init__(permissions)
         self.files = [Path(file) for file in files]
-        self.settings, self._complaints = config.load()
         for theme in themes.THEMES:
             self.register_theme(theme)
         self.theme = self.settings.theme if self.settings.theme in self.available_themes else "dark"
-        self.listener = ScreenListener(self.post_message)
-        self.engine = EngineThread(self.listener, self.post_message, permissions)
-        self.news = MessageHandlers(self)
-        self.drawing = FramePacing(self)
-        self.line = CommandLine(self)
-        self.live = Live(self)
+        self.message_handlers = MessageHandlers(self)
+        self.frame_pacing = FramePacing(self)
+        self.command_line = CommandLine(self)
+        self.live_mode = LiveMode(self)
         self.tour = Tour(self)
         self.run_actions = RunActions(self)
-        self.file = FileActions(self)
-        self.actions_view = ViewActions(self)
+        self.file_actions = FileActions(self)
+        self.view_actions = ViewActions(self)
         self._controllers: dict[str, Controller] = {
-            "run": self.run_actions, "file": self.file, "edit": EditActions(self),
+            "run": self.run_actions, "file": self.file_actions, "edit": EditActions(self),
             "graph": GraphActions(self),
-            "view": self.actions_view, "help": HelpActions(self),
+            "view": self.view_actions, "help": HelpActions(self),
         }  # fmt: skip
-        self.checker: LiveChecker | None = None
+        self.checkpoints = Checkpoints(self.editor)
+        self.checker = LiveChecker(
+            partial(self._check, quick=True), self._checked, self._check_fault, self._check
+        )
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.stylesheet.set_variables(self.get_css_variables())
-        self.desk = MainScreen(CommandHistory(paths.state_folder() / "history.json"), self.settings.keys)
 
     # ------------------------------------------------------------------------------------- start and end
 
     def get_default_screen(self) -> Screen[Any]:
         """Return the desktop."""
-        return self.desk
+        return self.main_screen
 
     def refresh_css(self, animate: bool = True) -> None:
         """Style everything anew; not for the first theme, in whose colours the style sheet was made."""
-        if self.desk.is_running:
+        if self.main_screen.is_running:
             super().refresh_css(animate)
 
     @on(MainScreen.Ready)
     async def _begin(self) -> None:
         """Open what is to be opened; the engine is imported meanwhile."""
         self.set_keymap(config.keymap(self.settings))
-        self.keeper = Keeper(self.editor)
-        self.completer = Completer(self, self.desk.query_one(CompletionPopup))
-        self.editor.aid = self.command.prompt.aid = self.completer
         await open_first(self)
-        for sentence in (*self._complaints, *self._theme_complaint()):
-            self.complain(sentence, code=None)
-        self.desk.set_interval(self.settings.checkpoint_seconds, self.checkpoint)
+        for sentence in (*self.config_errors, *self._theme_errors()):
+            self.report_error(sentence, code=None)
+        self.main_screen.set_interval(self.settings.checkpoint_seconds, self.checkpoint)
         for number in (signal.SIGTERM, signal.SIGHUP):
             if threading.current_thread() is threading.main_thread():
                 asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
-        self.theme_changed_signal.subscribe(self.desk, lambda _: self.follow_theme())
+        self.theme_changed_signal.subscribe(self.main_screen, lambda _: self.follow_theme())
         self.call_later(self._show)
 
     def _show(self) -> None:
         """Draw the desktop for the first time, now that everything stands in its place."""
-        self.desk.release()
-        self.desk.set_timer(ENGINE_AFTER_S, self.engine.start)
+        self.main_screen.release()
+        self.main_screen.set_timer(ENGINE_AFTER_S, self.engine.start)
 
     def engine_ready(self) -> None:
         """Begin to colour, check and show what only the engine knows."""
-        check = self.session.check
-        self.checker = LiveChecker(partial(check, quick=True), self._checked, self._check_fault, check)
         for area in self.editor.areas:
             area.marks_changed()
-            self._check_wanted(EditorPane.CheckWanted(area))
-        self.desk.set_interval(1 / self.settings.frames_per_second, self.drawing.frame)
-        self.desk.set_interval(STATUS_EVERY_S, self.show_status)
-        self.desk.set_interval(QUANTITIES_EVERY_S, lambda: self.quantities.show(self.session.values))
+            self._check_requested(EditorPane.CheckRequested(area))
+        self.main_screen.set_interval(1 / self.settings.frames_per_second, self.frame_pacing.frame)
+        self.main_screen.set_interval(STATUS_EVERY_S, self.show_status)
+        self.main_screen.set_interval(QUANTITIES_EVERY_S, lambda: self.quantities.show(self.session.values))
         self.is_ready = True
-        self.line.next()
+        self.command_line.next()
+
+    def _check(self, source: Source, *, quick: bool = False) -> tuple[Diagnostic, ...]:
+        return self.session.check(source, quick=quick)
 
     def _checked(self, number: int, version: int, problems: tuple[Diagnostic, ...]) -> None:
-        self.post_message(Checked(number, version, problems))
+        self.post_message(CheckFinished(number, version, problems))
 
     def _check_fault(self, error: Exception) -> None:
         self.post_message(
             EngineFault(f"{type(error).__name__}: {error}", "".join(traceback.format_exception(error)))
         )
 
-    def _theme_complaint(self) -> list[str]:
+    def _theme_errors(self) -> list[str]:
         wanted = self.settings.theme
         if wanted in self.available_themes:
             return []
@@ -174,21 +169,21 @@ class DesireApp(AppBase):
 
     def leave(self) -> None:
         """End well."""
-        self.keeper.leave()
+        self.checkpoints.leave()
         self._stop_engine()
         self.exit()
 
     def _stop_engine(self) -> None:
-        if self.engine.is_up:
+        if self.engine.is_ready:
             self.session.end()
 
     def show_problems(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Show problems as those of a program."""
-        self.news.show(diagnostics)
+        self.message_handlers.show(diagnostics)
 
     def checkpoint(self) -> None:
         """Write unsaved work to the recovery file, as soon as there can be any."""
-        if hasattr(self, "keeper") and not self.keeper.checkpoint():
+        if not self.checkpoints.checkpoint():
             folder = paths.state_folder()
             self.notify(
                 f"Unsaved work cannot be kept safe: {folder} cannot be written.",
@@ -203,12 +198,11 @@ class DesireApp(AppBase):
     def on_app_focus(self) -> None:
         """Take notice of what happened to files while the window did not have the focus."""
         if self.is_ready:
-            self.file.disk.notice_changes()
+            self.file_actions.save_and_reload.notice_changes()
 
     def _handle_exception(self, error: Exception) -> None:
         """Keep the work before Textual takes the screen down."""
-        if hasattr(self, "keeper"):
-            self.keeper.checkpoint()  # says nothing, unlike the app's own
+        self.checkpoints.checkpoint()  # says nothing, unlike the app's own
         super()._handle_exception(error)
 
     # --------------------------------------------------------------------------------------------- actions
@@ -257,29 +251,29 @@ class DesireApp(AppBase):
 
     @on(EngineMessage)
     def _engine_says(self, message: EngineMessage) -> None:
-        self.news.handle(message)
+        self.message_handlers.handle(message)
 
     @on(CommandPane.LinesEntered)
     def _lines(self, event: CommandPane.LinesEntered) -> None:
         if event.answer:
             self.listener.answer(event.lines[0])
         else:
-            self.line.enter(event.lines)
+            self.command_line.enter(event.lines)
 
-    @on(EditorPane.Wanted)
-    def _wanted(self, event: EditorPane.Wanted) -> None:
+    @on(EditorPane.ActionRequested)
+    def _wanted(self, event: EditorPane.ActionRequested) -> None:
         self.do(event.command_id, event.argument)
 
-    @on(EditorPane.CheckWanted)
-    def _check_wanted(self, event: EditorPane.CheckWanted) -> None:
-        if self.checker is None:
+    @on(EditorPane.CheckRequested)
+    def _check_requested(self, event: EditorPane.CheckRequested) -> None:
+        if not self.engine.is_ready:
             return  # every text is checked once the engine is there
         buffer = event.area.buffer
         self.checker.ask(buffer, self.editor.versions.get(buffer.number, 0), event.area.text)
 
     @on(CompletionPopup.OptionSelected, "#completion")
     def _completion_clicked(self) -> None:
-        self.completer.take()
+        self.completer.insert_chosen()
 
     @on(Console.PlaceChosen)
     def _place_chosen(self, event: Console.PlaceChosen) -> None:
@@ -295,29 +289,29 @@ class DesireApp(AppBase):
             self.editor.show(area, focus=True)
             area.go_to(event.mark.row, event.mark.start)
 
-    @on(SidePane.Wanted)
-    def _page_wanted(self, event: SidePane.Wanted) -> None:
+    @on(SidePane.PageRequested)
+    def _page_requested(self, event: SidePane.PageRequested) -> None:
         self.open_side(event.name)
         if event.name == "help":
             self.help_pane.show_topic("")
 
     @on(QuantitiesPane.Edited)
     def _quantity_edited(self, event: QuantitiesPane.Edited) -> None:
-        self.line.enter([event.text])
+        self.command_line.enter([event.text])
 
-    @on(QuantitiesPane.PlotWanted)
-    def _plot_wanted(self, event: QuantitiesPane.PlotWanted) -> None:
+    @on(QuantitiesPane.PlotRequested)
+    def _plot_requested(self, event: QuantitiesPane.PlotRequested) -> None:
         self.do("graph.chart", event.name)
 
     @on(Sliders.Moved)
     def _slider_moved(self, event: Sliders.Moved) -> None:
-        self.live.ask(event.values, overlay=event.overlay)
+        self.live_mode.ask(event.values, overlay=event.overlay)
 
     @on(StatusBar.Clicked)
     def _status_clicked(self, event: StatusBar.Clicked) -> None:
         self.do(event.command_id)
 
-    @on(GraphPane.PauseWanted)
-    def _pause_wanted(self) -> None:
+    @on(GraphPane.PauseRequested)
+    def _pause_requested(self) -> None:
         if self.engine.is_busy:
             self.do("run.pause")

@@ -36,9 +36,9 @@ def open_desktop(files: tuple[str, ...]) -> NoReturn:
         from desire_tui.app import DesireApp
 
         status = DesireApp([Path(file) for file in files]).run()
-    patience = sys.modules.get("desire_tui.engine.interpreter.interruptible")
-    if patience is not None:
-        patience.leave_at_once(0)
+    interruptible = sys.modules.get("desire_tui.engine.interpreter.interruptible")
+    if interruptible is not None:
+        interruptible.leave_at_once(0)
     sys.exit(status)
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from desire_tui.actions import Controller
 from desire_tui.common.dialogs import LineDialog
+from desire_tui.editor.code_area import CodeArea
 from desire_tui.editor.find_bar import FindBar
+from desire_tui.panes.prompt import Prompt
 
 
 class EditActions(Controller):
@@ -95,7 +97,7 @@ class EditActions(Controller):
             self.app.notify(f"'{text}' is no line number.", severity="error", markup=False)
             return
         area.go_to(int(row) - 1, int(column) - 1 if column.strip().isdecimal() else 0)
-        self.app.bring(area)
+        self.app.move_focus(area)
 
     def comment(self, argument: str = "") -> None:
         """Turn the selected rows into comments, or back."""
@@ -105,7 +107,9 @@ class EditActions(Controller):
     def complete(self, argument: str = "") -> None:
         """Open the list of completions."""
         del argument
-        self.app.completer.open()
+        focused = self.app.focused
+        if isinstance(focused, CodeArea | Prompt):
+            self.app.completer.offer(focused)
 
     def _go_to_problem(self, step: int) -> None:
         area = self.app.editor.front
@@ -113,7 +117,7 @@ class EditActions(Controller):
         if mark is None:
             self.app.notify("No problems in this program.", timeout=2)
             return
-        self.app.bring(area)
+        self.app.move_focus(area)
         area.go_to(mark.row, mark.start)
 
     def next_problem(self, argument: str = "") -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
-from desire_tui.actions.save_and_reload import Disk
+from desire_tui.actions.save_and_reload import SaveAndReload
 from desire_tui.common.dialogs import Choice, LineDialog
 from desire_tui.common.paths import exists, full
 from desire_tui.editor.buffer import Buffer, NotText
@@ -32,7 +32,7 @@ class FileActions(Controller):
 
     def __init__(self, app: DesireApp) -> None:
         super().__init__(app)
-        self.disk = Disk(app)
+        self.save_and_reload = SaveAndReload(app)
 
     # -------------------------------------------------------------------------------------------- new, open
 
@@ -40,7 +40,7 @@ class FileActions(Controller):
         """Open an empty tab."""
         del argument
         area = await self.app.editor.add(Buffer())
-        self.app.bring(area)
+        self.app.move_focus(area)
 
     async def clear(self, argument: str = "") -> None:
         """Clear the program after asking (`new`)."""
@@ -88,11 +88,11 @@ class FileActions(Controller):
             buffer = Buffer.from_file(path)
         except (OSError, NotText) as error:
             reason = error.strerror if isinstance(error, OSError) else str(error)
-            self.app.complain(f"cannot open {path}: {reason}", code=18 if exists(path) else 38)
+            self.app.report_error(f"cannot open {path}: {reason}", code=18 if exists(path) else 38)
             return None
         area = await editor.add(buffer)
         if focus:
-            self.app.bring(area)
+            self.app.move_focus(area)
         return area
 
     def _folder(self) -> Path:
@@ -126,16 +126,16 @@ class FileActions(Controller):
         """`keep+`: save with line numbers; the tab keeps its text."""
         area = self.app.editor.front
         path = self._resolve(argument) if argument else area.buffer.path or await self._ask_path(area)
-        if path is not None and await self.disk.may_overwrite(area, path):
-            self.disk.write(path, numbered(area.text))
+        if path is not None and await self.save_and_reload.may_overwrite(area, path):
+            self.save_and_reload.write(path, numbered(area.text))
 
     async def save_area(self, area: CodeArea, path: Path | None) -> bool:
         """Save a tab; asks for a name if there is none, and before others' work is overwritten."""
         path = path or await self._ask_path(area)
-        if path is None or not await self.disk.may_overwrite(area, path):
+        if path is None or not await self.save_and_reload.may_overwrite(area, path):
             return False
         text = area.text
-        if not self.disk.write(path, text.replace("\n", "\r\n") if area.buffer.crlf else text):
+        if not self.save_and_reload.write(path, text.replace("\n", "\r\n") if area.buffer.crlf else text):
             return False
         area.buffer.saved(full(path), text)
         self.app.editor.refresh_tabs()
@@ -156,13 +156,13 @@ class FileActions(Controller):
         del argument
         area = self.app.editor.front
         if area.buffer.path is None:
-            self.app.complain("this tab was never saved: there is nothing to reload", code=18)
+            self.app.report_error("this tab was never saved: there is nothing to reload", code=18)
             return
         if area.is_dirty:
             sentence = f"Give up the changes in {area.buffer.name}?"
             if await self.app.push_screen_wait(Choice("Reload", sentence, ("Reload", "Cancel"))) != "Reload":
                 return
-        self.disk.read_again(area)
+        self.save_and_reload.read_again(area)
 
     async def edit_copy(self, argument: str = "") -> None:
         """`ed`: a copy of the active program in a new tab."""
@@ -178,7 +178,7 @@ class FileActions(Controller):
         origin = self.app.editor.active or self.app.editor.front
         buffer = Buffer(label=f"{Path(origin.buffer.name).stem}-copy")
         area = await self.app.editor.add(buffer, change(origin.text))
-        self.app.bring(area)
+        self.app.move_focus(area)
 
     # ------------------------------------------------------------------------------------------ tabs, leaving
 

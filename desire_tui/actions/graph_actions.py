@@ -152,7 +152,7 @@ class GraphActions(Controller):
             with replacing(path, make_folder=True) as file:
                 app.write_samples(file)
         except OSError as error:
-            app.complain(f"cannot write {path}: {error.strerror}", code=106)
+            app.report_error(f"cannot write {path}: {error.strerror}", code=106)
             return
         app.notify(f"Saved {path}", markup=False, timeout=3)
 

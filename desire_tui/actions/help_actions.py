@@ -37,7 +37,7 @@ class HelpActions(Controller):
         del argument
         path = config_file()
         if path.exists():
-            await self.app.file.open_path(path)
+            await self.app.file_actions.open_path(path)
             return
         buffer = Buffer(path=path, saved_text="")
         area = await self.app.editor.add(buffer, config.defaults_text())

@@ -26,11 +26,11 @@ class RunActions(Controller):
         del argument
         app = self.app
         app.show_run()
-        app.file.disk.notice_changes()
+        app.file_actions.save_and_reload.notice_changes()
         source = self._accept_front()
         app.listener.front = source
         self.end_now()
-        app.drawing.hold()
+        app.frame_pacing.hold()
 
         def run() -> None:
             app.send_breakpoints()  # not before: the program that just ends has others
@@ -42,7 +42,7 @@ class RunActions(Controller):
         """OK: the front tab becomes the active program."""
         del argument
         app = self.app
-        app.file.disk.notice_changes()
+        app.file_actions.save_and_reload.notice_changes()
         source = self._accept_front()
         name = app.editor.front.buffer.name
 
@@ -67,7 +67,7 @@ class RunActions(Controller):
             self.start()
             return
         self.end_now()
-        app.drawing.hold()
+        app.frame_pacing.hold()
         app.engine.submit(app.session.run)
 
     def proceed(self, argument: str = "") -> None:
@@ -93,7 +93,7 @@ class RunActions(Controller):
             app.command.prompt.focus()
             app.show_status()
         else:
-            app.actions_view.copy_selection()
+            app.view_actions.copy_selection()
 
     def resume(self) -> None:
         """Go on after a pause."""
@@ -114,7 +114,7 @@ class RunActions(Controller):
         app = self.app
         if app.engine.is_busy:
             app.engine.forget_waiting()
-            app.line.forget()
+            app.command_line.forget()
             app.session.end()
         if app.command.is_asking:
             app.command.stop_asking()
@@ -154,7 +154,7 @@ class RunActions(Controller):
 
     def _can_stop(self, area: CodeArea, row: int) -> bool:
         app = self.app
-        if not app.engine.is_up or len(area.text) > CHECKED_MAX:
+        if not app.engine.is_ready or len(area.text) > CHECKED_MAX:
             return True
         return row + 1 in app.session.script_lines(source_of(area))
 

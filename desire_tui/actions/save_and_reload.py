@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from desire_tui.editor.code_area import CodeArea
 
 
-class Disk(Controller):
+class SaveAndReload(Controller):
     """No part of the command table; the actions about files use it."""
 
     def write(self, path: Path, text: str) -> bool:
@@ -24,7 +24,7 @@ class Disk(Controller):
         try:
             replace_text(path, text)
         except OSError as error:
-            self.app.complain(f"cannot write {path}: {error.strerror}", code=106)
+            self.app.report_error(f"cannot write {path}: {error.strerror}", code=106)
             return False
         return True
 
@@ -55,7 +55,7 @@ class Disk(Controller):
         try:
             fresh = Buffer.from_file(buffer.path)
         except (OSError, NotText) as error:
-            self.app.complain(f"cannot read {buffer.path}: {error}", code=18)
+            self.app.report_error(f"cannot read {buffer.path}: {error}", code=18)
             return
         row, column = area.cursor_location
         buffer.saved_text, buffer.stamp, buffer.crlf = fresh.saved_text, fresh.stamp, fresh.crlf

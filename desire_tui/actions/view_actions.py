@@ -33,7 +33,7 @@ class ViewActions(Controller):
         )
         for distance in range(1, len(panes) + 1):
             pane = panes[(here + by * distance) % len(panes)]
-            if self.app.bring(pane):
+            if self.app.move_focus(pane):
                 return
 
     def next_pane(self, argument: str = "") -> None:
@@ -49,12 +49,12 @@ class ViewActions(Controller):
     def command_line(self, argument: str = "") -> None:
         """Move the keys to the command line."""
         del argument
-        self.app.bring(self.app.command.prompt)
+        self.app.move_focus(self.app.command.prompt)
 
     def editor(self, argument: str = "") -> None:
         """Move the keys to the editor."""
         del argument
-        self.app.bring(self.app.editor.front)
+        self.app.move_focus(self.app.editor.front)
 
     def maximize(self, argument: str = "") -> None:
         """Show the focused pane alone, or all panes."""
@@ -90,7 +90,7 @@ class ViewActions(Controller):
     def search_output(self, argument: str = "") -> None:
         """Search the command pane's output."""
         del argument
-        self.app.bring(self.app.command.prompt)
+        self.app.move_focus(self.app.command.prompt)
         self.app.command.open_search()
 
     def copy_selection(self) -> None:

@@ -1,29 +1,27 @@
-"""What a text being typed tells whoever completes its words."""
+"""What a text that is being typed reports to whoever completes its words."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from textual import events
 
 
-class TypingAid:
-    """Helps nobody; the completer takes its place as soon as it is there."""
+class CompletionHook(Protocol):
+    """Follows the editor's texts and the prompt; `target` is the one that reports."""
 
-    def takes(self, event: events.Key, target: Any) -> bool:
+    def handle_key(self, event: events.Key, target: Any) -> bool:
         """Use up a key before the text gets it; False if it is the text's own."""
-        del event, target
-        return False
 
-    def typed(self, target: Any) -> None:
+    def letter_typed(self, target: Any) -> None:
         """Follow a letter that was typed."""
 
-    def moved(self, target: Any) -> None:
+    def text_changed(self, target: Any) -> None:
         """Follow a change of text or cursor."""
 
-    def left(self, target: Any) -> None:
+    def focus_lost(self, target: Any) -> None:
         """Take notice that the text lost the keys."""
 
-    def wanted(self, target: Any) -> None:
+    def offer(self, target: Any) -> None:
         """Offer completions, which were asked for."""

@@ -8,17 +8,14 @@ from typing import IO, TYPE_CHECKING
 from textual import events
 from textual.app import App
 
-from desire_tui.common import paths
+from desire_tui.common import config, paths
+from desire_tui.desktop.completer import Completer
+from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
 from desire_tui.desktop.key_ordering import KeyOrdering
-from desire_tui.editor.editor_pane import EditorPane
+from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.engine.session.status import State
-from desire_tui.panes.command_pane import CommandPane
-from desire_tui.panes.graph_pane import GraphPane
-from desire_tui.panes.help_pane import HelpPane
-from desire_tui.panes.problems_pane import ProblemsPane, ProgramProblems
-from desire_tui.panes.quantities_pane import QuantitiesPane
-from desire_tui.panes.side_pane import SidePane
-from desire_tui.panes.status_bar import StatusBar
+from desire_tui.panes.command_history import CommandHistory
+from desire_tui.panes.problems_pane import ProgramProblems
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,23 +24,35 @@ if TYPE_CHECKING:
     from textual.message import Message
     from textual.widget import Widget
 
-    from desire_tui.desktop.engine_thread import EngineThread
     from desire_tui.desktop.layout_rules import Pane
-    from desire_tui.desktop.main_screen import MainScreen
+    from desire_tui.editor.editor_pane import EditorPane
+    from desire_tui.engine.session.permissions import Permissions
     from desire_tui.engine.session.session import Session
+    from desire_tui.panes.command_pane import CommandPane
+    from desire_tui.panes.graph_pane import GraphPane
+    from desire_tui.panes.help_pane import HelpPane
+    from desire_tui.panes.quantities_pane import QuantitiesPane
     from desire_tui.panes.side_pane import Side
 
 
 class AppBase(App[None]):
     """What actions and messages use of the app."""
 
-    desk: MainScreen
-    engine: EngineThread
-    complaints = 0
+    errors_reported = 0
     """How often the user was told that something of his cannot be done."""
 
-    def __init__(self) -> None:
+    def __init__(self, permissions: Permissions | None) -> None:
         super().__init__()
+        self.settings, self.config_errors = config.load()
+        self.listener = ScreenListener(self.post_message)
+        self.engine = EngineThread(self.listener, self.post_message, permissions)
+        self.completer = Completer(self.settings, lambda: self.editor.front, lambda: self.session.values)
+        self.main_screen = MainScreen(
+            CommandHistory(paths.state_folder() / "history.json"),
+            self.settings.keys,
+            self.completer,
+            lambda: list(self.session.graphs),
+        )
         self.key_ordering = KeyOrdering(self)
 
     @property
@@ -74,86 +83,88 @@ class AppBase(App[None]):
     @property
     def editor(self) -> EditorPane:
         """The editor pane."""
-        return self.desk.query_one(EditorPane)
+        return self.main_screen.editor
 
     @property
     def command(self) -> CommandPane:
         """The command pane."""
-        return self.desk.query_one(CommandPane)
+        return self.main_screen.command
 
     @property
     def graph(self) -> GraphPane:
         """The graph pane."""
-        return self.desk.query_one(GraphPane)
+        return self.main_screen.graph
 
     @property
     def quantities(self) -> QuantitiesPane:
         """The quantities pane."""
-        return self.desk.query_one(QuantitiesPane)
+        return self.main_screen.side_pane.quantities
 
     @property
     def help_pane(self) -> HelpPane:
         """The help pane."""
-        return self.desk.query_one(HelpPane)
+        return self.main_screen.side_pane.help
 
     # ----------------------------------------------------------------------------------------------- layout
 
     def open_side(self, name: Side, *, toggle: bool = False) -> None:
         """Show a page of the side pane and move there; with `toggle`, hide it if the keys are there."""
-        desk = self.desk
-        if toggle and desk.side == name and desk.pane_of(self.focused) == "side":
+        screen = self.main_screen
+        if toggle and screen.side == name and screen.pane_of(self.focused) == "side":
             self.close_side()
             return
-        desk.open_side(name)
+        screen.open_side(name)
         if name == "quantities":
             self.quantities.show(self.session.values)
         elif name == "problems":
             self.list_problems()
         if name != "help" and (widget := self.side_focus()) is not None:  # help finds its own place
-            self.bring(widget)
+            self.move_focus(widget)
 
     def close_side(self) -> None:
         """Hide the side pane."""
-        if self.desk.close_side():
-            self.bring(self.command.prompt)
+        if self.main_screen.close_side():
+            self.move_focus(self.command.prompt)
 
     def side_focus(self) -> Widget | None:
         """Return what gets the keys in the side pane, None if it is hidden."""
-        match self.desk.side:
+        match self.main_screen.side:
             case "quantities":
                 return self.quantities.table
             case "problems":
-                return self.desk.query_one(ProblemsPane)
+                return self.main_screen.side_pane.problems
             case "help":
                 return self.help_pane.query_one("#help-search")
         return None
 
-    def bring(self, widget: Widget) -> bool:
+    def move_focus(self, widget: Widget) -> bool:
         """Move the keys to a widget; where only one pane is shown, it becomes the widget's."""
-        self.desk.make_way(widget)
-        self.desk.set_focus(widget)  # at once: widget.focus() waits, and keys typed meanwhile would go astray
+        self.main_screen.make_visible(widget)
+        self.main_screen.set_focus(
+            widget
+        )  # at once: widget.focus() waits, and keys typed meanwhile would go astray
         return widget.focusable
 
     def show_run(self) -> None:
         """Where the editor fills a small screen, give way to the graph and the command line."""
-        if self.desk.alone is None and not {"graph", "command"} & self.desk.shown:
-            self.bring(self.command.prompt)
+        if self.main_screen.only_pane is None and not {"graph", "command"} & self.main_screen.shown:
+            self.move_focus(self.command.prompt)
 
     def toggle_maximized(self, pane: Pane | None) -> None:
         """Show a pane (default: the focused one) alone, or all again."""
-        desk = self.desk
-        if desk.alone is not None:
-            desk.show_alone(None)
+        screen = self.main_screen
+        if screen.only_pane is not None:
+            screen.show_only(None)
             return
-        desk.show_alone(pane or desk.pane_of(self.focused))
+        screen.show_only(pane or screen.pane_of(self.focused))
         if pane == "graph":
-            self.bring(self.graph)
+            self.move_focus(self.graph)
 
     # --------------------------------------------------------------------------------------------- refresh
 
     def show_status(self) -> None:
         """Bring the status bar up to date."""
-        self.desk.query_one(StatusBar).status = self.session.status
+        self.main_screen.status_bar.status = self.session.status
         self.show_hint()
 
     @property
@@ -165,9 +176,9 @@ class AppBase(App[None]):
 
     # ------------------------------------------------------------------------------------------------ telling
 
-    def complain(self, sentence: str, *, code: int | None) -> None:
+    def report_error(self, sentence: str, *, code: int | None) -> None:
         """Tell the user that something of his cannot be done."""
-        self.complaints += 1
+        self.errors_reported += 1
         text = f"error {code}: {sentence}" if code else sentence
         self.command.console.add(text, "error" if code else "warning")
         self.notify(text, severity="error" if code else "warning", markup=False, timeout=6)
@@ -178,7 +189,7 @@ class AppBase(App[None]):
             ProgramProblems(area.buffer.number, area.buffer.name, area.marks.all_problems())
             for area in self.editor.areas
         ]
-        self.desk.query_one(SidePane).count_problems(self.desk.query_one(ProblemsPane).show(programs))
+        self.main_screen.side_pane.count_problems(self.main_screen.side_pane.problems.show(programs))
 
     def follow_theme(self) -> None:
         """Take over the colours of a new theme where they are not CSS's."""
@@ -197,7 +208,7 @@ class AppBase(App[None]):
 
         write_csv([run_data(self.session.runs[-1])], file, numbered=False, delimiter=delimiter)
 
-    def write_up(self, summary: str, details: str) -> None:
+    def log_fault(self, summary: str, details: str) -> None:
         """Keep a fault of ours in a file and say so; the session goes on."""
         path = paths.state_folder() / "faults.log"
         try:
@@ -207,7 +218,7 @@ class AppBase(App[None]):
             where = f"; details in {path}"
         except OSError:
             where = ""
-        self.complain(f"a fault of this program, not of yours: {summary}{where}", code=None)
+        self.report_error(f"a fault of this program, not of yours: {summary}{where}", code=None)
 
     def show_hint(self) -> None:
         """Say in the status row what a paused or waiting program expects."""
@@ -216,7 +227,7 @@ class AppBase(App[None]):
             State.ASKING: "The program waits for input · Ctrl+C breaks off",
             State.STOPPED: "Stopped · F10 or go continues",
         }
-        self.desk.query_one(StatusBar).hint = hints.get(self.session.status.state, "")
+        self.main_screen.status_bar.hint = hints.get(self.session.status.state, "")
 
     def send_breakpoints(self) -> None:
         """Tell the engine the breakpoints of the active program."""

@@ -34,7 +34,7 @@ class CommandLine(Controller):
     def enter(self, lines: list[str]) -> None:
         """Carry out lines, one after the other."""
         app = self.app
-        if not app.engine.is_up:  # typed while the desktop still opens: `next` comes with the engine
+        if not app.engine.is_ready:  # typed while the desktop still opens: `next` comes with the engine
             self._queue.extend(line for line in lines if line.strip())
             return
         state = app.session.status.state
@@ -65,7 +65,7 @@ class CommandLine(Controller):
 
     def _do(self, command: Command, argument: str) -> None:
         """Carry out an action of the desktop; what it asks the user is answered before the next line."""
-        before = self.app.complaints
+        before = self.app.errors_reported
         result = self.app.call(command.id, argument)
 
         async def finish(work: Coroutine[Any, Any, object]) -> None:
@@ -82,14 +82,14 @@ class CommandLine(Controller):
         else:
             self._own_done(before)
 
-    def _own_done(self, complaints_before: int) -> None:
-        if self.app.complaints > complaints_before:
+    def _own_done(self, errors_before: int) -> None:
+        if self.app.errors_reported > errors_before:
             self.failed()
 
     def failed(self) -> None:
         """Stop: if lines wait behind the one that failed, all of them go back to the prompt."""
         if self._queue:
-            self.app.command.hold([self._current, *self._queue])
+            self.app.command.keep_pending([self._current, *self._queue])
             self._queue.clear()
 
     def answer(self) -> str | None:
@@ -99,7 +99,7 @@ class CommandLine(Controller):
     def _own(self, line: str) -> tuple[Command, str] | None:
         """Return the desktop's action a line means; a quantity of that name is shown instead."""
         word = line.strip()
-        if word not in REFERENCE_WORDS and self.app.engine.is_up:
+        if word not in REFERENCE_WORDS and self.app.engine.is_ready:
             quantity = self.app.session.values.find(word)
             if quantity is not None and self.app.session.values.is_defined(quantity):
                 return None
@@ -131,5 +131,5 @@ class CommandLine(Controller):
             console.add(written.rstrip("\n"), "output")
 
     def _echo(self, line: str) -> None:
-        self.app.news.flush()
+        self.app.message_handlers.flush()
         self.app.command.console.add(f"> {line}", "command")

@@ -11,18 +11,20 @@ from typing import TYPE_CHECKING
 
 from textual.geometry import Offset
 
-from desire_tui.common.completion_hook import TypingAid
 from desire_tui.common.line_tokens import word_before
 from desire_tui.editor.code_area import CodeArea
 from desire_tui.editor.completion import OFFERED_MAX, around, is_complete, offers
+from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.panes.prompt import Prompt
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from textual import events
     from textual.timer import Timer
 
-    from desire_tui.app import DesireApp
-    from desire_tui.editor.completion_popup import CompletionPopup
+    from desire_tui.common.config import Config
+    from desire_tui.engine.values import Values
 
 OPEN_AFTER_S = 0.08
 """The list opens by itself when nothing was typed for so long."""
@@ -31,12 +33,15 @@ SEEN_AFTER_S = 0.15
 Target = CodeArea | Prompt
 
 
-class Completer(TypingAid):
+class Completer:
     """Works for whichever of the two has the focus."""
 
-    def __init__(self, app: DesireApp, popup: CompletionPopup) -> None:
-        self._app = app
-        self._popup = popup
+    def __init__(self, settings: Config, front: Callable[[], CodeArea], values: Callable[[], Values]) -> None:
+        self._settings = settings
+        self._front = front
+        """The editor's text, whose names are offered in the command line too."""
+        self._values = values
+        self.popup = CompletionPopup()
         self._target: Target | None = None
         self._start = (0, 0)
         """Where the word begins that the list completes."""
@@ -48,28 +53,28 @@ class Completer(TypingAid):
 
     # ---------------------------------------------------------------------------------- what a target tells
 
-    def typed(self, target: Target) -> None:
+    def letter_typed(self, target: Target) -> None:
         """Follow a letter: narrow the list that is open, offer one when typing rests."""
         self._by_hand = False
-        if self._popup.is_open:
+        if self.popup.is_open:
             self._narrow(target)
-        if isinstance(target, CodeArea) and self._app.settings.completion_after:
+        if isinstance(target, CodeArea) and self._settings.completion_after:
             self._stop_timer()
             self._timer = target.set_timer(OPEN_AFTER_S, lambda: self._offer(target))
 
-    def moved(self, target: Target) -> None:
+    def text_changed(self, target: Target) -> None:
         """Follow a change of text or cursor that no letter made: a list that no longer fits goes away."""
-        if self._popup.is_open and not self._fits(target):
+        if self.popup.is_open and not self._fits(target):
             self._narrow(target)
 
-    def left(self, target: Target) -> None:
+    def focus_lost(self, target: Target) -> None:
         """Close what a target had open: it lost the keys."""
         if target is self._target:
             self.close()
 
-    def takes(self, event: events.Key, target: Target) -> bool:
+    def handle_key(self, event: events.Key, target: Target) -> bool:
         """Use up a key that is meant for the open list; False if it is the target's own."""
-        if not self._popup.is_open:
+        if not self.popup.is_open:
             if event.key in {"enter", "tab", "escape"}:
                 self._stop_timer()
             return False
@@ -78,7 +83,7 @@ class Completer(TypingAid):
             return True
         if event.key not in {"up", "down", "pageup", "pagedown", "enter", "tab"}:
             return False
-        meant = self._by_hand or event.time >= self._popup.seen_at + self.seen_after_s
+        meant = self._by_hand or event.time >= self.popup.seen_at + self.seen_after_s
         if event.key == "enter":
             meant = self._by_hand
         elif event.key == "tab":
@@ -87,46 +92,41 @@ class Completer(TypingAid):
             self.close()
             return False
         if event.key in {"enter", "tab"}:
-            self.take()
+            self.insert_chosen()
         else:
-            self._popup.move(event.key)
+            self.popup.move(event.key)
             self._by_hand = True
         return True
 
     # ---------------------------------------------------------------------------------- opening and closing
 
-    def open(self) -> None:
-        """Offer completions in whichever text has the focus."""
-        if isinstance(self._app.focused, Target):
-            self.wanted(self._app.focused)
-
-    def wanted(self, target: Target) -> None:
+    def offer(self, target: Target) -> None:
         """Offer completions at the cursor on demand; a single one is put in at once."""
         if self._show(target) == 1:
-            self.take()
-        self._by_hand = self._popup.is_open
+            self.insert_chosen()
+        self._by_hand = self.popup.is_open
 
     def _offer(self, target: Target) -> None:
         """Offer completions by itself, if enough letters stand before the cursor and none behind."""
-        if self._app.focused is not target or self._is_up_to_date(target):
+        if not target.has_focus or self._is_up_to_date(target):
             return
         line, column = _here(target)
         in_a_word = line[column : column + 1].isalnum()
-        if in_a_word or len(word_before(line, column)) < self._app.settings.completion_after:
+        if in_a_word or len(word_before(line, column)) < self._settings.completion_after:
             self.close()
             return
         self._by_hand = False
         self._show(target)
 
     def _is_up_to_date(self, target: Target) -> bool:
-        return self._popup.is_open and self._fits(target) and not self._is_cut
+        return self.popup.is_open and self._fits(target) and not self._is_cut
 
     def _show(self, target: Target) -> int:
         """Open the list; returns how many words it offers."""
         line, column = _here(target)
         prefix = word_before(line, column)
         command = isinstance(target, Prompt)
-        area = self._app.editor.front if command else target
+        area = self._front() if command else target
         assert isinstance(area, CodeArea)
         lines, known = around(area.document.lines, area.cursor_location[0]), self._known()
         typed_itself = 0 if command else 1
@@ -135,34 +135,34 @@ class Completer(TypingAid):
         if len(found) == 1 and self._complete:
             found = []
         self._target, self._start, self._is_cut = target, _word_start(target), len(found) == OFFERED_MAX
-        self._popup.show(found, prefix, Offset(*target.cursor_screen_offset), above=command)
+        self.popup.show(found, prefix, Offset(*target.cursor_screen_offset), above=command)
         return len(found)
 
     def _narrow(self, target: Target) -> None:
         """Leave the words in the open list that still fit; close it if none does."""
         prefix = word_before(*_here(target))
         same_word = target is self._target and _word_start(target) == self._start
-        if not same_word or not prefix.startswith(self._popup.prefix) or not self._popup.prefix:
+        if not same_word or not prefix.startswith(self.popup.prefix) or not self.popup.prefix:
             self.close()
             return
-        left = [offer for offer in self._popup.offered if offer.word.casefold().startswith(prefix.casefold())]
+        left = [offer for offer in self.popup.offered if offer.word.casefold().startswith(prefix.casefold())]
         self._complete = any(offer.word == prefix for offer in left)
         if all(offer.word == prefix for offer in left):
             self.close()
             return
         left.sort(key=lambda offer: offer.word != prefix)
-        self._popup.show(left, prefix, Offset(*target.cursor_screen_offset), above=isinstance(target, Prompt))
+        self.popup.show(left, prefix, Offset(*target.cursor_screen_offset), above=isinstance(target, Prompt))
 
     def _fits(self, target: Target) -> bool:
         """Whether the list was made for what stands before the cursor now."""
         return (
             target is self._target
-            and word_before(*_here(target)) == self._popup.prefix
+            and word_before(*_here(target)) == self.popup.prefix
             and _word_start(target) == self._start
         )
 
     def _known(self) -> dict[str, str]:
-        values = self._app.session.values
+        values = self._values()
         return {
             q.name: f"= {values.cells[q.slot]:g}" if not q.shape else f"ARRAY[{','.join(map(str, q.shape))}]"
             for q in values
@@ -173,17 +173,17 @@ class Completer(TypingAid):
         """Hide the list."""
         self._stop_timer()
         self._by_hand = False
-        if self._popup.is_open:
-            self._popup.close()
+        if self.popup.is_open:
+            self.popup.close()
 
     def _stop_timer(self) -> None:
         if self._timer is not None:
             self._timer.stop()
             self._timer = None
 
-    def take(self) -> None:
+    def insert_chosen(self) -> None:
         """Put the chosen word in the place of the letters typed."""
-        offer, target, prefix = self._popup.chosen, self._target, self._popup.prefix
+        offer, target, prefix = self.popup.chosen, self._target, self.popup.prefix
         fits = target is not None and self._fits(target)
         self.close()
         if offer is None or not fits:

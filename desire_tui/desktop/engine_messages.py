@@ -22,7 +22,7 @@ class EngineMessage(Message):
     bubble = False
 
 
-class EngineUp(EngineMessage):
+class EngineReady(EngineMessage):
     """The engine is imported; the session is there."""
 
 
@@ -42,7 +42,7 @@ class ConsoleText(EngineMessage):
         return isinstance(message, ConsoleText)
 
 
-class InputWanted(EngineMessage):
+class InputRequested(EngineMessage):
     """The script asks for a line; the engine waits for `listener.answer(…)`."""
 
     def __init__(self, prompt: str) -> None:
@@ -50,10 +50,10 @@ class InputWanted(EngineMessage):
         self.prompt = prompt
 
 
-class PermissionWanted(EngineMessage):
+class PermissionRequested(EngineMessage):
     """The program wants to do something it must ask for."""
 
-    def __init__(self, request: PermissionRequest, answer: Answer) -> None:
+    def __init__(self, request: PermissionRequest, answer: PermissionAnswer) -> None:
         super().__init__()
         self.request = request
         self.answer = answer
@@ -92,7 +92,7 @@ class ProblemsFound(EngineMessage):
         self.stops = stops
 
 
-class Checked(EngineMessage):
+class CheckFinished(EngineMessage):
     """The problems of a tab's text, found while typing."""
 
     def __init__(self, number: int, version: int, diagnostics: Sequence[Diagnostic]) -> None:
@@ -122,7 +122,7 @@ class QuantitiesCleared(EngineMessage):
     """All names were cleared."""
 
 
-class Noted(EngineMessage):
+class NoteWritten(EngineMessage):
     """A `note` of the program."""
 
     def __init__(self, text: str) -> None:
@@ -156,7 +156,7 @@ class EngineFault(EngineMessage):
         self.details = details
 
 
-class Answer:
+class PermissionAnswer:
     """A yes or no that another thread waits for."""
 
     def __init__(self, done: threading.Event) -> None:

@@ -79,7 +79,7 @@ class ScreenListener(Listener):
         """Wait for a line from the command pane."""
         while not self._lines.empty():
             self._lines.get_nowait()
-        self._post(engine_messages.InputWanted(prompt))
+        self._post(engine_messages.InputRequested(prompt))
         line = self._lines.get()
         if line is None:
             from desire_tui.engine.interpreter.host import Interrupted
@@ -93,8 +93,8 @@ class ScreenListener(Listener):
 
     def permit(self, request: PermissionRequest) -> bool:
         """Wait for the user's yes or no."""
-        answer = engine_messages.Answer(threading.Event())
-        self._post(engine_messages.PermissionWanted(request, answer))
+        answer = engine_messages.PermissionAnswer(threading.Event())
+        self._post(engine_messages.PermissionRequested(request, answer))
         answer.done.wait()
         return answer.yes
 
@@ -130,7 +130,7 @@ class ScreenListener(Listener):
 
     def noted(self, text: str) -> None:
         """Tell the screen."""
-        self._post(engine_messages.Noted(text))
+        self._post(engine_messages.NoteWritten(text))
 
     def front_source(self) -> Source | None:
         """Return the front tab's text."""
@@ -161,7 +161,7 @@ class EngineThread:
         self._thread = threading.Thread(target=self._work, daemon=True, name="desire-engine")
 
     @property
-    def is_up(self) -> bool:
+    def is_ready(self) -> bool:
         """Whether the session is there."""
         return self._made.is_set()
 
@@ -204,7 +204,7 @@ class EngineThread:
             self._post(engine_messages.EngineMissing(error))
             return
         self._made.set()
-        self._post(engine_messages.EngineUp())
+        self._post(engine_messages.EngineReady())
         threading.Thread(target=self._warm_up, daemon=True, name="desire-warm-up").start()
         while True:
             self._do(self._jobs.get())

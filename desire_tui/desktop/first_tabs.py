@@ -26,11 +26,11 @@ async def open_first(app: DesireApp) -> None:
             if not path.exists() and path.parent.is_dir():
                 await app.editor.add(Buffer(path.resolve()), "", front=number == 0)
             else:
-                await app.file.open_path(path, focus=False)
+                await app.file_actions.open_path(path, focus=False)
         named = [a for a in app.editor.areas if a.buffer.path == app.files[0].expanduser().resolve()]
         if named:
             app.editor.show(named[0])
-    elif not (app.settings.restore_session and await app.keeper.restore()):
+    elif not (app.settings.restore_session and await app.checkpoints.restore()):
         await _first_example(app)
     blank = next((a for a in app.editor.areas if a.buffer.path is None and not a.text), None)
     if blank is not None and len(app.editor.areas) > 1:
@@ -46,7 +46,7 @@ async def _first_example(app: DesireApp) -> None:
     if found is None:
         return
     try:
-        await app.file.open_example(found, found.read_text(encoding="utf-8"))
+        await app.file_actions.open_example(found, found.read_text(encoding="utf-8"))
     except OSError:
         return
     if not app.tour.was_taken:
@@ -57,7 +57,7 @@ async def _offer_recovery(app: DesireApp) -> None:
     found, unreadable = recovery.leftovers()
     for file in unreadable:
         recovery.set_aside(file)
-        app.complain(
+        app.report_error(
             f"{file} was left by another version or is damaged; "
             f"it is kept as {file.with_suffix('.unread').name}",
             code=None,
@@ -73,6 +73,6 @@ async def _offer_recovery(app: DesireApp) -> None:
             )
         )
         if choice == "Restore":
-            await app.keeper.adopt(leftover)
+            await app.checkpoints.adopt(leftover)
         elif choice == "Discard":
             leftover.file.unlink(missing_ok=True)

@@ -31,7 +31,7 @@ class FramePacing(Controller):
         """Draw a graph that has just begun and send it; one that follows another fast waits for its turn."""
         if monotonic() - self._drawn_at >= APART_S and not self.is_backed_up:
             self.frame()
-            self.app.desk.send_only(*self.app.graph.children)
+            self.app.main_screen.send_only(*self.app.graph.children)
 
     def hold(self) -> None:
         """Send nothing to the terminal until a run's first curves stand there, or for a moment.
@@ -39,7 +39,7 @@ class FramePacing(Controller):
         What a command changes on its way there — its echo, tabs, status — is one picture after them then, and
         making three pictures of it does not keep the engine's thread waiting.
         """
-        desk = self.app.desk
-        if not desk.is_held:
-            desk.hold()
-            desk.set_timer(HOLD_S, desk.release)
+        screen = self.app.main_screen
+        if not screen.is_held:
+            screen.hold()
+            screen.set_timer(HOLD_S, screen.release)

@@ -31,22 +31,22 @@ class Arrangement:
 
 
 def arrange(
-    width: int, height: int, *, keys: Pane, alone: Pane | None = None, side: bool | None = None
+    width: int, height: int, *, focused: Pane, maximized: Pane | None = None, side: bool | None = None
 ) -> Arrangement:
     """Return the arrangement for a terminal of `width` × `height`.
 
-    `keys`: the pane that has the keys. `alone`: a pane the user maximized. `side`: whether he opened or
-    closed the side pane, None if he did neither.
+    `focused`: the pane that has the keys. `maximized`: a pane the user maximized. `side`: whether the user
+    opened or closed the side pane, None for neither.
     """
     if width < SMALLEST[0] or height < SMALLEST[1]:
         return Arrangement(frozenset(), "one", too_small=True)
-    if alone is not None:
-        return Arrangement(frozenset((alone,)), "one")
+    if maximized is not None:
+        return Arrangement(frozenset((maximized,)), "one")
     if width < ONE_BELOW[0] or height < ONE_BELOW[1]:
-        return Arrangement(frozenset((keys,)), "one")
+        return Arrangement(frozenset((focused,)), "one")
     if width < FEW_BELOW[0] or height < FEW_BELOW[1]:
-        if keys in ("editor", "side"):
-            return Arrangement(frozenset((keys,)), "one")
+        if focused in ("editor", "side"):
+            return Arrangement(frozenset((focused,)), "one")
         return Arrangement(frozenset(("graph", "command")), "rows")
     wanted = width >= SIDE_FROM[0] and height >= SIDE_FROM[1] if side is None else side
     panes = EVERYTHING if wanted else EVERYTHING - {"side"}

@@ -1,4 +1,4 @@
-"""Live mode: a moved slider re-runs the program with its value at once.
+"""LiveMode mode: a moved slider re-runs the program with its value at once.
 
 While a re-run goes on only the newest values wait for the next one: a slider never has to catch up.
 """
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from desire_tui.app import DesireApp
 
 
-class Live:
+class LiveMode:
     """The re-runs."""
 
     def __init__(self, app: DesireApp) -> None:

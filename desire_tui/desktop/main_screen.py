@@ -18,18 +18,20 @@ from desire_tui.commands import BY_ID
 from desire_tui.common.key_names import key_name
 from desire_tui.desktop.deferred_screen import DeferredScreen
 from desire_tui.desktop.layout_rules import SMALLEST, Arrangement, Pane, arrange
-from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.graph_pane import GraphPane
-from desire_tui.panes.help_pane import HelpPane
 from desire_tui.panes.side_pane import Side, SidePane
 from desire_tui.panes.status_bar import KeyHint, StatusBar
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from textual.app import ComposeResult
     from textual.widget import Widget
 
+    from desire_tui.desktop.completer import Completer
+    from desire_tui.engine.graph.model import Graph
     from desire_tui.panes.command_history import CommandHistory
 
 PANES: tuple[Pane, ...] = ("editor", "command", "graph", "side")
@@ -88,28 +90,38 @@ class MainScreen(DeferredScreen):
     MainScreen.-small #too-small { display: block; }
     """
 
-    def __init__(self, history: CommandHistory, keys: dict[str, str]) -> None:
+    def __init__(
+        self,
+        history: CommandHistory,
+        keys: dict[str, str],
+        completer: Completer,
+        graphs: Callable[[], list[Graph]],
+    ) -> None:
         super().__init__()
-        self._history = history
         self._keys = keys
-        self._alone: Pane | None = None
+        self._completer = completer
+        self.editor = EditorPane(completer)
+        self.command = CommandPane(history, completer)
+        self.graph = GraphPane(graphs)
+        self.side_pane = SidePane(keys)
+        hints = [KeyHint(self._key(command), title, command) for command, title in SHOWN_KEYS.items()]
+        self.status_bar = StatusBar(hints)
+        self._only_pane: Pane | None = None
         self._side: bool | None = None
-        self._with_keys: Pane = "command"
-        self._now: Arrangement | None = None
+        self._focused_pane: Pane = "command"
+        self._arrangement: Arrangement | None = None
 
     def compose(self) -> ComposeResult:
         """Lay out the panes."""
         with Horizontal(id="desk"):
             with Vertical(id="left"):
-                yield EditorPane()
-                yield CommandPane(self._history)
+                yield self.editor
+                yield self.command
             with Vertical(id="right"):
-                yield GraphPane()
-                yield SidePane()
-        yield StatusBar(
-            [KeyHint(self._key(command), title, command) for command, title in SHOWN_KEYS.items()]
-        )
-        yield CompletionPopup()
+                yield self.graph
+                yield self.side_pane
+        yield self.status_bar
+        yield self._completer.popup
         yield Label(f"at least {SMALLEST[0]} × {SMALLEST[1]} characters, please", id="too-small")
 
     def _key(self, command_id: str) -> str:
@@ -117,30 +129,29 @@ class MainScreen(DeferredScreen):
         return key_name(keys.split(",")[0]).replace("Ctrl+", "^")
 
     def on_mount(self) -> None:
-        """Give the help pane the configured keys; all panes are there now."""
-        self.query_one(HelpPane).keys = self._keys
-        self.follow_size()
+        """All panes are there now."""
+        self.update_layout()
         self.post_message(self.Ready())
 
     # -------------------------------------------------------------------------------------- arrangement
 
     def on_resize(self) -> None:
         """Follow the terminal's size."""
-        self.follow_size()
+        self.update_layout()
 
     def on_descendant_focus(self) -> None:
         """Where there is room for one pane only, show the one that has the keys."""
-        self._with_keys = self.pane_of(self.focused)
-        self.follow_size()
+        self._focused_pane = self.pane_of(self.focused)
+        self.update_layout()
 
-    def follow_size(self) -> None:
+    def update_layout(self) -> None:
         """Show the panes that belong on the screen now."""
         width, height = self.app.size
-        now = arrange(width, height, keys=self._with_keys, alone=self._alone, side=self._side)
+        now = arrange(width, height, focused=self._focused_pane, maximized=self._only_pane, side=self._side)
         self.set_class(height < 28, "-low")
-        if now == self._now:
+        if now == self._arrangement:
             return
-        self._now = now
+        self._arrangement = now
         self.set_class(now.too_small, "-small")
         self.set_class(now.order == "rows", "-rows")
         self.set_class(now.order == "one", "-one")
@@ -153,54 +164,54 @@ class MainScreen(DeferredScreen):
     @property
     def shown(self) -> frozenset[Pane]:
         """The panes that are on the screen."""
-        return self._now.panes if self._now is not None else frozenset()
+        return self._arrangement.panes if self._arrangement is not None else frozenset()
 
     def pane_of(self, widget: Widget | None) -> Pane:
         """Return the pane a widget belongs to; for none, the one that had the keys last."""
         inside = {ancestor.id for ancestor in widget.ancestors_with_self} if widget is not None else set()
-        return next((name for name in PANES if name in inside), self._with_keys)
+        return next((name for name in PANES if name in inside), self._focused_pane)
 
-    def make_way(self, widget: Widget) -> None:
+    def make_visible(self, widget: Widget) -> None:
         """See to it that a widget that gets the keys can be seen."""
-        self._with_keys = self.pane_of(widget)
-        if self._alone is not None:
-            self._alone = self._with_keys
-        self.follow_size()
+        self._focused_pane = self.pane_of(widget)
+        if self._only_pane is not None:
+            self._only_pane = self._focused_pane
+        self.update_layout()
 
     # -------------------------------------------------------------------------------------------- side pane
 
     @property
     def side(self) -> Side | None:
         """Which page of the side pane is shown."""
-        return self.query_one(SidePane).current if "side" in self.shown else None
+        return self.side_pane.current if "side" in self.shown else None
 
     def open_side(self, name: Side) -> None:
         """Show a page of the side pane."""
-        self.query_one(SidePane).choose(name)
-        self._side, self._with_keys = True, "side"
-        if self._alone is not None:
-            self._alone = None
-        self.follow_size()
+        self.side_pane.choose(name)
+        self._side, self._focused_pane = True, "side"
+        if self._only_pane is not None:
+            self._only_pane = None
+        self.update_layout()
 
     def close_side(self) -> bool:
         """Hide the side pane; returns whether it had the keys."""
-        had_keys = self._with_keys == "side"
+        had_keys = self._focused_pane == "side"
         self._side = False
         if had_keys:
-            self._with_keys = "command"
-        if self._alone == "side":
-            self._alone = None
-        self.follow_size()
+            self._focused_pane = "command"
+        if self._only_pane == "side":
+            self._only_pane = None
+        self.update_layout()
         return had_keys
 
     # --------------------------------------------------------------------------------------------- maximize
 
     @property
-    def alone(self) -> Pane | None:
+    def only_pane(self) -> Pane | None:
         """The pane that was maximized."""
-        return self._alone
+        return self._only_pane
 
-    def show_alone(self, pane: Pane | None) -> None:
+    def show_only(self, pane: Pane | None) -> None:
         """Show one pane alone; None: all panes."""
-        self._alone = pane
-        self.follow_size()
+        self._only_pane = pane
+        self.update_layout()

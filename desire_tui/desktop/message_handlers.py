@@ -32,7 +32,7 @@ class MessageHandlers(Controller):
         raise NotImplementedError(type(message).__name__)
 
     @handle.register
-    def _up(self, message: engine_messages.EngineUp) -> None:
+    def _up(self, message: engine_messages.EngineReady) -> None:
         del message
         self.app.engine_ready()
 
@@ -46,17 +46,18 @@ class MessageHandlers(Controller):
         self.app.command.console.write(self.app.listener.take_text())
 
     @handle.register
-    def _input(self, message: engine_messages.InputWanted) -> None:
+    def _input(self, message: engine_messages.InputRequested) -> None:
         self.flush()
-        if (pasted := self.app.line.answer()) is not None:  # it came with the line that started the program
+        pasted = self.app.command_line.answer()
+        if pasted is not None:  # it came with the line that started the program
             self.app.command.console.add(message.prompt + pasted, "output")
             self.app.listener.answer(pasted)
             return
-        self.app.bring(self.app.command.prompt)
+        self.app.move_focus(self.app.command.prompt)
         self.app.command.ask(message.prompt)
 
     @handle.register
-    def _permission(self, message: engine_messages.PermissionWanted) -> None:
+    def _permission(self, message: engine_messages.PermissionRequested) -> None:
         def answered(choice: str | None) -> None:
             message.answer.give(choice == "Allow")
 
@@ -76,9 +77,9 @@ class MessageHandlers(Controller):
         app.graph.follow_newest(app.session.graph)
         app.show_status()
         if message.record.count:
-            app.drawing.at_once()
+            app.frame_pacing.at_once()
         else:
-            app.desk.set_timer(FIRST_SAMPLE_S, app.drawing.at_once)
+            app.main_screen.set_timer(FIRST_SAMPLE_S, app.frame_pacing.at_once)
 
     @handle.register
     def _run_ended(self, message: engine_messages.RunEnded) -> None:
@@ -134,7 +135,7 @@ class MessageHandlers(Controller):
         )
 
     @handle.register
-    def _checked(self, message: engine_messages.Checked) -> None:
+    def _checked(self, message: engine_messages.CheckFinished) -> None:
         area = self.app.editor.find(message.number)
         if area is not None and self.app.editor.versions.get(message.number, 0) == message.version:
             self.app.editor.set_problems(area, message.diagnostics)
@@ -173,7 +174,7 @@ class MessageHandlers(Controller):
             area.marks_changed()
 
     @handle.register
-    def _noted(self, message: engine_messages.Noted) -> None:
+    def _noted(self, message: engine_messages.NoteWritten) -> None:
         self.flush()
         self.app.command.console.add(message.text, "output")
 
@@ -186,9 +187,9 @@ class MessageHandlers(Controller):
     def _idle(self, message: engine_messages.EngineIdle) -> None:
         self.flush()
         if message.failed:
-            self.app.line.failed()
+            self.app.command_line.failed()
         app = self.app
-        app.desk.release()
+        app.main_screen.release()
         if (
             app.session.stopped_at is None
             and app.editor.active is not None
@@ -199,13 +200,13 @@ class MessageHandlers(Controller):
         app.show_status()
         app.quantities.show(app.session.values)
         app.tour.program_ended()
-        app.live.engine_idle()
-        app.line.next()
+        app.live_mode.engine_idle()
+        app.command_line.next()
 
     @handle.register
     def _fault(self, message: engine_messages.EngineFault) -> None:
         self.flush()
-        self.app.write_up(message.summary, message.details)
+        self.app.log_fault(message.summary, message.details)
 
     def flush(self) -> None:
         """Show output that waits, so that what comes next stands below it."""

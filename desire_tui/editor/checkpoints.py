@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from desire_tui.editor.editor_pane import EditorPane
 
 
-class Keeper:
+class Checkpoints:
     """One app's recovery file."""
 
     def __init__(self, editor: EditorPane) -> None:

@@ -8,7 +8,6 @@ from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets.text_area import Selection
 
-from desire_tui.common.completion_hook import TypingAid
 from desire_tui.common.line_tokens import word_at
 from desire_tui.editor import indent
 from desire_tui.editor.program_view import ProgramView
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
     from textual import events
     from textual.document._document import Location
 
+    from desire_tui.common.completion_hook import CompletionHook
     from desire_tui.editor.buffer import Buffer
 
 
@@ -49,9 +49,11 @@ class CodeArea(ProgramView):
             self.area = area
             self.row = row
 
-    def __init__(self, buffer: Buffer, text: str, twin: CodeArea | None = None) -> None:
+    def __init__(
+        self, buffer: Buffer, text: str, completion: CompletionHook, twin: CodeArea | None = None
+    ) -> None:
         self.buffer = buffer
-        self.aid: TypingAid = twin.aid if twin else TypingAid()
+        self.completion = completion
         super().__init__(text, twin)
 
     @property
@@ -69,7 +71,7 @@ class CodeArea(ProgramView):
     # ----------------------------------------------------------------------------------------------- typing
 
     async def _on_key(self, event: events.Key) -> None:
-        if self.aid.takes(event, self):
+        if self.completion.handle_key(event, self):
             event.stop()
             event.prevent_default()
             return
@@ -88,7 +90,7 @@ class CodeArea(ProgramView):
             return
         await super()._on_key(event)
         if event.is_printable:
-            self.aid.typed(self)
+            self.completion.letter_typed(self)
 
     async def _on_mouse_down(self, event: events.MouseDown) -> None:
         if event.x < self.gutter_width:
@@ -100,7 +102,7 @@ class CodeArea(ProgramView):
 
     def on_blur(self) -> None:
         """Close the completions."""
-        self.aid.left(self)
+        self.completion.focus_lost(self)
 
     def _new_line(self) -> None:
         row, column = self.cursor_location

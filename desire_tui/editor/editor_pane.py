@@ -10,7 +10,6 @@ from textual.containers import Horizontal, Vertical
 from textual.message import Message
 from textual.widgets import Label, TextArea
 
-from desire_tui.common.completion_hook import TypingAid
 from desire_tui.editor.buffer import Buffer, free_label
 from desire_tui.editor.code_area import CodeArea
 from desire_tui.editor.find_bar import FindBar
@@ -23,6 +22,7 @@ if TYPE_CHECKING:
     from textual.binding import BindingType
     from textual.timer import Timer
 
+    from desire_tui.common.completion_hook import CompletionHook
     from desire_tui.engine.diagnostics import Diagnostic
 
 CHECK_AFTER_S = 0.25
@@ -46,7 +46,7 @@ class EditorPane(Vertical):
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "close_find", "Close find bar", show=False)]
 
-    class Wanted(Message):
+    class ActionRequested(Message):
         """The pane wants an action carried out (`id` of the command table)."""
 
         def __init__(self, command_id: str, argument: str = "") -> None:
@@ -54,15 +54,16 @@ class EditorPane(Vertical):
             self.command_id = command_id
             self.argument = argument
 
-    class CheckWanted(Message):
+    class CheckRequested(Message):
         """A text came to rest and should be checked."""
 
         def __init__(self, area: CodeArea) -> None:
             super().__init__()
             self.area = area
 
-    def __init__(self) -> None:
+    def __init__(self, completion: CompletionHook) -> None:
         super().__init__(id="editor")
+        self._completion = completion
         self.areas: list[CodeArea] = []
         """One for each tab."""
         self._front: CodeArea | None = None
@@ -73,8 +74,6 @@ class EditorPane(Vertical):
         self._active: CodeArea | None = None
         self.versions: dict[int, int] = {}
         self._check_timer: Timer | None = None
-        self.aid = TypingAid()
-        """What completes words in the texts; set before the first tab is opened."""
 
     def compose(self) -> ComposeResult:
         """Tabs above, texts, find bar and message row below."""
@@ -116,8 +115,7 @@ class EditorPane(Vertical):
         """Open a tab; an untouched empty one is replaced."""
         if buffer.path is None:
             buffer.label = free_label(buffer.label, {area.buffer.name for area in self.areas})
-        area = CodeArea(buffer, buffer.saved_text if text is None else text)
-        area.aid = self.aid
+        area = CodeArea(buffer, buffer.saved_text if text is None else text, self._completion)
         blank = self._front
         if blank is not None and (blank.text or blank.buffer.path is not None):
             blank = None
@@ -148,7 +146,7 @@ class EditorPane(Vertical):
         if focus:
             self.screen.set_focus(area)  # at once: letters typed next belong there
         self.refresh_tabs()
-        self._tell_place()
+        self._show_position()
 
     @property
     def _views(self) -> list[CodeArea]:
@@ -215,7 +213,7 @@ class EditorPane(Vertical):
             await self._one_view()
             return
         await self._drop_twin()
-        self._twin = twin = CodeArea(tab.buffer, "", twin=tab)
+        self._twin = twin = CodeArea(tab.buffer, "", self._completion, twin=tab)
         await self.query_one("#areas", Horizontal).mount(twin, after=tab)
         twin.go_to(*tab.cursor_location)
         self._second = twin
@@ -263,11 +261,11 @@ class EditorPane(Vertical):
         event.stop()
         area = self.find(event.key)
         if event.key == NEW:
-            self.post_message(self.Wanted("file.new"))
+            self.post_message(self.ActionRequested("file.new"))
         elif area is not None:
             self.show(self.front if area is self.front.tab else area, focus=True)
             if event.close:
-                self.post_message(self.Wanted("file.close"))
+                self.post_message(self.ActionRequested("file.close"))
 
     @on(TabStrip.Dragged)
     def _tab_dragged(self, event: TabStrip.Dragged) -> None:
@@ -284,7 +282,7 @@ class EditorPane(Vertical):
         area.marks.set_problems(diagnostics)
         if area.marks.problems != before:
             area.marks_changed()
-            self._tell_place()
+            self._show_position()
 
     @on(TextArea.Changed)
     def _changed(self, event: TextArea.Changed) -> None:
@@ -293,7 +291,7 @@ class EditorPane(Vertical):
         assert isinstance(area, CodeArea)
         self.versions[area.buffer.number] = self.versions.get(area.buffer.number, 0) + 1
         self.refresh_tabs()
-        area.aid.moved(area)
+        area.completion.text_changed(area)
         self._ask_check(area)
         self.query_one(FindBar).text_changed()
 
@@ -301,7 +299,7 @@ class EditorPane(Vertical):
         if self._check_timer is not None:
             self._check_timer.stop()
         self._check_timer = self.set_timer(
-            CHECK_AFTER_S, lambda: self.post_message(self.CheckWanted(area)) and None
+            CHECK_AFTER_S, lambda: self.post_message(self.CheckRequested(area)) and None
         )
 
     @on(TextArea.SelectionChanged)
@@ -309,10 +307,10 @@ class EditorPane(Vertical):
         event.stop()
         area = event.text_area
         assert isinstance(area, CodeArea)
-        area.aid.moved(area)
-        self._tell_place()
+        area.completion.text_changed(area)
+        self._show_position()
 
-    def _tell_place(self) -> None:
+    def _show_position(self) -> None:
         row, column = self.front.cursor_location
         problems = self.front.marks.problems
         marks = problems.get(row, [])
@@ -323,12 +321,12 @@ class EditorPane(Vertical):
             sentence = f" {count} problem{'s' if count > 1 else ''} · F8"
         else:
             sentence = ""
-        self._tell("#place", f"{row + 1}:{column + 1}")
-        label = self._tell("#problem", sentence)
+        self._set_label("#place", f"{row + 1}:{column + 1}")
+        label = self._set_label("#problem", sentence)
         label.set_class(mark is not None and mark.style == "error", "-error")
         label.tooltip = mark.text if mark else None
 
-    def _tell(self, place: str, text: str) -> Label:
+    def _set_label(self, place: str, text: str) -> Label:
         """Show a text in the row below; a key that changes nothing there draws nothing, lays out nothing."""
         label = self.query_one(place, Label)
         if (before := str(label.content)) != text:
@@ -339,13 +337,13 @@ class EditorPane(Vertical):
         """Press the OK button, or bring the text that was clicked to the front."""
         widget = getattr(event, "widget", None)
         if widget is not None and widget.id == "ok":
-            self.post_message(self.Wanted("run.accept"))
+            self.post_message(self.ActionRequested("run.accept"))
 
     @on(CodeArea.GutterClicked)
     def _gutter_clicked(self, event: CodeArea.GutterClicked) -> None:
         event.stop()
         self.show(event.area, focus=True)
-        self.post_message(self.Wanted("run.breakpoint", str(event.row + 1)))
+        self.post_message(self.ActionRequested("run.breakpoint", str(event.row + 1)))
 
     def on_descendant_focus(self) -> None:
         """Bring the text that got the focus to the front."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from textual.document._document import Location
 
     from desire_tui.editor.code_area import CodeArea
-    from desire_tui.editor.program_lines import Lines
+    from desire_tui.editor.program_lines import ProgramLines
     from desire_tui.editor.text_search import Hit, Range
 
 
@@ -25,7 +25,7 @@ class Finder:
         self.area: CodeArea | None = None
         self.wanted = SearchRequest("")
         self._within: Range | None = None
-        self._document: Lines | None = None
+        self._document: ProgramLines | None = None
         """The lines whose changes `_within` follows."""
         self._found: tuple[object, list[Hit] | Unsearchable] = (None, [])
 

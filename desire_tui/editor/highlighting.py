@@ -12,7 +12,7 @@ import sys
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from desire_tui.editor.program_lines import Lines
+from desire_tui.editor.program_lines import ProgramLines
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -47,7 +47,7 @@ class LineHighlights(dict[int, "list[Range]"]):
 
     def before(self, row: int) -> str:
         """Return the rows of a statement that goes on in this one; an empty text if none does."""
-        if not self.are_on() or not isinstance(self.document, Lines):
+        if not self.are_on() or not isinstance(self.document, ProgramLines):
             return ""
         try:
             from desire_tui.engine.syntax.highlighting import before

@@ -45,16 +45,16 @@ class LiveChecker:
         self._fault = fault
         self._wanted: dict[int, tuple[int, Source]] = {}
         self._checked: dict[int, Checked] = {}  # waiting for a closer look
-        self._news = threading.Condition()
+        self._condition = threading.Condition()
         self._thread: threading.Thread | None = None
 
     def ask(self, buffer: Buffer, version: int, text: str) -> None:
         """Check a text when its turn comes; an older text of the same tab is forgotten."""
         if len(text) > CHECKED_MAX:
             return
-        with self._news:
+        with self._condition:
             self._wanted[buffer.number] = (version, Source(text, buffer.name, buffer.path))
-            self._news.notify()
+            self._condition.notify()
         if self._thread is None:
             self._thread = threading.Thread(target=self._work, daemon=True, name="desire-check")
             self._thread.start()
@@ -72,8 +72,8 @@ class LiveChecker:
 
     def _next_wanted(self) -> tuple[int, int, Source] | None:
         """Wait for a text; None: it is quiet, and some are waiting for a closer look."""
-        with self._news:
-            self._news.wait_for(lambda: self._wanted, QUIET_SECONDS if self._checked else None)
+        with self._condition:
+            self._condition.wait_for(lambda: self._wanted, QUIET_SECONDS if self._checked else None)
             if not self._wanted:
                 return None
             number = next(iter(self._wanted))

@@ -19,7 +19,7 @@ def with_line_feeds(text: str) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
 
-class Lines(Document):
+class ProgramLines(Document):
     """Only line feeds end lines: a form feed or another control character in a line stays where it is."""
 
     def __init__(self, text: str) -> None:

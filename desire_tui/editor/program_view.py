@@ -19,8 +19,8 @@ from textual.widgets.text_area import Selection
 
 from desire_tui.editor import indent
 from desire_tui.editor.line_marks import Marks
-from desire_tui.editor.program_lines import Lines, follow
-from desire_tui.editor.text_rendering import DrawnText
+from desire_tui.editor.program_lines import ProgramLines, follow
+from desire_tui.editor.text_rendering import RenderedText
 from desire_tui.editor.unwrapped_lines import UnwrappedDocument
 
 if TYPE_CHECKING:
@@ -34,10 +34,10 @@ WIDTH_STEP = 16
 """The width of the text grows by so much, so that not every letter of the longest line changes it."""
 
 
-class ProgramView(DrawnText):
+class ProgramView(RenderedText):
     """Shows a program's lines with marks and colours. `views` are all views of the same lines, itself too."""
 
-    document: Lines
+    document: ProgramLines
 
     def __init__(self, text: str, twin: ProgramView | None = None) -> None:
         self.views: list[ProgramView] = []
@@ -76,12 +76,12 @@ class ProgramView(DrawnText):
     def _set_document(self, text: str, language: str | None) -> None:
         del language
         self._highlight_query = None
-        lines = Lines(text)
+        lines = ProgramLines(text)
         lines.followers.append(self.marks.replaced)
         for view in self.views:
             view.show_lines(lines)
 
-    def show_lines(self, lines: Lines) -> None:
+    def show_lines(self, lines: ProgramLines) -> None:
         """Show other lines."""
         self._width_most = _width(lines.lines)
         self.document = lines

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from textual.document._document import Location
 
     from desire_tui.editor.line_marks import Marks
-    from desire_tui.editor.program_lines import Lines
+    from desire_tui.editor.program_lines import ProgramLines
 
 GUTTER_SIGNS = {
     "error": ("✖", "error"),
@@ -40,10 +40,10 @@ ROWS_KEPT = 1024
 """So many drawn rows are kept: what a key does not change is not drawn again."""
 
 
-class DrawnText(TextArea):
+class RenderedText(TextArea):
     """Draws lines with colours and `marks`."""
 
-    document: Lines
+    document: ProgramLines
 
     def __init__(self, marks: Marks) -> None:
         self.marks = marks

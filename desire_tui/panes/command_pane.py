@@ -10,7 +10,7 @@ from textual.message import Message
 from textual.widgets import Input, Label
 
 from desire_tui.panes.console_view import Console
-from desire_tui.panes.pending_lines import HeldLines
+from desire_tui.panes.pending_lines import PendingLines
 from desire_tui.panes.prompt import Prompt
 from desire_tui.panes.scrollback import Place
 
@@ -19,11 +19,12 @@ if TYPE_CHECKING:
 
     from textual.app import ComposeResult
 
+    from desire_tui.common.completion_hook import CompletionHook
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.panes.command_history import CommandHistory
 
 PROMPT = "> "
-HELD = "Stopped at this line; those after it wait. ↑↓ edit them, Enter goes on, Esc gives them up."
+PENDING_NOTICE = "Stopped at this line; those after it wait. ↑↓ edit them, Enter goes on, Esc gives them up."
 
 
 class CommandPane(Vertical):
@@ -45,8 +46,9 @@ class CommandPane(Vertical):
             self.lines = lines
             self.answer = answer
 
-    def __init__(self, history: CommandHistory) -> None:
+    def __init__(self, history: CommandHistory, completion: CompletionHook) -> None:
         super().__init__(id="command")
+        self._completion = completion
         self.border_title = "Command"
         self._history = history
         self._asked: str | None = None
@@ -55,11 +57,11 @@ class CommandPane(Vertical):
         """Output, search field, prompt."""
         yield Console()
         yield Input(id="output-search", placeholder="search output · Enter upwards · Esc")
-        held = HeldLines()
-        yield held
+        pending = PendingLines()
+        yield pending
         with Horizontal():
             yield Label(PROMPT, id="sign", markup=False)
-            yield Prompt(self._history, held, self._entered)
+            yield Prompt(self._history, pending, self._completion, self._entered)
 
     @property
     def console(self) -> Console:
@@ -87,13 +89,13 @@ class CommandPane(Vertical):
         self._asked = None
         self._sign(PROMPT)
 
-    def hold(self, lines: Sequence[str]) -> None:
+    def keep_pending(self, lines: Sequence[str]) -> None:
         """Put lines that were not carried out back to where they can be edited, the first into the prompt."""
         unfinished = self.prompt.value
-        self.query_one(HeldLines).hold([*lines, unfinished] if unfinished.strip() else lines)
+        self.query_one(PendingLines).keep([*lines, unfinished] if unfinished.strip() else lines)
         self.prompt.value = lines[0]
         self.prompt.cursor_position = len(lines[0])
-        self.console.add(HELD, "notice")
+        self.console.add(PENDING_NOTICE, "notice")
 
     def _sign(self, text: str, *, asking: bool = False) -> None:
         sign = self.query_one("#sign", Label)

@@ -36,7 +36,7 @@ class Preview:
     problem: str = ""
 
 
-class _Audience(Listener):
+class _PreviewListener(Listener):
     """Collects what is printed, types the answers that the program brings along, permits nothing."""
 
     def __init__(self, answers: list[str]) -> None:
@@ -64,7 +64,7 @@ class Previewer:
 
     def __init__(self, report: Callable[[Preview], object]) -> None:
         self._report = report
-        self._news = threading.Condition()
+        self._condition = threading.Condition()
         self._wanted: Example | None = None
         self._session: Session | None = None
         self._closed = False
@@ -72,21 +72,21 @@ class Previewer:
 
     def ask(self, example: Example) -> None:
         """Run a program as soon as possible; an older wish is forgotten."""
-        with self._news:
+        with self._condition:
             self._wanted = example
             self._end()
-            self._news.notify()
+            self._condition.notify()
         if self._thread is None:
             self._thread = threading.Thread(target=self._work, daemon=True, name="desire-preview")
             self._thread.start()
 
     def close(self) -> None:
         """End what runs; nothing is reported any more."""
-        with self._news:
+        with self._condition:
             self._closed = True
             self._wanted = None
             self._end()
-            self._news.notify()
+            self._condition.notify()
 
     def _end(self) -> None:
         if self._session is not None:
@@ -94,14 +94,14 @@ class Previewer:
 
     def _work(self) -> None:
         while True:
-            with self._news:
+            with self._condition:
                 while self._wanted is None and not self._closed:
-                    self._news.wait()
+                    self._condition.wait()
                 if self._closed or self._wanted is None:
                     return
                 example, self._wanted = self._wanted, None
             preview = self._made(example)
-            with self._news:
+            with self._condition:
                 self._session = None
                 superseded = self._is_superseded
             if not superseded:
@@ -116,10 +116,10 @@ class Previewer:
         from desire_tui.engine.interpreter.host import Interrupted
         from desire_tui.engine.session.session import Session
 
-        audience = _Audience(example.answers)
+        listener = _PreviewListener(example.answers)
         with tempfile.TemporaryDirectory(prefix="desire-preview-", ignore_cleanup_errors=True) as folder:
-            session = Session(audience, folder=Path(folder))
-            with self._news:
+            session = Session(listener, folder=Path(folder))
+            with self._condition:
                 self._session = session
                 if self._is_superseded:
                     return Preview(example, None, "")
@@ -133,7 +133,7 @@ class Previewer:
                 problem = "" if isinstance(error, Interrupted) else str(error)
             finally:
                 alarm.cancel()
-            return Preview(example, session.graph, audience.printed.rstrip(), problem)
+            return Preview(example, session.graph, listener.printed.rstrip(), problem)
 
 
 def _perform(session: Session, example: Example) -> None:

@@ -30,14 +30,14 @@ _previews: dict[str, Preview] = {}
 PREVIEWS_MAX = 64
 
 
-class Chosen(NamedTuple):
+class ExampleChoice(NamedTuple):
     """The program to open, and whether to run it at once."""
 
     example: Example
     run: bool
 
 
-class ExamplesScreen(Question["Chosen | None"]):
+class ExamplesScreen(Question["ExampleChoice | None"]):
     """Dismissed with the program chosen, or None."""
 
     DEFAULT_CSS = """
@@ -221,4 +221,4 @@ class ExamplesScreen(Question["Chosen | None"]):
 
     def _choose(self, *, run: bool) -> None:
         if (example := self.highlighted) is not None:
-            self.dismiss(Chosen(example, run))
+            self.dismiss(ExampleChoice(example, run))

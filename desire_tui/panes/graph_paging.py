@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 OVERLAYS_MAX = 12
 
 
-class Paging:
+class GraphPaging:
     """The page shown; `overlay_next`: the next new one is laid over it."""
 
     def __init__(self) -> None:

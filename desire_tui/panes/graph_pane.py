@@ -11,15 +11,15 @@ from textual.geometry import Region
 
 from desire_tui.panes import graph_cursor
 from desire_tui.panes.graph_key_row import KeyRow, KeyRowContent
-from desire_tui.panes.graph_paging import Paging
-from desire_tui.panes.graph_sheet import TILE_COLUMNS, Look, Sheet
+from desire_tui.panes.graph_paging import GraphPaging
+from desire_tui.panes.graph_sheet import TILE_COLUMNS, GraphSheet, SheetStyles
 from desire_tui.panes.graph_styles import WHITE_STYLE, net_style
 from desire_tui.panes.graph_tiles import SheetTile
-from desire_tui.panes.mouse_gestures import Gestures
+from desire_tui.panes.mouse_gestures import MouseGestures
 from desire_tui.panes.zoom_window import Window
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from textual.app import ComposeResult
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 NOTICE_COLUMNS_MIN = 30
 
 
-class GraphPane(Gestures, can_focus=True):
+class GraphPane(MouseGestures, can_focus=True):
     """Shows one page of the session's graphs."""
 
     DEFAULT_CSS = """
@@ -59,9 +59,11 @@ class GraphPane(Gestures, can_focus=True):
         Binding("shift+right", "arrow(10, 0)", show=False),
     ]
 
-    def __init__(self) -> None:
+    def __init__(self, pages: Callable[[], list[Graph]]) -> None:
         super().__init__(id="graph")
-        self.paging = Paging()
+        self._pages = pages
+        """All graphs of the session."""
+        self.paging = GraphPaging()
         self.canvas: Canvas | None = None
         self.frame: TextFrame | None = None
         self.window = Window()
@@ -70,7 +72,7 @@ class GraphPane(Gestures, can_focus=True):
         self._cursor: float | None = None
         self._painter: Painter | None = None
         self._drawn: tuple[object, ...] = ()
-        self.sheet = Sheet()
+        self.sheet = GraphSheet()
         self._keys: tuple[object, ...] = ()
         self._tiles: list[SheetTile] = []
         self._ground: tuple[tuple[str, bool], tuple[Style, bool]] | None = None
@@ -171,7 +173,7 @@ class GraphPane(Gestures, can_focus=True):
         if page is None:
             notice = "No graph yet · F5 runs the program" if columns > NOTICE_COLUMNS_MIN else ""
             lines = [""] * (rows // 2) + [notice.center(columns)]
-            self.sheet.lay(columns, rows, Look(ground, ground + Style(dim=True), ground, white), lines)
+            self.sheet.lay(columns, rows, SheetStyles(ground, ground + Style(dim=True), ground, white), lines)
             self._refresh_cells(self.sheet.cells)
             return
         from desire_tui.engine.outputs.braille_canvas import Canvas
@@ -188,7 +190,7 @@ class GraphPane(Gestures, can_focus=True):
         mark = self.page_mark
         lines = [frame.lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark, *frame.lines[1:]]
         net = ground if page.net is None else ground + net_style(page.net, white=white)
-        look = Look(ground, ground + Style(bold=True), net, white)
+        look = SheetStyles(ground, ground + Style(bold=True), net, white)
         self.sheet.lay(columns, rows, look, lines, frame, canvas)
         self._painter.update()  # first: a piece is sent with what stands in it
         canvas.take_dirty()
@@ -212,8 +214,8 @@ class GraphPane(Gestures, can_focus=True):
 
     def _refresh_cells(self, cells: Iterable[tuple[int, int]]) -> None:
         """Have those cells (row, tile) sent that look different from before."""
-        news = sorted((tile, row) for row, tile in self.sheet.changed(cells))
-        for number, of_tile in groupby(news, key=lambda cell: cell[0]):
+        changed = sorted((tile, row) for row, tile in self.sheet.changed(cells))
+        for number, of_tile in groupby(changed, key=lambda cell: cell[0]):
             if number >= len(self._tiles):
                 continue
             rows = [row for _, row in of_tile]
@@ -295,9 +297,6 @@ class GraphPane(Gestures, can_focus=True):
 
     # ------------------------------------------------------------------------------------------------- pages
 
-    def _pages(self) -> list[Graph]:
-        return list(self.app.session.graphs)  # type: ignore[attr-defined]
-
     def turn(self, step: int) -> bool:
         """Show an older (-1) or newer (1) page; False if there is none."""
         if not self.paging.turn(self._pages(), step):
@@ -307,7 +306,7 @@ class GraphPane(Gestures, can_focus=True):
         return True
 
     def overlay(self, number: int | None) -> bool:
-        """Lay a page under the one shown (`Paging.lay_under`); False if there is none."""
+        """Lay a page under the one shown (`GraphPaging.lay_under`); False if there is none."""
         done = self.paging.lay_under(self._pages(), number)
         self.tick()
         return done

@@ -30,7 +30,7 @@ _CHOSEN = Style(bgcolor="#4a5a70")
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class SheetStyles:
     """Styles of paper, title (or notice, where there is no frame) and net, and whether the paper is white."""
 
     ground: Style
@@ -39,7 +39,7 @@ class Look:
     white: bool
 
 
-class Sheet:
+class GraphSheet:
     """Frame and canvas as one grid of cells; tile `n` is its columns `8 n … 8 n + 7`."""
 
     def __init__(self) -> None:
@@ -49,7 +49,7 @@ class Sheet:
         """Rectangle that is being marked."""
         self.ground = Style()
         """Paper before anything was laid."""
-        self._look: Look | None = None
+        self._look: SheetStyles | None = None
         self._lines: list[str] = []
         self._frame: TextFrame | None = None
         self._canvas: Canvas | None = None
@@ -57,8 +57,8 @@ class Sheet:
         self._sent: dict[tuple[int, int], Strip] = {}
 
     def lay(
-        self, columns: int, rows: int, look: Look, lines: Iterable[str], frame: TextFrame | None = None,
-        canvas: Canvas | None = None,
+        self, columns: int, rows: int, look: SheetStyles, lines: Iterable[str],
+        frame: TextFrame | None = None, canvas: Canvas | None = None,
     ) -> None:  # fmt: skip
         """Take a frame of so many cells, and the canvas that lies in it."""
         if look != self._look:
@@ -76,13 +76,13 @@ class Sheet:
 
     def changed(self, cells: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
         """Return those cells (row, tile) that look different from when they were asked for last."""
-        news = []
+        changed = []
         for row, tile in cells:
             piece = self.piece(tile, row)
             if self._sent.get((row, tile)) is not piece:
                 self._sent[row, tile] = piece
-                news.append((row, tile))
-        return news
+                changed.append((row, tile))
+        return changed
 
     def piece(self, tile: int, y: int) -> Strip:
         """Return a tile's row."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from textual.geometry import Region
     from textual.strip import Strip
 
-    from desire_tui.panes.graph_sheet import Sheet
+    from desire_tui.panes.graph_sheet import GraphSheet
 
 
 class SheetTile(Widget):
@@ -26,7 +26,7 @@ class SheetTile(Widget):
     can_focus = False
     ALLOW_SELECT = False
 
-    def __init__(self, sheet: Sheet, number: int) -> None:
+    def __init__(self, sheet: GraphSheet, number: int) -> None:
         super().__init__()
         self._sheet = sheet
         self._number = number

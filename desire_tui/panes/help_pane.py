@@ -96,10 +96,10 @@ class HelpPane(Vertical):
         *(Binding(str(n), f"follow({n})", show=False) for n in range(1, LINKS_MAX + 1)),
     ]
 
-    def __init__(self) -> None:
+    def __init__(self, keys: Mapping[str, str]) -> None:
+        """`keys`: those of each command id that the user configured."""
         super().__init__(id="help")
-        self.keys: Mapping[str, str] = {}
-        """Command id → keys as configured."""
+        self._keys = keys
         self._way: list[str] = []  # the pages that led here
         self._links: tuple[str, ...] = ()
 
@@ -144,7 +144,7 @@ class HelpPane(Vertical):
     def _table(self, commands: Sequence[Command]) -> str:
         rows = []
         for command in commands:
-            keys = key_names(self.keys.get(command.id, command.keys))
+            keys = key_names(self._keys.get(command.id, command.keys))
             words = ", ".join(f"`{word}`" for word in command.words)
             rows.append(f"| {keys} | {command.title} | {words} |")
         return "| key | action | command |\n| --- | --- | --- |\n" + "\n".join(rows) + "\n"

@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 DRAG_CELLS_MIN = 2
 
 
-class Gestures(Container):
+class MouseGestures(Container):
     """The part of a graph pane that hears the mouse; `rubber` is the rectangle being marked."""
 
     canvas: Canvas | None
     frame: TextFrame | None
     window: Window
 
-    class PauseWanted(Message):
+    class PauseRequested(Message):
         """The graph was clicked twice."""
 
     def __init__(self, *, id: str) -> None:  # noqa: A002 - Textual's name
@@ -77,7 +77,7 @@ class Gestures(Container):
     def on_click(self, event: events.Click) -> None:
         """Two clicks pause the run."""
         if event.chain == 2:
-            self.post_message(self.PauseWanted())
+            self.post_message(self.PauseRequested())
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
         """Zoom in at the mouse."""

@@ -15,20 +15,20 @@ if TYPE_CHECKING:
 ROWS_MAX = 6
 
 
-class HeldLines(Widget):
+class PendingLines(Widget):
     """The lines, the one that stands in the prompt marked. Hidden while there are none."""
 
     DEFAULT_CSS = """
-    HeldLines { height: auto; width: 1fr; display: none; background: $panel; color: $foreground; }
+    PendingLines { height: auto; width: 1fr; display: none; background: $panel; color: $foreground; }
     """
     can_focus = False
 
     def __init__(self) -> None:
-        super().__init__(id="held")
+        super().__init__(id="pending-lines")
         self._lines: list[str] = []
         self._at = 0
 
-    def hold(self, lines: Sequence[str]) -> None:
+    def keep(self, lines: Sequence[str]) -> None:
         """Keep these lines; the first one belongs into the prompt."""
         self._lines, self._at = list(lines), 0
         self._draw()

@@ -8,15 +8,14 @@ from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets import Input
 
-from desire_tui.common.completion_hook import TypingAid
-
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from textual import events
 
+    from desire_tui.common.completion_hook import CompletionHook
     from desire_tui.panes.command_history import CommandHistory
-    from desire_tui.panes.pending_lines import HeldLines
+    from desire_tui.panes.pending_lines import PendingLines
 
 
 class Prompt(Input):
@@ -40,14 +39,18 @@ class Prompt(Input):
             self.pattern = pattern
 
     def __init__(
-        self, history: CommandHistory, held: HeldLines, entered: Callable[[list[str]], object]
+        self,
+        history: CommandHistory,
+        pending: PendingLines,
+        completion: CompletionHook,
+        entered: Callable[[list[str]], object],
     ) -> None:
         """`entered` is called with a line, or with several pasted ones."""
         super().__init__(id="prompt", select_on_focus=False)
         self.history = history
-        self.held = held
+        self.pending = pending
         self._entered = entered
-        self.aid = TypingAid()
+        self.completion = completion
         self._pattern: str | None = None
         self._hit: int | None = None
 
@@ -56,16 +59,16 @@ class Prompt(Input):
     def action_older(self) -> None:
         """Show the line before: of those held back, else of the history."""
         self._show(
-            self.history.previous(self.value) if self.held.is_empty else self.held.step(-1, self.value)
+            self.history.previous(self.value) if self.pending.is_empty else self.pending.step(-1, self.value)
         )
 
     def action_newer(self) -> None:
         """Show the line after."""
-        self._show(self.history.next() if self.held.is_empty else self.held.step(1, self.value))
+        self._show(self.history.next() if self.pending.is_empty else self.pending.step(1, self.value))
 
     def action_clear(self) -> None:
         """Empty the line; lines held back are given up."""
-        self.held.take()
+        self.pending.take()
         self.value = ""
         self.history.forget_place()
 
@@ -101,27 +104,27 @@ class Prompt(Input):
     # ------------------------------------------------------------------------------------------------ keys
 
     async def _on_key(self, event: events.Key) -> None:
-        if self.aid.takes(event, self) or (self._pattern is not None and self._search_key(event)):
+        if self.completion.handle_key(event, self) or (self._pattern is not None and self._search_key(event)):
             pass
         elif event.key == "tab":
-            self.aid.wanted(self)
+            self.completion.offer(self)
         elif event.key == "enter":
             self._enter()
         else:
             await super()._on_key(event)
             if event.is_printable:
-                self.aid.typed(self)
+                self.completion.letter_typed(self)
             return
         event.stop()
         event.prevent_default()
 
     def on_blur(self) -> None:
         """Close the completions."""
-        self.aid.left(self)
+        self.completion.focus_lost(self)
 
     def on_input_changed(self) -> None:
         """Close completions that no longer fit."""
-        self.aid.moved(self)
+        self.completion.text_changed(self)
 
     def _search_key(self, event: events.Key) -> bool:
         """Handle a key of the history search; False if it ends the search and counts as usual."""
@@ -142,7 +145,7 @@ class Prompt(Input):
     def _enter(self) -> None:
         line, self.value = self.value, ""
         self.history.forget_place()
-        self._entered([line] if self.held.is_empty else self.held.take(line))
+        self._entered([line] if self.pending.is_empty else self.pending.take(line))
 
     def _on_paste(self, event: events.Paste) -> None:
         """Carry out several pasted lines one after the other, as far as they succeed.

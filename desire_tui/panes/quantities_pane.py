@@ -149,7 +149,7 @@ class QuantitiesPane(Vertical):
 
     # ---------------------------------------------------------------------------------------------- plotting
 
-    class PlotWanted(Message):
+    class PlotRequested(Message):
         """A quantity is to be plotted on a page of its own."""
 
         def __init__(self, name: str) -> None:
@@ -159,7 +159,7 @@ class QuantitiesPane(Vertical):
     def action_plot(self) -> None:
         """Plot the chosen quantity."""
         if (quantity := self.chosen) is not None:
-            self.post_message(self.PlotWanted(quantity.name))
+            self.post_message(self.PlotRequested(quantity.name))
 
     # ---------------------------------------------------------------------------------------------- sliders
 

@@ -19,6 +19,8 @@ from desire_tui.panes.problems_pane import ProblemsPane
 from desire_tui.panes.quantities_pane import QuantitiesPane
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from textual import events
     from textual.app import ComposeResult
 
@@ -85,23 +87,27 @@ class SidePane(Vertical):
     SidePane ContentSwitcher { height: 1fr; }
     """
 
-    class Wanted(Message):
+    class PageRequested(Message):
         """A page was chosen with the mouse: show it and move there."""
 
         def __init__(self, name: Side) -> None:
             super().__init__()
             self.name = name
 
-    def __init__(self) -> None:
+    def __init__(self, keys: Mapping[str, str]) -> None:
+        """`keys`: those of each command id that the user configured."""
         super().__init__(id="side")
+        self.quantities = QuantitiesPane()
+        self.problems = ProblemsPane()
+        self.help = HelpPane(keys)
 
     def compose(self) -> ComposeResult:
         """Tabs above the pages."""
         yield SideTabs()
         with ContentSwitcher(initial="quantities"):
-            yield QuantitiesPane()
-            yield ProblemsPane()
-            yield HelpPane()
+            yield self.quantities
+            yield self.problems
+            yield self.help
 
     @property
     def current(self) -> Side:
@@ -120,4 +126,4 @@ class SidePane(Vertical):
     @on(SideTabs.Chosen)
     def _chosen(self, event: SideTabs.Chosen) -> None:
         event.stop()
-        self.post_message(self.Wanted(event.name))
+        self.post_message(self.PageRequested(event.name))

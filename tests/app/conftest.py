@@ -107,7 +107,7 @@ class Desktop:
 
     @property
     def output(self) -> str:
-        self.app.news.flush()
+        self.app.message_handlers.flush()
         return self.app.command.console.text
 
 

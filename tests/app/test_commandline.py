@@ -12,7 +12,7 @@ from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
 from desire_tui.editor.buffer import free_label
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.session.status import State, Status
-from desire_tui.panes.pending_lines import HeldLines
+from desire_tui.panes.pending_lines import PendingLines
 from desire_tui.panes.run_summary import bar, run_text
 from desire_tui.panes.status_bar import StatusBar
 
@@ -33,7 +33,7 @@ def value(desk: Desktop, name: str) -> float:
 
 async def test_pasted_lines_stop_at_the_one_that_fails_and_can_be_corrected(program):
     async with desktop(program("")) as desk:
-        held = desk.app.command.query_one(HeldLines)
+        held = desk.app.command.query_one(PendingLines)
         prompt = desk.app.command.prompt
         await paste(desk, "a = 2\nb = a*\nc = b + 1\nwrite c\nunfinished")
         await desk.until(lambda: held.display)
@@ -62,9 +62,9 @@ async def test_pasted_lines_stop_at_the_one_that_fails_and_can_be_corrected(prog
 async def test_lines_held_back_can_be_given_up(program):
     async with desktop(program("")) as desk:
         await paste(desk, "a = \nb = 2\n")
-        await desk.until(lambda: desk.app.command.query_one(HeldLines).display)
+        await desk.until(lambda: desk.app.command.query_one(PendingLines).display)
         await desk.press("escape")
-        assert not desk.app.command.query_one(HeldLines).display
+        assert not desk.app.command.query_one(PendingLines).display
         assert desk.app.command.prompt.value == ""
         await desk.line("c = 3")
         await desk.idle()
@@ -77,13 +77,13 @@ async def test_a_single_line_that_fails_holds_nothing_back(program):
         await desk.line("a = ")
         await desk.idle()
         assert desk.app.command.prompt.value == ""
-        assert not desk.app.command.query_one(HeldLines).display
+        assert not desk.app.command.query_one(PendingLines).display
 
 
 async def test_pasted_lines_stop_at_a_program_that_fails(program):
     async with desktop(program(OSCILLATOR.replace("-x", "-xx"))) as desk:
         await paste(desk, "zz\nwrite 'not yet'\n")
-        await desk.until(lambda: desk.app.command.query_one(HeldLines).display)
+        await desk.until(lambda: desk.app.command.query_one(PendingLines).display)
         assert "> write" not in desk.output
         assert desk.app.command.prompt.value == "zz"
 
@@ -94,7 +94,7 @@ async def test_pasted_lines_wait_for_files_to_open_and_stop_where_one_cannot(pro
         await paste(desk, "load 'second.src'\nzz\n")
         await desk.until(lambda: desk.output.rstrip().endswith("42"))
         await paste(desk, "load 'missing.src'\nwrite 'not yet'\n")
-        await desk.until(lambda: desk.app.command.query_one(HeldLines).display)
+        await desk.until(lambda: desk.app.command.query_one(PendingLines).display)
         assert "> write" not in desk.output
 
 
@@ -205,7 +205,7 @@ async def test_the_status_row_keeps_the_end_after_the_script_reset_the_time(prog
         assert value(desk, "t") == 0.0
         assert (
             "run 1: TMAX reached at t = 6 · 6 k steps · 24 k derivatives"
-            in desk.app.desk.query_one(StatusBar).text
+            in desk.app.main_screen.query_one(StatusBar).text
         )
 
 
@@ -214,7 +214,7 @@ async def test_a_run_ended_by_term_says_so(program):
     async with desktop(program(text), size=(160, 50)) as desk:
         await desk.press("f5")
         await desk.idle()
-        shown = desk.app.desk.query_one(StatusBar).text
+        shown = desk.app.main_screen.query_one(StatusBar).text
         assert "ended by term at t = " in shown
         assert float(shown.split("t = ")[1].split(" ")[0]) == pytest.approx(math.pi / 2, abs=0.02)
 
@@ -234,14 +234,14 @@ async def test_the_run_report_at_any_time(program):
 
 async def test_keys_of_the_status_row_can_be_clicked(program):
     async with desktop(program(OSCILLATOR), size=(160, 50)) as desk:
-        row = desk.app.desk.query_one(StatusBar)
+        row = desk.app.main_screen.query_one(StatusBar)
         text = row.render_line(0).text
         await desk.pilot.click(StatusBar, offset=(text.index("F5") + 1, 0))
         await desk.idle()
         assert "x = " in desk.output
         text = row.render_line(0).text
         await desk.pilot.click(StatusBar, offset=(text.index("F1") + 4, 0))
-        assert desk.app.desk.side == "help"
+        assert desk.app.main_screen.side == "help"
 
 
 async def test_after_load_the_keys_stay_in_the_command_line(program):
@@ -260,8 +260,8 @@ async def test_what_is_typed_before_the_engine_is_there_is_carried_out_then(prog
     """Lines and F5 came before the first frame: nothing may wait for an engine that was never started."""
     app = DesireApp([program(OSCILLATOR)])
     async with app.run_test(size=(100, 30)) as pilot:
-        app.line.enter(["a = 6"])
-        app.line.enter(["write 7*a"])
+        app.command_line.enter(["a = 6"])
+        app.command_line.enter(["write 7*a"])
         await until(pilot, lambda: "42" in app.command.console.text.splitlines())
         app.session.end()
 
@@ -270,7 +270,7 @@ def test_the_session_is_made_by_whoever_asks_first():
     engine = EngineThread(ScreenListener(lambda message: None), lambda message: None)
     assert engine.session is engine.session
     engine.start()
-    assert engine.is_up
+    assert engine.is_ready
 
 
 async def test_while_a_run_goes_on_its_step_is_seen_at_80_columns_and_the_key_that_pauses_it(program):
@@ -278,7 +278,7 @@ async def test_while_a_run_goes_on_its_step_is_seen_at_80_columns_and_the_key_th
         await desk.press("f5")
         await desk.until(lambda: desk.app.session.runs and desk.app.session.runs[0].steps)
         desk.app.show_status()
-        row = desk.app.desk.query_one(StatusBar).render_line(0).text
+        row = desk.app.main_screen.query_one(StatusBar).render_line(0).text
         assert row.startswith(" ^C pause")
         assert "steps/s · DT 0.001" in row
         assert len(row) == 80

@@ -58,7 +58,7 @@ def drawn(style: Style) -> tuple[Color, Color]:
 def texts(desk: Desktop) -> Iterator[tuple[str, Style]]:
     """Every piece of text of the screen with the style it is drawn in; under a dialog only the dialog's."""
     screen = desk.app.screen
-    inside = screen.region if screen is desk.app.desk else screen.children[0].region
+    inside = screen.region if screen is desk.app.main_screen else screen.children[0].region
     for y, strip in enumerate(screen._compositor.render_strips()):
         x = 0
         for segment in strip:
@@ -141,7 +141,7 @@ async def test_every_text_on_the_screen_can_be_read(program, theme: str):
         await desk.do("view.search_output")
         await look("search in the output")
         await desk.press("escape")
-        desk.app.command.hold(["a = ", "b = 2"])
+        desk.app.command.keep_pending(["a = ", "b = 2"])
         desk.app.notify("a notice", severity="information")
         desk.app.notify("a warning", severity="warning")
         desk.app.notify("an error", severity="error")

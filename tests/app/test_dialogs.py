@@ -30,7 +30,7 @@ async def test_two_keys_at_once_are_one_answer(program):
         line.dismiss("")
         await desk.pilot.pause()
         assert answers == ["a"]
-        assert desk.app.screen is desk.app.desk
+        assert desk.app.screen is desk.app.main_screen
 
 
 async def test_what_is_typed_while_a_question_comes_up_is_no_answer(program, monkeypatch):

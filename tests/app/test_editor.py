@@ -233,7 +233,7 @@ async def test_f1_explains_the_word_at_the_cursor(program):
         area.go_to(0, 5)
         await desk.press("f1")
         await desk.pilot.pause()
-        assert desk.app.desk.side == "help"
+        assert desk.app.main_screen.side == "help"
         assert "sin" in desk.app.help_pane.query_one("Markdown").source
 
 

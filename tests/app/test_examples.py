@@ -84,7 +84,7 @@ async def test_a_program_without_a_graph_shows_what_it_prints(program):
         await desk.press("enter")  # nothing to open
         assert desk.app.screen is screen
         await desk.press("escape")
-        await desk.until(lambda: desk.app.screen is desk.app.desk)
+        await desk.until(lambda: desk.app.screen is desk.app.main_screen)
 
 
 async def test_enter_opens_a_copy_and_saving_it_leaves_the_original_alone(tmp_path):

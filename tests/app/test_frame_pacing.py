@@ -10,21 +10,21 @@ from rich.style import Style
 
 from desire_tui.engine.outputs.braille_canvas import Canvas
 from desire_tui.engine.outputs.text_frame import TextFrame
-from desire_tui.panes.graph_sheet import Look, Sheet
+from desire_tui.panes.graph_sheet import GraphSheet, SheetStyles
 
 from .conftest import LONG, OSCILLATOR, desktop
 
-LOOK = Look(Style(bgcolor="black"), Style(bold=True), Style(color="white"), white=False)
+LOOK = SheetStyles(Style(bgcolor="black"), Style(bold=True), Style(color="white"), white=False)
 FRAME = TextFrame(("head".center(26), "   ┌" + "─" * 20 + "┐", *["   │" + " " * 20 + "│"] * 3), 4, 2, 20, 3)
 
 
-def sheet_with(canvas: Canvas) -> Sheet:
-    sheet = Sheet()
+def sheet_with(canvas: Canvas) -> GraphSheet:
+    sheet = GraphSheet()
     sheet.lay(26, 5, LOOK, FRAME.lines, FRAME, canvas)
     return sheet
 
 
-def row_of(sheet: Sheet, y: int) -> str:
+def row_of(sheet: GraphSheet, y: int) -> str:
     return "".join(sheet.piece(tile, y).text for tile in range(4))
 
 
@@ -67,21 +67,21 @@ async def test_a_held_screen_sends_nothing_and_loses_nothing(program, monkeypatc
         app = desk.app
         sent = []
         monkeypatch.setattr(app, "_display", lambda screen, update: sent.append(update))
-        app.desk.hold()
+        app.main_screen.hold()
         app.command.console.add("held back")
         for _ in range(5):
             await desk.pilot.pause(0.02)
         assert [update for update in sent if update is not None] == []
-        app.desk.release()
+        app.main_screen.release()
         await desk.until(lambda: any(update is not None for update in sent))
-        assert any("held back" in strip.text for strip in app.desk._compositor.render_strips())
+        assert any("held back" in strip.text for strip in app.main_screen._compositor.render_strips())
 
 
 async def test_a_run_that_fails_before_its_first_frame_leaves_no_screen_held(program):
     async with desktop(program("TMAX = 1\nx = nowhere\ndrun\nDYNAMIC\nd/dt x = 1\ndispt x\n")) as desk:
         await desk.press("f5")
         await desk.idle()
-        await desk.until(lambda: not desk.app.desk.is_held)
+        await desk.until(lambda: not desk.app.main_screen.is_held)
         assert "nowhere" in desk.output
 
 
@@ -90,14 +90,14 @@ async def test_a_first_frame_does_not_wait_for_the_clock_but_the_next_does(progr
         app = desk.app
         await desk.press("f5")
         await desk.until(lambda: app.graph.canvas is not None and app.graph.canvas.patterns.any())
-        drawn = app.drawing._drawn_at
+        drawn = app.frame_pacing._drawn_at
         assert drawn > 0.0
-        app.drawing._drawn_at = float("inf")  # just drawn
+        app.frame_pacing._drawn_at = float("inf")  # just drawn
         app.graph._drawn = ()
-        app.drawing.at_once()
+        app.frame_pacing.at_once()
         assert app.graph._drawn == ()
-        app.drawing._drawn_at = drawn - 1.0
-        app.drawing.at_once()
+        app.frame_pacing._drawn_at = drawn - 1.0
+        app.frame_pacing.at_once()
         assert app.graph._drawn != ()
 
 
@@ -125,7 +125,7 @@ def test_the_garbage_collector_works_again_once_the_desktop_is_there():
 async def test_what_is_sent_at_once_leaves_nothing_else_out(program):
     """The answer to `input`, and what the program then wrote, were not seen in half of all cases."""
     async with desktop(program(OSCILLATOR)) as desk:
-        screen, console = desk.app.desk, desk.app.command.console
+        screen, console = desk.app.main_screen, desk.app.command.console
         screen._dirty_widgets.add(console)
         screen.send_only(*desk.app.graph.children)
         assert console in screen._dirty_widgets

@@ -184,14 +184,14 @@ async def test_without_the_library_a_capable_terminal_is_told_how_to_get_it(prog
         strip = blocks.render_line(0)
         assert strip.cell_length == 100
         await desk.press("escape")
-        await desk.until(lambda: desk.app.screen is desk.app.desk)
+        await desk.until(lambda: desk.app.screen is desk.app.main_screen)
 
 
 async def test_without_a_graph_there_is_nothing_to_show(program):
     async with desktop(program(RAMP)) as desk:
         await desk.do("graph.picture")
         await desk.pilot.pause()
-        assert desk.app.screen is desk.app.desk
+        assert desk.app.screen is desk.app.main_screen
 
 
 async def test_the_picture_follows_size_and_page_and_can_be_saved(program, monkeypatch, tmp_path):

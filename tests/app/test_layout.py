@@ -20,7 +20,7 @@ panes = st.sampled_from(PANES)
 def test_the_pane_with_the_keys_is_always_seen(width: int, height: int, keys, alone, side):
     if keys == "side" and side is not True:
         side = True  # a hidden pane never has the keys
-    now = arrange(width, height, keys=keys, alone=None if alone is None else keys, side=side)
+    now = arrange(width, height, focused=keys, maximized=None if alone is None else keys, side=side)
     assert now.too_small == (width < SMALLEST[0] or height < SMALLEST[1])
     assert now.too_small or keys in now.panes
     assert now.panes <= EVERYTHING
@@ -42,15 +42,15 @@ def test_the_pane_with_the_keys_is_always_seen(width: int, height: int, keys, al
     ],
 )
 def test_what_is_shown_by_default(size: tuple[int, int], shown: set[str], order: str):
-    now = arrange(*size, keys="command")
+    now = arrange(*size, focused="command")
     assert (now.panes, now.order) == (shown, order)
 
 
 def fills_the_screen(desk: Desktop) -> None:
     """Every cell belongs to exactly one pane, or to the status row."""
     width, height = desk.app.size
-    regions = [desk.app.desk.query_one(f"#{name}").region for name in desk.app.desk.shown]
-    regions.append(desk.app.desk.query_one("#status").region)
+    regions = [desk.app.main_screen.query_one(f"#{name}").region for name in desk.app.main_screen.shown]
+    regions.append(desk.app.main_screen.query_one("#status").region)
     assert sum(region.area for region in regions) == width * height
     for region in regions:
         assert 0 <= region.x < region.right <= width
@@ -66,22 +66,22 @@ async def test_every_size_is_used_whole_and_can_be_worked_in(program, size: tupl
         await desk.press("z", "z", "enter")
         await desk.idle()
         assert "x = " in desk.output
-        seen = set(desk.app.desk.shown)
+        seen = set(desk.app.main_screen.shown)
         for _ in range(4):
             await desk.press("f6")
             await desk.pilot.pause()
-            assert desk.app.desk.pane_of(desk.app.focused) in desk.app.desk.shown
+            assert desk.app.main_screen.pane_of(desk.app.focused) in desk.app.main_screen.shown
             assert desk.app.focused.region.area
-            seen |= desk.app.desk.shown
+            seen |= desk.app.main_screen.shown
             fills_the_screen(desk)
         assert {"editor", "command", "graph"} <= seen
         await desk.press("alt+q")
         await desk.pilot.pause()
-        assert "side" in desk.app.desk.shown
+        assert "side" in desk.app.main_screen.shown
         fills_the_screen(desk)
         await desk.press("f7")
         await desk.pilot.pause()
-        assert desk.app.desk.shown == {"graph"}
+        assert desk.app.main_screen.shown == {"graph"}
         desk.app.graph.tick()
         assert desk.app.graph.canvas.patterns.any()
         await desk.press("f7")
@@ -91,10 +91,10 @@ async def test_every_size_is_used_whole_and_can_be_worked_in(program, size: tupl
 
 async def test_a_terminal_of_no_use_says_so(program):
     async with desktop(program(OSCILLATOR), size=(15, 5)) as desk:
-        assert desk.app.desk.query_one("#too-small").display
+        assert desk.app.main_screen.query_one("#too-small").display
         await desk.pilot.resize_terminal(100, 30)
         await desk.pilot.pause()
-        assert not desk.app.desk.query_one("#too-small").display
+        assert not desk.app.main_screen.query_one("#too-small").display
         fills_the_screen(desk)
 
 
@@ -115,16 +115,16 @@ async def test_resizing_while_a_run_goes_on(program):
 
 async def test_the_side_pane_follows_the_size_until_the_user_decides(program):
     async with desktop(program(OSCILLATOR), size=(80, 24)) as desk:
-        assert desk.app.desk.side is None
+        assert desk.app.main_screen.side is None
         await desk.pilot.resize_terminal(120, 40)
-        assert desk.app.desk.side == "quantities"
+        assert desk.app.main_screen.side == "quantities"
         await desk.press("alt+h")
-        assert desk.app.desk.side is None
+        assert desk.app.main_screen.side is None
         await desk.pilot.resize_terminal(160, 50)
-        assert desk.app.desk.side is None
+        assert desk.app.main_screen.side is None
         await desk.press("alt+q")
         await desk.pilot.resize_terminal(80, 24)
-        assert desk.app.desk.side == "quantities"
+        assert desk.app.main_screen.side == "quantities"
 
 
 async def test_the_side_panes_key_moves_there_first_and_hides_it_then(program):
@@ -133,23 +133,23 @@ async def test_the_side_panes_key_moves_there_first_and_hides_it_then(program):
         await desk.press("alt+q")
         assert desk.app.focused is desk.app.quantities.table
         await desk.press("alt+q")
-        assert desk.app.desk.side is None
+        assert desk.app.main_screen.side is None
         assert desk.app.focused is desk.app.command.prompt
 
 
 async def test_the_tabs_of_the_side_pane(program):
     async with desktop(program(OSCILLATOR.replace("-x", "-xx")), size=(120, 40)) as desk:
-        tabs = desk.app.desk.query_one(SideTabs)
+        tabs = desk.app.main_screen.query_one(SideTabs)
         await desk.until(lambda: tabs.problems == 1)
         text = tabs.render_line(0).text
         assert text.startswith("─ Quantities │ Problems 1 │ Help ──")
         for name in ("Problems", "Help", "Quantities"):
             await desk.pilot.click(SideTabs, offset=(text.index(name) + 1, 0))
             await desk.pilot.pause()
-            assert desk.app.desk.side == name.lower()
-            assert desk.app.desk.query_one(SidePane) in desk.app.focused.ancestors
+            assert desk.app.main_screen.side == name.lower()
+            assert desk.app.main_screen.query_one(SidePane) in desk.app.focused.ancestors
         await desk.pilot.click(SideTabs, offset=(len(text) - 1, 0))
-        assert desk.app.desk.side == "quantities"
+        assert desk.app.main_screen.side == "quantities"
 
 
 async def test_maximizing_any_pane_and_moving_on(program):
@@ -157,18 +157,18 @@ async def test_maximizing_any_pane_and_moving_on(program):
         await desk.press("f5")
         await desk.idle()
         await desk.press("alt+e", "f4")
-        assert desk.app.desk.shown == {"editor"}
+        assert desk.app.main_screen.shown == {"editor"}
         await desk.press("f6")
-        assert desk.app.desk.shown == {"command"}
+        assert desk.app.main_screen.shown == {"command"}
         await desk.press("f4")
-        assert desk.app.desk.shown == {"editor", "command", "graph"}
+        assert desk.app.main_screen.shown == {"editor", "command", "graph"}
 
 
 async def test_on_a_small_screen_a_run_begun_in_the_editor_is_seen(program):
     async with desktop(program(OSCILLATOR), size=(40, 12)) as desk:
         await desk.press("alt+e")
-        assert desk.app.desk.shown == {"editor"}
+        assert desk.app.main_screen.shown == {"editor"}
         await desk.press("f5")
         await desk.idle()
-        assert desk.app.desk.shown == {"command", "graph"}
+        assert desk.app.main_screen.shown == {"command", "graph"}
         assert desk.app.focused is desk.app.command.prompt

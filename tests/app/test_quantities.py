@@ -47,7 +47,7 @@ async def test_live_mode_reruns_with_the_sliders_value(program):
         assert slider.value == 1.0
         slider.focus()
         await desk.press("right", "right")
-        await desk.until(lambda: desk.app.live.runs_made and not desk.app.engine.is_busy)
+        await desk.until(lambda: desk.app.live_mode.runs_made and not desk.app.engine.is_busy)
         assert slider.value == pytest.approx(1.04)
         cells, find = desk.app.session.values.cells, desk.app.session.values.find
         assert cells[find("w").slot] == pytest.approx(1.04)
@@ -66,7 +66,7 @@ async def test_live_runs_overlay_when_asked(program):
         await desk.line("live w")
         desk.app.quantities.query_one(Slider).focus()
         await desk.press("right")
-        await desk.until(lambda: desk.app.live.runs_made == 1 and not desk.app.engine.is_busy)
+        await desk.until(lambda: desk.app.live_mode.runs_made == 1 and not desk.app.engine.is_busy)
         desk.app.graph.tick()
         assert len(desk.app.graph._painter.graph.curves) == 4
 
@@ -84,10 +84,10 @@ async def test_live_mode_only_keeps_the_newest_value(program):
         await desk.press("f5")
         await desk.idle()
         for step in range(1, 21):
-            desk.app.live.ask({"w": 1 + step / 100}, overlay=False)
-        await desk.until(lambda: desk.app.live.runs_made and not desk.app.engine.is_busy)
+            desk.app.live_mode.ask({"w": 1 + step / 100}, overlay=False)
+        await desk.until(lambda: desk.app.live_mode.runs_made and not desk.app.engine.is_busy)
         await desk.pilot.pause()
         await desk.idle()
-        assert desk.app.live.runs_made < 20
+        assert desk.app.live_mode.runs_made < 20
         cells, find = desk.app.session.values.cells, desk.app.session.values.find
         assert cells[find("w").slot] == pytest.approx(1.2)

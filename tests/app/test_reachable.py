@@ -81,7 +81,7 @@ async def test_every_action_is_carried_out_by_its_key(program, monkeypatch, part
         for command in COMMANDS:
             if command.id.partition(".")[0] != part or not command.keys or command.id in LEAVES:
                 continue
-            desk.app.bring(desk.app.editor.front)
+            desk.app.move_focus(desk.app.editor.front)
             await desk.pilot.pause()
             done.clear()
             await by_key(desk, command)
@@ -99,7 +99,7 @@ async def test_every_action_is_carried_out_from_the_palette(program, monkeypatch
         for command in COMMANDS:
             if command.id.partition(".")[0] != part or command.id in LEAVES | {"view.palette"}:
                 continue
-            desk.app.bring(desk.app.command.prompt)
+            desk.app.move_focus(desk.app.command.prompt)
             await desk.pilot.pause()
             done.clear()
             await by_palette(desk, command)

@@ -46,7 +46,7 @@ async def test_curves_grow_while_the_run_goes_on_and_it_can_be_paused_resumed_an
         await desk.pilot.pause(0.1)
         assert app.session.runs[0].count == count
         app.show_status()
-        assert "Paused" in app.desk.query_one("#status").hint
+        assert "Paused" in app.main_screen.query_one("#status").hint
 
         await desk.line("x")  # names show values during a run
         assert f"{app.session.values.cells[app.session.values.find('x').slot]:g}" in desk.output

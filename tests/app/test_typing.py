@@ -38,7 +38,7 @@ def rush(desk: Desktop, text: str) -> None:
 
 
 def popup_of(desk: Desktop) -> CompletionPopup:
-    return desk.app.completer._popup
+    return desk.app.completer.popup
 
 
 async def seen(desk: Desktop) -> None:

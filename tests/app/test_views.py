@@ -1,4 +1,4 @@
-"""Lines, their marks, several views of them, and the row of tabs."""
+"""ProgramLines, their marks, several views of them, and the row of tabs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from textual.widgets import TextArea
 
 from desire_tui.editor.brackets import partner
 from desire_tui.editor.line_marks import Marks
-from desire_tui.editor.program_lines import Lines, follow
+from desire_tui.editor.program_lines import ProgramLines, follow
 from desire_tui.editor.tab_strip import TabStrip
 
 from .conftest import OSCILLATOR, desktop
@@ -27,7 +27,7 @@ EDITS = st.lists(
 """Row, column, rows more, column, new text."""
 
 
-def edited(lines: Lines, edits: list[tuple[int, int, int, int, str]]) -> None:
+def edited(lines: ProgramLines, edits: list[tuple[int, int, int, int, str]]) -> None:
     for first, left, more, right, text in edits:
         row = min(first, lines.line_count - 1)
         last = min(row + more, lines.line_count - 1)
@@ -39,7 +39,7 @@ def edited(lines: Lines, edits: list[tuple[int, int, int, int, str]]) -> None:
 def test_a_mark_stays_with_its_line(edits):
     """Each line has a text of its own, so that its place after the edits can be looked up."""
     names = [f"<{row}>" for row in range(12)]
-    lines, marks = Lines("\n".join(names)), Marks(breakpoints=set(range(12)))
+    lines, marks = ProgramLines("\n".join(names)), Marks(breakpoints=set(range(12)))
     lines.followers.append(marks.replaced)
     edited(lines, edits)
     whole = {row for row, name in enumerate(names) if any(line == name for line in lines.lines)}
@@ -54,7 +54,7 @@ def test_a_mark_stays_with_its_line(edits):
 
 
 def test_deleted_lines_take_their_marks_along_and_rewritten_ones_keep_them():
-    lines, marks = Lines("a\nb\nc\nd"), Marks(breakpoints={1, 2})
+    lines, marks = ProgramLines("a\nb\nc\nd"), Marks(breakpoints={1, 2})
     lines.followers.append(marks.replaced)
     lines.replace_range((0, 0), (3, 1), "  a\n  b\n  c\n  d")  # indented
     assert marks.breakpoints == {1, 2}
@@ -71,7 +71,7 @@ def test_a_place_stays_before_the_same_text(edits, row, column):
     """A letter that occurs once marks the place."""
     texts = [f"<{row}>" for row in range(12)]
     texts[row] = texts[row][:column] + "!" + texts[row][column:]
-    lines, place = Lines("\n".join(texts)), (row, min(column, len(texts[row]) - 1))
+    lines, place = ProgramLines("\n".join(texts)), (row, min(column, len(texts[row]) - 1))
 
     def moved(top, bottom, end):
         nonlocal place
@@ -90,7 +90,7 @@ def test_a_place_stays_before_the_same_text(edits, row, column):
 
 def test_only_line_feeds_end_lines():
     text = "a\x0cb\x1cc\u2028d\ne\r\nf\rg"
-    lines = Lines(text)
+    lines = ProgramLines(text)
     assert lines.lines == ["a\x0cb\x1cc\u2028d", "e", "f", "g"]
     lines.replace_range((0, 1), (0, 1), "\x0b\r\n\x85")
     assert lines.text == "a\x0b\n\x85\x0cb\x1cc\u2028d\ne\nf\ng"
