@@ -8,11 +8,12 @@ from textual import on
 from textual.binding import Binding
 from textual.containers import Horizontal, Vertical
 from textual.message import Message
-from textual.widgets import Label, TextArea
+from textual.widgets import TextArea
 
 from desire_tui.editor.buffer import Buffer, free_label
 from desire_tui.editor.code_area import CodeArea
 from desire_tui.editor.find_bar import FindBar
+from desire_tui.editor.status_row import StatusRow
 from desire_tui.editor.tab_strip import NEW, TabLabel, TabStrip
 
 if TYPE_CHECKING:
@@ -35,13 +36,6 @@ class EditorPane(Vertical):
     DEFAULT_CSS = """
     EditorPane #areas { height: 1fr; }
     EditorPane #areas.-split CodeArea { border-right: solid $panel; }
-    EditorPane #under { height: 1; background: $panel; }
-    EditorPane #problem { width: 1fr; height: 1; color: $text-muted; text-overflow: ellipsis;
-            text-wrap: nowrap; }
-    EditorPane #problem.-error { color: $text-error; }
-    EditorPane #place { width: auto; padding: 0 1; color: $text-muted; }
-    EditorPane #ok { width: auto; background: $primary; color: $background; text-style: bold; }
-    EditorPane #ok:hover { background: $accent; }
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "close_find", "Close find bar", show=False)]
@@ -64,6 +58,7 @@ class EditorPane(Vertical):
     def __init__(self, completion: CompletionHook) -> None:
         super().__init__(id="editor")
         self._completion = completion
+        self._status_row = StatusRow()
         self.areas: list[CodeArea] = []
         """One for each tab."""
         self._front: CodeArea | None = None
@@ -80,10 +75,7 @@ class EditorPane(Vertical):
         yield TabStrip()
         yield Horizontal(id="areas")
         yield FindBar()
-        with Horizontal(id="under"):
-            yield Label("", id="problem", markup=False)
-            yield Label("", id="place")
-            yield Label(" OK ", id="ok")
+        yield self._status_row
 
     # ------------------------------------------------------------------------------------------------- tabs
 
@@ -146,7 +138,7 @@ class EditorPane(Vertical):
         if focus:
             self.screen.set_focus(area)  # at once: letters typed next belong there
         self.refresh_tabs()
-        self._show_position()
+        self._status_row.show(self.front)
 
     @property
     def _views(self) -> list[CodeArea]:
@@ -282,7 +274,7 @@ class EditorPane(Vertical):
         area.marks.set_problems(diagnostics)
         if area.marks.problems != before:
             area.marks_changed()
-            self._show_position()
+            self._status_row.show(self.front)
 
     @on(TextArea.Changed)
     def _changed(self, event: TextArea.Changed) -> None:
@@ -308,36 +300,12 @@ class EditorPane(Vertical):
         area = event.text_area
         assert isinstance(area, CodeArea)
         area.completion.text_changed(area)
-        self._show_position()
+        self._status_row.show(self.front)
 
-    def _show_position(self) -> None:
-        row, column = self.front.cursor_location
-        problems = self.front.marks.problems
-        marks = problems.get(row, [])
-        mark = next((m for m in marks if m.start <= column <= m.end), marks[0] if marks else None)
-        if mark is not None:
-            sentence = f" {mark.text}"
-        elif count := sum(map(len, problems.values())):
-            sentence = f" {count} problem{'s' if count > 1 else ''} · F8"
-        else:
-            sentence = ""
-        self._set_label("#place", f"{row + 1}:{column + 1}")
-        label = self._set_label("#problem", sentence)
-        label.set_class(mark is not None and mark.style == "error", "-error")
-        label.tooltip = mark.text if mark else None
-
-    def _set_label(self, place: str, text: str) -> Label:
-        """Show a text in the row below; a key that changes nothing there draws nothing, lays out nothing."""
-        label = self.query_one(place, Label)
-        if (before := str(label.content)) != text:
-            label.update(text, layout=place == "#place" and len(before) != len(text))
-        return label
-
-    def on_click(self, event: object) -> None:
-        """Press the OK button, or bring the text that was clicked to the front."""
-        widget = getattr(event, "widget", None)
-        if widget is not None and widget.id == "ok":
-            self.post_message(self.ActionRequested("run.accept"))
+    @on(StatusRow.Accepted)
+    def _accepted(self, event: StatusRow.Accepted) -> None:
+        event.stop()
+        self.post_message(self.ActionRequested("run.accept"))
 
     @on(CodeArea.GutterClicked)
     def _gutter_clicked(self, event: CodeArea.GutterClicked) -> None:

@@ -1,0 +1,67 @@
+"""The row below the editor: what is wrong at the cursor, where the cursor is, and the OK button."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from textual.containers import Horizontal
+from textual.message import Message
+from textual.widgets import Label
+
+if TYPE_CHECKING:
+    from textual import events
+    from textual.app import ComposeResult
+
+    from desire_tui.editor.code_area import CodeArea
+
+
+class StatusRow(Horizontal):
+    """One row about the text in front."""
+
+    DEFAULT_CSS = """
+    StatusRow { height: 1; background: $panel; }
+    StatusRow #problem { width: 1fr; height: 1; color: $text-muted; text-overflow: ellipsis;
+            text-wrap: nowrap; }
+    StatusRow #problem.-error { color: $text-error; }
+    StatusRow #place { width: auto; padding: 0 1; color: $text-muted; }
+    StatusRow #ok { width: auto; background: $primary; color: $background; text-style: bold; }
+    StatusRow #ok:hover { background: $accent; }
+    """
+
+    class Accepted(Message):
+        """The OK button was pressed."""
+
+    def compose(self) -> ComposeResult:
+        """Problem, place, button."""
+        yield Label("", id="problem", markup=False)
+        yield Label("", id="place")
+        yield Label(" OK ", id="ok")
+
+    def show(self, area: CodeArea) -> None:
+        """Show the cursor's place in a text, and the problem there or how many there are."""
+        row, column = area.cursor_location
+        problems = area.marks.problems
+        marks = problems.get(row, [])
+        mark = next((m for m in marks if m.start <= column <= m.end), marks[0] if marks else None)
+        if mark is not None:
+            sentence = f" {mark.text}"
+        elif count := sum(map(len, problems.values())):
+            sentence = f" {count} problem{'s' if count > 1 else ''} · F8"
+        else:
+            sentence = ""
+        self._set_label("#place", f"{row + 1}:{column + 1}")
+        label = self._set_label("#problem", sentence)
+        label.set_class(mark is not None and mark.style == "error", "-error")
+        label.tooltip = mark.text if mark else None
+
+    def _set_label(self, place: str, text: str) -> Label:
+        """Show a text in the row below; a key that changes nothing there draws nothing, lays out nothing."""
+        label = self.query_one(place, Label)
+        if (before := str(label.content)) != text:
+            label.update(text, layout=place == "#place" and len(before) != len(text))
+        return label
+
+    def on_click(self, event: events.Click) -> None:
+        """Press the OK button."""
+        if event.widget is not None and event.widget.id == "ok":
+            self.post_message(self.Accepted())
