@@ -7,8 +7,11 @@ import pytest
 from desire_tui.engine.lowered.segment import StateRange
 from desire_tui.engine.lowered.statements import Set, SetVec
 from desire_tui.engine.lowered.walk import walk_actions
+from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.lowering.states import StateTable
-from tests.lowering.programs import segment
+from desire_tui.engine.syntax.parse import parse
+from desire_tui.engine.values import Quantity, Values
+from tests.lowering.programs import segment, source
 
 
 def persistent(body, **arrays):
@@ -69,3 +72,17 @@ def test_subscripts_are_truncated():
     lowered, values = segment("y = a[2.7]\nz = W[1.9, k]", a=(3,), W=(2, 3), k=2.999)
     a, w = values.find("a").slot, values.find("W").slot
     assert [action.value.slot for action in lowered.body] == [a + 1, w + 1]
+
+
+def test_a_view_is_set_where_all_of_its_parts_are():
+    """p and q are the two halves of z: with p set alone, reading z reads the q of the pass before."""
+    text = "{}\nDOT s = z*1"
+    found = []
+    for body in ("Vector p = 1", "Vector p = 1\nVector q = 2"):
+        values = Values()
+        first = values.array("p", (8,)).slot  # as many numbers as a cache line: q follows at once
+        assert values.array("q", (8,)).slot == first + 8
+        values.names["z"] = Quantity("z", first, (16,))
+        lowered = lower(parse(source("DYNAMIC\n" + text.format(body))), None, values)
+        found.append([action.persistent for action in lowered.body if isinstance(action, SetVec)])
+    assert found == [[True], [False, False]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.mutants.anchors import Mutant, program
+from tests.mutants.anchors import PROGRAMS, Mutant, program
 
 
 def _fault(old: str, new: str, *first: str) -> Mutant:
@@ -71,7 +71,7 @@ LOWERING = (
     _fault(
         "return quantity.is_state or quantity.slot < SYSTEM_SLOTS or self.values",
         "return self.values",
-        *program("dynamic/jump_out", "dynamic/foreign_state"),
+        f"{PROGRAMS}[examples/appendix/avoiding_division.src]",
     ),
     _fault(
         "rename[dummy] = frame.rename.get(argument.name, argument.name)",
@@ -83,23 +83,17 @@ LOWERING = (
         "slot = slot * size + round(value) - 1",
         "tests/lowering/test_lowering.py",
     ),
-    _fault(
-        "self.flow.read_slot(quantity.slot) return Load", "return Load", "tests/lowering/test_lowering.py"
-    ),
+    _fault("self.flow.read_slot(quantity.slot) return Load", "return Load", "tests/passes/test_slices.py"),
     # guards
     _fault(
         "branches.get(serial, branch) == branch",
         "branches.get(serial) == branch",
-        *program(
-            "dynamic/derivative_in_branches", "errors/state_twice_in_two_ifs", "errors/state_twice_behind_if"
-        ),
+        *program("errors/state_twice_in_two_ifs", "errors/state_twice_in_branch"),
     ),
     _fault(
         "branches.get(serial, branch) == branch",
         "serial not in branches",
-        *program(
-            "dynamic/derivative_in_branches", "errors/state_twice_in_two_ifs", "errors/state_twice_behind_if"
-        ),
+        *program("errors/state_twice_in_two_ifs", "errors/state_twice_in_branch"),
     ),
     _fault(
         "self._close() self._reopen(inner) return True",
@@ -109,7 +103,7 @@ LOWERING = (
     _fault(
         "Set(held[0], value, where, persistent=True)",
         "Set(held[0], value, where)",
-        *program("dynamic/derivative_in_branches"),
+        "tests/lowering/test_lowering.py",
     ),
     _fault(
         "int(every * (1 + 1e-9))",
