@@ -51,6 +51,7 @@ class RunHistory:
     start: Start | None = None
     _ranges: list[tuple[int, int]] = field(default_factory=list)
     _names: int = -1
+    _begun: dict[str | None, Segment] = field(default_factory=dict)
 
     def copy(self) -> RunHistory:
         """Return a copy that later runs leave alone."""
@@ -64,6 +65,9 @@ class RunHistory:
         known = self.positions.get(key)
         if known is None or len(known.counters) < segment.counters:
             known = self.positions[key] = Positions(np.zeros(max(segment.counters, 1), dtype=np.int64))
+        if self._begun.get(key) is not segment:  # its states may be arrays that were none before
+            self._begun = {**self._begun, key: segment}
+            self._names = -1
         states = [(slot, values.data[slot : slot + count].copy()) for slot, count in self._state_ranges()]
         cells = values.cells
         self.start = Start(cells[T], cells[DT], values.defined[DT], states, key, known.copy())
