@@ -20,27 +20,27 @@ def _solver(old: str, new: str, *first: str) -> Mutant:
 RUNS = (
     # the reference back end
     _reference("if (last or memory.point % memory.every == 0)", "if (memory.point % memory.every == 0)", *program("dynamic/last_of_thinned")),
-    _reference("if not fresh and (at < 0 or lag == count):", "if not fresh and at < 0:", *program("dynamic/tdelay_continued", "dynamic/delay_continued")),
+    _reference("if not fresh and (at < 0 or lag == count):", "if not fresh and at < 0:", *program("dynamic/delay_of_a_whole_buffer")),
     _reference("np.where(mask != 0.0, new, target)", "np.where(mask != 0.0, new, 0.0)", *program("vectors/masked_matrix_keeps")),
     _reference("len(target) - 1 - int(np.argmax(new[::-1]))", "int(np.argmax(new))", "tests/reference/test_arrays.py"),
-    _reference("lands = cut = False", "lands = False", "tests/reference/test_rules.py"),
+    _reference("lands = cut = False", "lands = False", *program("dynamic/cut_and_rejected_step")),
     _reference("cells[DT] if memory.steps == 0 else min(memory.dt_least, cells[DT])",
                "min(memory.dt_least, cells[DT])", "tests/integration/test_solver_counts.py"),
     _reference("total += sign * float(", "total += float(", "tests/reference/test_arrays.py"),
     # defaults of a run
-    _runtime("t_max / dt * (1 + ROUNDING) + 1.0", "t_max / dt + 1.0", *program("dynamic/nn_from_dt"), "tests/runtime/test_plan_defaults.py"),
+    _runtime("t_max / dt * (1 + ROUNDING) + 1.0", "t_max / dt + 1.0", *program("dynamic/delay_time_under_if")),
     _runtime("least / 16", "least / 8", "tests/runtime/test_plan_defaults.py"),
-    _runtime("self._supplied.pop(slot, None)", "pass", "tests/runtime/test_plan_defaults.py"),
+    _runtime("self._supplied.pop(slot, None)", "pass", *program("dynamic/default_made_ones_own")),
     _runtime("if dt is not None and dt == self._steps.left:", "if False:", *program("dynamic/dt_left_by_rule", "dynamic/dt_between_runs")),
     # delays
     _runtime("yield from _lines(action.body, before.copy())", "yield from _lines(action.body, before)", *program("dynamic/delay_time_under_if")),
-    _runtime("if lag > line.count:", "if lag >= line.count:", "tests/reference/test_timing.py"),
-    _runtime("plan.comint) + ROUNDING)", "plan.comint))", *program("dynamic/tdelay", "dynamic/delay_time_in_segment")),
+    _runtime("if lag > line.count:", "if lag >= line.count:", *program("dynamic/delay_of_a_whole_buffer")),
+    _runtime("plan.comint) + ROUNDING)", "plan.comint))", *program("dynamic/delay_time_under_if")),
     # runs and what connects them
     _runtime("record.pictures[::2]", "record.pictures[1::2]", "tests/runtime/test_pictures.py"),
     _runtime("positions.points -= 1", "pass", *program("dynamic/last_of_thinned")),
-    _runtime("values.cells[T] if sampled and plan.rule != DUMMY", "values.cells[T] if plan.rule != DUMMY", "tests/runtime/test_run_semantics.py"),
-    _runtime("(first, max(length, slot + count - first))", "(first, slot + count - first)", "tests/runtime/test_run_semantics.py"),
+    _runtime("values.cells[T] if sampled and plan.rule != DUMMY", "values.cells[T] if plan.rule != DUMMY", "tests/runtime/test_after_a_failed_run.py"),
+    _runtime("(first, max(length, slot + count - first))", "(first, slot + count - first)", *program("dynamic/reset_of_overlaid_states")),
     _runtime("self.positions[start.segment] = start.positions.copy()", "pass", "tests/reference/test_timing.py"),
     # rules and solvers
     _solver("test=_row(6, 1, -4, 2, 1)", "test=_row(6, 1, -3, 1, 1)", "tests/integration/test_tableaus.py"),
