@@ -25,6 +25,7 @@ def codes(text):
         ("TMAX = 1 | a = 1 | drun | drun\nDYNAMIC\nd/dt x = a\n", []),
         # a submodel's dummies are no names of the program
         ("TMAX = 1\nSUBMODEL s(p$)\np$ = 1\nend\ndrun\nDYNAMIC\ns(a)\nd/dt x = p$ + a\n", [200]),
+        ("SUBMODEL s(p$)\np$ = 1\nend\nTMAX = 1 | drun\ny = p$\nDYNAMIC\ns(a)\nd/dt x = a\n", [200]),
         # a size that is assigned twice may be either
         ("n = 2 | n = 3 | ARRAY v[n], w[3]\nTMAX = 1 | drun\nDYNAMIC\nVector w = v\nd/dt x = 1\n", []),
         ("n = 2 | ARRAY v[n], w[3]\nTMAX = 1 | drun\nDYNAMIC\nVector w = v\nd/dt x = 1\n", [74]),

@@ -10,6 +10,7 @@ import pytest
 from desire_tui.engine.codegen.stiff import stiff_model
 from desire_tui.engine.reference import stiff
 from tests.integration.stiff_programs import run
+from tests.integration.test_bdf import Problem, cvodes, ours
 
 VAN_DER_POL = """
 TMAX = 2 | NN = 21 | DT = 1e-4 | ERMAX = 1e-5 | irule {rule}
@@ -31,6 +32,15 @@ dispt x, y
 OUT
 y = y + swtch(t - 0.55)*swtch(0.65 - t)
 """
+SMALL_STEPS = """
+TMAX = 1 | NN = 3 | DT = 1e-3 | DTMAX = 1e-3 | ERMAX = 1e-3 | irule {rule}
+x = 2 | y = 0
+drun
+DYNAMIC
+d/dt x = -x*x + y
+d/dt y = x - y*y
+dispt x, y
+"""
 COUNTED = ("steps", "rejected", "derivative_calls", "jacobian_calls", "order")
 
 
@@ -47,3 +57,24 @@ def test_counts_are_cvodes(rule, text, backend, monkeypatch):
     assert mine.dt_least == pytest.approx(its.dt_least, rel=1e-6)
     assert mine.dt_most == pytest.approx(its.dt_most, rel=1e-3)
     assert 0 < mine.dt_least < mine.dt_most
+
+
+@pytest.mark.parametrize("backend", ["native", "reference"])
+def test_how_long_a_jacobian_serves(backend):
+    """With 1,000 equal steps the factors are renewed after 20 of them, and J when it is older than 50: every 60."""
+    made = run(SMALL_STEPS.format(rule=14), backend)[0].runs[-1]
+    assert 1000 <= made.steps <= 1010
+    assert 1000 // 60 <= made.jacobian_calls <= 1000 // 60 + 3
+    # with 21 or 19 steps between factors J would serve 63 or 57 steps
+    assert made.jacobian_calls == 1 + (made.steps - 1) // 60
+
+
+def test_several_failed_tests_in_one_step():
+    """A first step a thousand times too long: from its second failure on it is cut to a fifth at most, as by CVODE."""
+    problem = Problem(
+        lambda _, y: [-1e4 * y[0] ** 3], lambda _, y: [[-3e4 * y[0] ** 2]], (1,), (1,), 0.1, 0.1
+    )
+    flag, _, solver = ours(problem, [0.1])
+    its_flag, _, its_solver, _ = cvodes(problem, [0.1])
+    assert flag == its_flag
+    assert solver.counts() == its_solver.counts()

@@ -20,11 +20,11 @@ def _structure(old: str, new: str) -> Mutant:
 
 
 SCRIPTS = (
-    _interpreter("floor((b - a) / s + ROUNDING) + 1", "floor((b - a) / s) + 1", "tests/interpreter/test_script_programs.py"),
-    _interpreter("value = loop[2] + k * loop[3]", "value = cells[int(loop[4])] + loop[3]", "tests/interpreter/test_script_programs.py"),
+    _interpreter("floor((b - a) / s + ROUNDING) + 1", "floor((b - a) / s) + 1", "tests/interpreter/test_edges.py"),
+    _interpreter("value = loop[2] + k * loop[3]", "value = cells[int(loop[4])] + loop[3]", "tests/interpreter/test_edges.py"),
     _interpreter("if not 1 <= node.value <= size:", "if not 1 <= node.value < size + 1:", "tests/interpreter/test_script_errors.py"),
-    _interpreter("if whole >= -0x8000", "if whole > -0x8000", "tests/interpreter/test_writing.py"),
-    _interpreter("if piece + _PIECE < first + row else", "if piece + _PIECE <= first + row else", "tests/interpreter/test_writing.py"),
+    _interpreter("if whole >= -0x8000", "if whole > -0x8000", "tests/interpreter/test_edges.py"),
+    _interpreter("if piece + _PIECE < first + row else", "if piece + _PIECE <= first + row else", "tests/interpreter/test_edges.py"),
     _interpreter("if separator and not (raw and ends_line(last)):", "if separator:", "tests/interpreter/test_writing.py"),
     _check("if label != text.label:", "if True:"),
     _check("names.difference(submodel.dummies)", "names"),
@@ -35,7 +35,7 @@ SCRIPTS = (
            "subscripted.update(procedure.node.references)"),
     _check("if not stopped:", "if True:"),
     _structure("block not in _around(survey, place)", "block != survey.found.inside[place]"),
-    _structure("(Procedure, Submodel))", "Procedure)"),
+    _structure("found.partner.get(opener) if is_loop else None", "found.partner.get(opener)"),
     _structure("for definition in _around(survey, place) - _around(survey, to):",
                "for definition in _around(survey, place):"),
     _structure("partner[place] = last", "partner[place] = place"),
