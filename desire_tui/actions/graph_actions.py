@@ -13,9 +13,9 @@ from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.outputs.formats import CSV, PICTURES, PNG, endings
 
 if TYPE_CHECKING:
-    from desire_tui.engine.session.quantity_plots import Charted
+    from desire_tui.engine.session.quantity_plots import PlotOutcome
 
-NOT_CHARTED: dict[Charted, str] = {
+NOT_CHARTED: dict[PlotOutcome, str] = {
     "unknown": "'{name}' has no value: nothing to plot.",
     "no run": "No run has recorded '{name}' yet: press F5.",
     "constant": "'{name}' is not changed by the run: its value is among the quantities (Alt+Q).",
@@ -168,7 +168,7 @@ class GraphActions(Controller):
             app.notify(f"'{name}' is plotted when the run is over.", markup=False, timeout=2)
 
         def plot() -> None:
-            became = app.session.chart(name)
+            became = app.session.plot_quantity(name)
             if became == "shown":
                 app.on_screen(app.show_run)
             else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine.session.overrides import parts
+from desire_tui.engine.session.overrides import name_and_subscripts
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -41,7 +41,7 @@ def from_mapping(values: Mapping[str, Any]) -> dict[str, float]:
         if numbers.ndim == 0:
             settings.update(_elements(name, [[float(numbers)]]))
             continue
-        own, subscripts = parts(name)
+        own, subscripts = name_and_subscripts(name)
         if subscripts:
             raise ValueError(f"{name} is one element, but {value!r} are several")
         for place, number in np.ndenumerate(numbers):
@@ -50,7 +50,7 @@ def from_mapping(values: Mapping[str, Any]) -> dict[str, float]:
 
 
 def _elements(name: str, rows: list[list[float]]) -> dict[str, float]:
-    own, subscripts = parts(name)
+    own, subscripts = name_and_subscripts(name)
     first = f"{own}[{','.join(map(str, subscripts))}]" if subscripts else own
     if len(rows) == 1 and len(rows[0]) == 1:
         return {first: rows[0][0]}

@@ -11,11 +11,11 @@ async def test_a_notebook_is_written_and_its_loss_is_told(program, tmp_path):
         await desk.idle()
         await desk.press("f5")
         await desk.idle()
-        book = tmp_path / "n.md"
-        assert "Run 1: rule 3" in book.read_text()
+        notebook = tmp_path / "n.md"
+        assert "Run 1: rule 3" in notebook.read_text()
         assert (tmp_path / "n-1.png").exists()
-        book.unlink()
-        book.mkdir()  # nobody can write to that
+        notebook.unlink()
+        notebook.mkdir()  # nobody can write to that
         await desk.line("write 2*21")
         await desk.idle()
         await desk.until(lambda: "42" in desk.output)

@@ -1,4 +1,4 @@
-"""A small world for scripts: what they write, ask and do is kept in lists."""
+"""A host for scripts that keeps what they write, ask and do in lists."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from desire_tui.engine.syntax.parse import parse, parse_command
 from desire_tui.engine.values import Kind, Values
 
 
-class World:
+class RecordingHost:
     """Implements `interpreter.Host`."""
 
     def __init__(self, folder: Path | None = None) -> None:
@@ -90,11 +90,11 @@ class World:
         self.interpreter = Interpreter(program, structure(program), self.values, self)
         return self.interpreter
 
-    def run(self, text: str) -> World:
+    def run(self, text: str) -> RecordingHost:
         self.load(text).run()
         return self
 
-    def execute(self, line: str) -> World:
+    def execute(self, line: str) -> RecordingHost:
         source = Source(line, "<command>")
         statements, problems = parse_command(source)
         if problems:
@@ -115,10 +115,10 @@ class World:
         return cells[quantity.slot]
 
 
-def run(text: str, *answers: str, folder: Path | None = None) -> World:
-    world = World(folder)
-    world.answers = list(answers)
-    return world.run(text)
+def run(text: str, *answers: str, folder: Path | None = None) -> RecordingHost:
+    host = RecordingHost(folder)
+    host.answers = list(answers)
+    return host.run(text)
 
 
 def error_of(text: str, *answers: str, folder: Path | None = None) -> tuple[int, str]:
@@ -134,4 +134,4 @@ def error_of(text: str, *answers: str, folder: Path | None = None) -> tuple[int,
     raise AssertionError("no error")
 
 
-__all__ = ["Interrupted", "World", "error_of", "run"]
+__all__ = ["Interrupted", "RecordingHost", "error_of", "run"]

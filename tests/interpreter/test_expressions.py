@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.library import LIBRARY, integer_power, power
-from tests.interpreter.stand_in import World
+from tests.interpreter.stand_in import RecordingHost
 
 NAMES = {"x": 0.75, "y": -2.5, "z": 3.0, "big": 1e150}
 FUNCTIONS = [
@@ -78,8 +78,8 @@ def apply(op, a, b):
     )
 
 
-WORLD = World()
-WORLD.run("\n".join(f"{name} = {value!r}" for name, value in NAMES.items()))
+HOST = RecordingHost()
+HOST.run("\n".join(f"{name} = {value!r}" for name, value in NAMES.items()))
 
 
 @settings(max_examples=300, deadline=None)
@@ -88,7 +88,7 @@ def test_interpreter_equals_python(pair):
     text, expected = pair
     if expected is None or not math.isfinite(expected):
         with pytest.raises(DesireError):
-            WORLD.execute(f"result = {text}")
+            HOST.execute(f"result = {text}")
         return
-    WORLD.execute(f"result = {text}")
-    assert WORLD["result"] == expected, text
+    HOST.execute(f"result = {text}")
+    assert HOST["result"] == expected, text

@@ -12,7 +12,7 @@ import pytest
 from desire_tui.engine.interpreter import array_expressions, interruptible
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.interpreter.interruptible import LONG_WORK, run_interruptibly
-from tests.interpreter.stand_in import World, run
+from tests.interpreter.stand_in import RecordingHost, run
 
 
 class Enough(Exception):
@@ -81,11 +81,11 @@ def test_one_long_operation_can_be_broken_off(script, monkeypatch) -> None:
         monkeypatch.setattr(
             array_expressions, "run_interruptibly", lambda work, _, check: real(work, never.wait, check)
         )
-    world = World()
-    world.looks_allowed = 3
+    host = RecordingHost()
+    host.looks_allowed = 3
     try:
         with pytest.raises(Interrupted):
-            world.run(script)
+            host.run(script)
     finally:
         never.set()
 
@@ -101,10 +101,10 @@ def test_one_long_operation_can_be_broken_off(script, monkeypatch) -> None:
     ],
 )
 def test_functions_of_many_elements_look_around(statement) -> None:
-    world = World()
-    world.looks_allowed = 2
+    host = RecordingHost()
+    host.looks_allowed = 2
     with pytest.raises(Interrupted):
-        world.run(f"FUNCTION f(a) = a + 1\nARRAY v[100000], A[1000,100]\n{statement}")
+        host.run(f"FUNCTION f(a) = a + 1\nARRAY v[100000], A[1000,100]\n{statement}")
 
 
 def test_large_results_are_those_of_small_pieces() -> None:
@@ -150,8 +150,8 @@ def test_functions_that_call_others_twice_can_be_broken_off() -> None:
     text = "FUNCTION f0(x) = x\n" + "".join(
         f"FUNCTION f{i}(x) = f{i - 1}(x) + f{i - 1}(x)\n" for i in range(1, 61)
     )
-    world = World()
-    world.looks_allowed = 100
+    host = RecordingHost()
+    host.looks_allowed = 100
     with pytest.raises(Interrupted):
-        world.run(f"{text}y = f60(1)")
+        host.run(f"{text}y = f60(1)")
     assert run(f"{text}y = f8(1)")["y"] == 256

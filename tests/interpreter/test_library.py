@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from desire_tui.engine.library import LIBRARY, func1, func2, integer_power, rounded
-from tests.interpreter.stand_in import World, run
+from tests.interpreter.stand_in import RecordingHost, run
 
 REALS = st.floats(-1e6, 1e6)
 V = {name: entry.value for name, entry in LIBRARY.items()}
@@ -74,13 +74,13 @@ def test_every_real_function_works_in_a_script():
         if entry.value is None or entry.kind not in {"real", "choice"}:
             continue
         args = [0.25, 0.5, 0.75][: entry.most]
-        world = run(f"x = {entry.name}({', '.join(map(str, args))})")
-        assert world["x"] == entry.value(*args)
+        host = run(f"x = {entry.name}({', '.join(map(str, args))})")
+        assert host["x"] == entry.value(*args)
 
 
 def test_a_programs_own_maximum_wins():
-    world = run("FUNCTION max(a, b) = 100*a + b\nx = max(2, 3)")
-    assert world["x"] == 203
+    host = run("FUNCTION max(a, b) = 100*a + b\nx = max(2, 3)")
+    assert host["x"] == 203
 
 
 @pytest.mark.parametrize(
@@ -93,32 +93,32 @@ def test_a_programs_own_maximum_wins():
 )
 def test_uniform_random_sequence(start, values):
     lines = "".join(f"x{k} = ran()\n" for k in range(len(values)))
-    world = run(f"{start}\n{lines}")
+    host = run(f"{start}\n{lines}")
     for k, value in enumerate(values):
-        assert world[f"x{k}"] == pytest.approx(value, abs=1e-10)
+        assert host[f"x{k}"] == pytest.approx(value, abs=1e-10)
 
 
 def test_a_hundred_thousand_draws_have_the_known_moments():
-    world = run("s = 0 | q = 0\nfor k = 1 to 100000 | x = ran() | s = s + x | q = q + x*x | next")
-    assert world["s"] / 1e5 == pytest.approx(-0.0009788666115, abs=1e-12)
-    assert world["q"] / 1e5 == pytest.approx(0.3333594551, abs=1e-10)
+    host = run("s = 0 | q = 0\nfor k = 1 to 100000 | x = ran() | s = s + x | q = q + x*x | next")
+    assert host["s"] / 1e5 == pytest.approx(-0.0009788666115, abs=1e-12)
+    assert host["q"] / 1e5 == pytest.approx(0.3333594551, abs=1e-10)
 
 
 def test_draws_go_left_to_right_and_the_state_is_shared():
-    world = run("SEED 7\na = ran() - 10*ran()\nSEED 7\nb = ran() | c = ran()")
-    assert world["a"] == world["b"] - 10 * world["c"]
-    state = int(world.values.random[0])
-    world.execute("d = ran()")
+    host = run("SEED 7\na = ran() - 10*ran()\nSEED 7\nb = ran() | c = ran()")
+    assert host["a"] == host["b"] - 10 * host["c"]
+    state = int(host.values.random[0])
+    host.execute("d = ran()")
     after = (0x5DEECE66D * state + 11) % 2**48
-    assert int(world.values.random[0]) == after
-    assert world["d"] == 2 * (after / 2**48) - 1
+    assert int(host.values.random[0]) == after
+    assert host["d"] == 2 * (after / 2**48) - 1
 
 
 def test_normal_numbers_follow_box_and_muller():
-    world = run("SEED 5\nu = (ran() + 1)/2 | v = (ran() + 1)/2\nSEED 5\ng = gauss(0) | h = gauss()")
-    expected = math.sqrt(-2 * math.log(world["u"])) * math.cos(2 * math.pi * world["v"])
-    assert world["g"] == pytest.approx(expected, rel=1e-12)
-    assert world["h"] != world["g"]
+    host = run("SEED 5\nu = (ran() + 1)/2 | v = (ran() + 1)/2\nSEED 5\ng = gauss(0) | h = gauss()")
+    expected = math.sqrt(-2 * math.log(host["u"])) * math.cos(2 * math.pi * host["v"])
+    assert host["g"] == pytest.approx(expected, rel=1e-12)
+    assert host["h"] != host["g"]
 
 
 @given(st.lists(st.floats(-10, 10), min_size=2, max_size=12, unique=True), st.floats(-12, 12), st.data())
@@ -129,17 +129,17 @@ def test_table_function_is_numpys_interpolation(breakpoints, x, data):
 
 
 def test_table_function_of_the_book():
-    world = run(
+    host = run(
         "n = 25 | ARRAY X[n] + Y[n] = F\nfor i = 1 to n\nX[i] = (i-1)/12.5 | Y[i] = sin(4*X[i])\nnext\n"
         "a = func1(-0.1; F) | b = func1(0.02, F) | c = func1(1; F) | d = func1(2.2; F)"
     )
     expected = (0, 0.07864164015, -0.7471360715, 0.9849033341)
-    assert [world[n] for n in "abcd"] == pytest.approx(expected, abs=1e-10)
+    assert [host[n] for n in "abcd"] == pytest.approx(expected, abs=1e-10)
 
 
 def test_bilinear_table_function_of_models_4_2_2_2():
-    world = World()
-    world.run(
+    host = RecordingHost()
+    host.run(
         "n = 20 | m = 15 | ARRAY F[n,m], X[n], Y[m]\nfor i = 1 to n | X[i] = i - 10 | next\n"
         "for k = 1 to m | Y[k] = k - 7.5 | next\nfor i = 1 to n | for k = 1 to m\n"
         "F[i,k] = X[i] + Y[k]*(Y[k]*cos(X[i]) - sin(Y[k]))\nnext | next"
@@ -151,8 +151,8 @@ def test_bilinear_table_function_of_models_4_2_2_2():
         (10.25, 6.294135772),
         (16, 52.9745788),
     ]:
-        world.execute(f"f = func2({time} - 10, {time} - 7.5; F, X, Y)")
-        assert world["f"] == pytest.approx(value, rel=1e-9)
+        host.execute(f"f = func2({time} - 10, {time} - 7.5; F, X, Y)")
+        assert host["f"] == pytest.approx(value, rel=1e-9)
 
 
 @given(st.floats(-3, 3), st.floats(-3, 3))

@@ -6,7 +6,7 @@ import pytest
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.diagnostics.wording.script import MESSAGES
-from tests.interpreter.stand_in import World, error_of, run
+from tests.interpreter.stand_in import RecordingHost, error_of, run
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_error(script, code, piece):
 
 def test_statements_that_would_fill_the_memory_are_refused():
     """Arrays of a fifth of the room each can be declared, but neither transformed nor computed with."""
-    n = World().values.spare // 5
+    n = RecordingHost().values.spare // 5
     declared = f"ARRAY x[{n}], y[{n}], z[{n}]\n"
     assert error_of(f"{declared}FFT F, {n}, x, y") == (40, str(n))
     assert error_of(f"{declared}Vector z = x") == (40, "Vector z = x")
@@ -115,21 +115,21 @@ def test_misspelt_names_get_a_suggestion():
 
 def test_a_misspelt_command_gets_a_suggestion():
     with pytest.raises(DesireError) as caught:
-        World().execute("snapsho")
+        RecordingHost().execute("snapsho")
     assert caught.value.diagnostics[0].hint == "did you mean 'snapshot'?"
 
 
 def test_problems_of_the_host_get_a_place():
-    world = World()
+    host = RecordingHost()
 
     def permit(path, mode):
         from desire_tui.engine.diagnostics import Diagnostic
 
         raise DesireError(Diagnostic("channel-number", facts={"channel": 1}))
 
-    world.permit = permit
+    host.permit = permit
     with pytest.raises(DesireError) as caught:
-        world.run("x = 1\nconnect 'f' as input 3")
+        host.run("x = 1\nconnect 'f' as input 3")
     problem = caught.value.diagnostics[0]
     assert problem.source.text[slice(*problem.span)] == "connect 'f' as input 3"
 

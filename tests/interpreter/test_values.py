@@ -9,7 +9,7 @@ import numpy as np
 
 from desire_tui.engine.interpreter.quantity_rows import names
 from desire_tui.engine.values import SCALAR_SLOTS, Kind, Values
-from tests.interpreter.stand_in import World
+from tests.interpreter.stand_in import RecordingHost
 
 
 def test_addresses_never_change():
@@ -62,9 +62,9 @@ def test_arrays_start_on_cache_lines():
 
 
 def test_rows_for_the_quantities_pane():
-    world = World()
-    world.run("x = 1/3 | ARRAY A[2,3] | INTEGER n | COMPLEX z | STATE v[2] | z = 1 + j | n = 5 | A[1,2] = 4")
-    rows = {row.name: row for row in names(world.values)}
+    host = RecordingHost()
+    host.run("x = 1/3 | ARRAY A[2,3] | INTEGER n | COMPLEX z | STATE v[2] | z = 1 + j | n = 5 | A[1,2] = 4")
+    rows = {row.name: row for row in names(host.values)}
     assert rows["x"].text == "0.333333"
     assert (rows["A"].title, rows["A"].kind, rows["A"].text) == ("A[2,3]", "real array", "0  4  0  0  …")
     assert (rows["n"].kind, rows["z"].text, rows["v"].kind) == ("INTEGER", "1 + j*( 1)", "STATE array")

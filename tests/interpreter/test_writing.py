@@ -6,7 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.interpreter.stand_in import World, error_of, run
+from tests.interpreter.stand_in import RecordingHost, error_of, run
 
 
 @pytest.mark.parametrize(
@@ -36,8 +36,8 @@ def test_write(script, text):
 
 
 def test_arrays_are_written_five_in_a_line():
-    world = run("ARRAY A[2,3]\nfor i = 1 to 2 | for k = 1 to 3 | A[i,k] = -i*k/7 | next | next\nwrite A")
-    lines = world.text.split("\n")
+    host = run("ARRAY A[2,3]\nfor i = 1 to 2 | for k = 1 to 3 | A[i,k] = -i*k/7 | next | next\nwrite A")
+    lines = host.text.split("\n")
     assert lines[:2] == ["", "A[2,3]  : REAL ARRAY (in ROW major sequence)"]
     assert len(lines[2].split()) == 5
     assert lines[3:] == ["-8.571429e-01", ""]
@@ -45,20 +45,20 @@ def test_arrays_are_written_five_in_a_line():
 
 
 def test_a_long_array_comes_in_pieces_and_can_be_broken_off():
-    world = run("ARRAY x[20000]\nwrite x")
-    assert world.text.count("\n") == 2 + 20000 / 5
-    assert len(world.written) > 3
+    host = run("ARRAY x[20000]\nwrite x")
+    assert host.text.count("\n") == 2 + 20000 / 5
+    assert len(host.written) > 3
 
 
 def test_files_keep_their_numbers(tmp_path):
-    world = run(
+    host = run(
         "ARRAY A[2,2]\ndata 1.5,-2,1/3,4E-9\nread A\nconnect 'numbers' as output 3\n"
         "write ##3, A | write ##3, PI | write #3, 'text'; 5\ndisconnect 3\n"
         "ARRAY B[2,2]\nconnect 'numbers' as input 4 | input #4, B, p\ndisconnect 4",
         folder=tmp_path,
     )
-    assert (world["B"] == world["A"]).all()
-    assert world["p"] == 3.141592653589793
+    assert (host["B"] == host["A"]).all()
+    assert host["p"] == 3.141592653589793
     assert (tmp_path / "numbers.dat").read_text().endswith("text5\n")
 
 
@@ -74,8 +74,8 @@ def test_machine_readable_arrays_are_lines_and_values_alone(tmp_path):
 
 def test_input_files_may_hold_expressions_with_any_separator(tmp_path):
     (tmp_path / "in.txt").write_text("1, 2*3\t4\n\n5 6 7\n sqrt(16)\n")
-    world = run("ARRAY x[7]\nconnect 'in.txt' as input 2\ninput #2, x", folder=tmp_path)
-    assert world["x"].tolist() == [1, 6, 4, 5, 6, 7, 4]
+    host = run("ARRAY x[7]\nconnect 'in.txt' as input 2\ninput #2, x", folder=tmp_path)
+    assert host["x"].tolist() == [1, 6, 4, 5, 6, 7, 4]
 
 
 def test_channels_0_and_1_append_and_others_do_not(tmp_path):
@@ -110,13 +110,13 @@ def test_reading_past_the_end_and_nonsense(tmp_path):
 
 
 def test_console_input_prompts_and_asks_again():
-    world = World()
-    world.answers = ["2*", "y", "2*3", "7, 8"]
-    world.run("ARRAY A[2]\ninput x, A")
-    assert world["x"] == 6
-    assert world["A"].tolist() == [7, 8]
-    assert world.text == "x ? x ? x ? A ? "
-    assert len(world.warnings) == 2
+    host = RecordingHost()
+    host.answers = ["2*", "y", "2*3", "7, 8"]
+    host.run("ARRAY A[2]\ninput x, A")
+    assert host["x"] == 6
+    assert host["A"].tolist() == [7, 8]
+    assert host.text == "x ? x ? x ? A ? "
+    assert len(host.warnings) == 2
 
 
 def test_input_is_broken_off_by_an_exclamation_mark():
@@ -125,16 +125,16 @@ def test_input_is_broken_off_by_an_exclamation_mark():
 
 
 def test_dump_lists_scalars_then_arrays():
-    world = run("alpha = 2.5 | ARRAY v[2] | v[1] = 1\nINTEGER n | n = 12345678\ndump")
-    assert "alpha = 2.5\n" in world.text
-    assert "n = 12345678\n" in world.text
-    assert world.text.index("scale = 1\n") < world.text.index("v[2]  : REAL ARRAY")
-    assert "TMAX" not in world.text  # has no value
+    host = run("alpha = 2.5 | ARRAY v[2] | v[1] = 1\nINTEGER n | n = 12345678\ndump")
+    assert "alpha = 2.5\n" in host.text
+    assert "n = 12345678\n" in host.text
+    assert host.text.index("scale = 1\n") < host.text.index("v[2]  : REAL ARRAY")
+    assert "TMAX" not in host.text  # has no value
 
 
 def test_notes_and_shell_and_commands_go_to_the_host():
-    world = run("x = 3 | note 'x is '; x\nsh ls\nsnapshot 'f.png'\ndisplay N14 | display W 10,20")
-    assert world.calls == [
+    host = run("x = 3 | note 'x is '; x\nsh ls\nsnapshot 'f.png'\ndisplay N14 | display W 10,20")
+    assert host.calls == [
         ("note", "x is 3"), ("shell", "ls"), ("command", "snapshot", "f.png"),
         ("display", "N", 14), ("display", "W", 10, 20),
     ]  # fmt: skip
@@ -143,22 +143,22 @@ def test_notes_and_shell_and_commands_go_to_the_host():
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=8))
 def test_machine_readable_files_keep_every_bit(tmp_path, numbers):
-    world = World(tmp_path)
-    world.load("")
-    world.execute(f"ARRAY x[{len(numbers)}], y[{len(numbers)}]")
-    world["x"][:] = numbers
-    world.execute("connect 'bits' as output 2 | write ##2, x | disconnect 2")
-    world.execute("connect 'bits' as input 2 | input #2, y | disconnect 2")
-    assert world["y"].tolist() == numbers
+    host = RecordingHost(tmp_path)
+    host.load("")
+    host.execute(f"ARRAY x[{len(numbers)}], y[{len(numbers)}]")
+    host["x"][:] = numbers
+    host.execute("connect 'bits' as output 2 | write ##2, x | disconnect 2")
+    host.execute("connect 'bits' as input 2 | input #2, y | disconnect 2")
+    assert host["y"].tolist() == numbers
 
 
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=8))
 def test_machine_readable_scalars_keep_every_bit(tmp_path, numbers):
-    world = World(tmp_path)
-    world.load("")
+    host = RecordingHost(tmp_path)
+    host.load("")
     for number in numbers:
-        world.values.assign(world.values.scalar("x").slot, number)
-        world.execute("connect 'bits' as output 2 | write ##2, x | disconnect 2")
-        world.execute("connect 'bits' as input 2 | input #2, y | disconnect 2")
-        assert world["y"] == number
+        host.values.assign(host.values.scalar("x").slot, number)
+        host.execute("connect 'bits' as output 2 | write ##2, x | disconnect 2")
+        host.execute("connect 'bits' as input 2 | input #2, y | disconnect 2")
+        assert host["y"] == number

@@ -66,7 +66,7 @@ class Book:
 
 
 @pytest.fixture
-def book(tmp_path) -> Book:
+def notebook(tmp_path) -> Book:
     return Book(tmp_path)
 
 
@@ -87,12 +87,12 @@ def patched(old: str, difference: str) -> str:
     return "\n".join(result + lines[at:])
 
 
-def test_the_first_version_stands_whole_the_next_as_its_difference(book):
+def test_the_first_version_stands_whole_the_next_as_its_difference(notebook):
     second = DECAY.replace("a = 1\n", "a = 3\n")
-    book.zz(DECAY)
-    book.zz(second)
-    assert book.blocks("desire") == [DECAY]
-    (difference,) = book.blocks("diff")
+    notebook.zz(DECAY)
+    notebook.zz(second)
+    assert notebook.blocks("desire") == [DECAY]
+    (difference,) = notebook.blocks("diff")
     assert re.findall(r"^[-+][^-+].*$", difference, re.MULTILINE) == ["-a = 1", "+a = 3"]
     assert patched(DECAY, difference) == second.rstrip("\n")
     assert "decay.src version 2" in difference
@@ -114,103 +114,109 @@ def test_every_version_can_be_restored(first, second):
     assert again.rstrip("\n") == new.rstrip("\n")
 
 
-def test_an_unchanged_program_is_not_repeated_and_one_gone_back_to_is_named(book):
-    book.zz(DECAY)
-    book.zz(DECAY)
-    assert len(book.blocks("desire")) == 1
-    book.zz(SILENT, "silent.src")
-    book.zz(DECAY)
-    assert book.blocks("desire") == [DECAY, SILENT]
-    assert "**decay.src**, version 1, again" in book.text
+def test_an_unchanged_program_is_not_repeated_and_one_gone_back_to_is_named(notebook):
+    notebook.zz(DECAY)
+    notebook.zz(DECAY)
+    assert len(notebook.blocks("desire")) == 1
+    notebook.zz(SILENT, "silent.src")
+    notebook.zz(DECAY)
+    assert notebook.blocks("desire") == [DECAY, SILENT]
+    assert "**decay.src**, version 1, again" in notebook.text
 
 
-def test_commands_stand_with_what_they_print_and_after_the_program_they_run(book):
-    book.zz(DECAY)
-    book.session.execute("write 'twice '; 2*x")
-    start, printed, command = book.blocks("text")
+def test_commands_stand_with_what_they_print_and_after_the_program_they_run(notebook):
+    notebook.zz(DECAY)
+    notebook.session.execute("write 'twice '; 2*x")
+    start, printed, command = notebook.blocks("text")
     assert start == "> zz\n"
     assert float(printed.removeprefix("x is ")) == pytest.approx(math.exp(-1), rel=1e-4)
     line, answer = command.splitlines()
     assert line == "> write 'twice '; 2*x"
     assert float(answer.removeprefix("twice ")) == pytest.approx(2 * math.exp(-1), rel=1e-4)
-    assert book.text.index("```desire") < book.text.index("> zz") < book.text.index("- Run 1")
+    assert notebook.text.index("```desire") < notebook.text.index("> zz") < notebook.text.index("- Run 1")
 
 
-def test_runs_tell_settings_and_end_and_many_become_a_few(book):
-    book.zz(DECAY)
-    assert book.items == ["Run 1: rule 1, t = 0 … 1, DT = 0.01, 100 steps, TMAX reached"]
-    book.zz(DECAY.replace("drun", "for k = 1 to 40 | drunr | next"))
-    assert len(book.items) == 1 + 8 + 2
-    assert book.items[-2:] == ["… 31 more", "Run 40: rule 1, t = 0 … 1, DT = 0.01, 100 steps, TMAX reached"]
+def test_runs_tell_settings_and_end_and_many_become_a_few(notebook):
+    notebook.zz(DECAY)
+    assert notebook.items == ["Run 1: rule 1, t = 0 … 1, DT = 0.01, 100 steps, TMAX reached"]
+    notebook.zz(DECAY.replace("drun", "for k = 1 to 40 | drunr | next"))
+    assert len(notebook.items) == 1 + 8 + 2
+    assert notebook.items[-2:] == [
+        "… 31 more",
+        "Run 40: rule 1, t = 0 … 1, DT = 0.01, 100 steps, TMAX reached",
+    ]
 
 
-def test_live_mode_leaves_its_last_run_only(book):
-    book.zz(DECAY)
+def test_live_mode_leaves_its_last_run_only(notebook):
+    notebook.zz(DECAY)
     for a in range(30):
-        book.session.override({"a": 0.5 + a})
-        book.zz(DECAY)
-        book.session.override({})
-    book.session.execute("write 'done'")
-    assert "Live mode, 30 times; the last run:" in book.text
-    assert book.items[1:] == ["Run 1, a = 29.5: rule 1, t = 0 … 1, DT = 0.01, 100 steps, TMAX reached"]
-    assert len(list(book.path.parent.glob("*.png"))) == 2  # the program's, and live mode's last
+        notebook.session.override({"a": 0.5 + a})
+        notebook.zz(DECAY)
+        notebook.session.override({})
+    notebook.session.execute("write 'done'")
+    assert "Live mode, 30 times; the last run:" in notebook.text
+    assert notebook.items[1:] == ["Run 1, a = 29.5: rule 1, t = 0 … 1, DT = 0.01, 100 steps, TMAX reached"]
+    assert len(list(notebook.path.parent.glob("*.png"))) == 2  # the program's, and live mode's last
 
 
-def test_pictures_of_graphs_stand_where_they_were_made(book):
-    book.zz(DECAY)
-    book.zz(DECAY.replace("a = 1", "a = 2"))
-    book.session.execute("snapshot 'my graph.svg'")
+def test_pictures_of_graphs_stand_where_they_were_made(notebook):
+    notebook.zz(DECAY)
+    notebook.zz(DECAY.replace("a = 1", "a = 2"))
+    notebook.session.execute("snapshot 'my graph.svg'")
     links = [
-        c.attrs["src"] for t in MarkdownIt().parse(book.text) for c in t.children or () if c.type == "image"
+        c.attrs["src"]
+        for t in MarkdownIt().parse(notebook.text)
+        for c in t.children or ()
+        if c.type == "image"
     ]
     assert links == ["book-1.png", "book-2.png", "my%20graph.svg"]
     for name in ("book-1.png", "book-2.png"):
-        assert (book.path.parent / name).read_bytes().startswith(b"\x89PNG")
+        assert (notebook.path.parent / name).read_bytes().startswith(b"\x89PNG")
 
 
-def test_no_picture_without_news_in_the_graph(book):
-    book.zz(SILENT)
-    book.zz(DECAY)
-    book.session.execute("write x")
-    book.session.execute("x = 2")
-    assert len(list(book.path.parent.glob("*.png"))) == 1
+def test_no_picture_without_news_in_the_graph(notebook):
+    notebook.zz(SILENT)
+    notebook.zz(DECAY)
+    notebook.session.execute("write x")
+    notebook.session.execute("x = 2")
+    assert len(list(notebook.path.parent.glob("*.png"))) == 1
 
 
 def test_a_picture_never_replaces_a_file(tmp_path):
     (tmp_path / "book-1.png").write_text("mine")
-    book = Book(tmp_path)
-    book.zz(DECAY)
+    notebook = Book(tmp_path)
+    notebook.zz(DECAY)
     assert (tmp_path / "book-1.png").read_text() == "mine"
     assert (tmp_path / "book-2.png").exists()
 
 
-def test_what_went_wrong_is_kept(book):
+def test_what_went_wrong_is_kept(notebook):
     with pytest.raises(DesireError):
-        book.zz("x = 1/0\n")
-    assert book.blocks("text") == ["> zz\nerror 5: division by zero\n"]
+        notebook.zz("x = 1/0\n")
+    assert notebook.blocks("text") == ["> zz\nerror 5: division by zero\n"]
 
 
-def test_notes_and_odd_characters(book):
-    book.session.execute("note 'so *far* '; 1.5")
-    assert "\nso *far* 1.5\n" in book.text
-    assert book.blocks("text") == []
-    book.zz("write 'a```b'\n", "my_odd *name*.src")
-    assert "a```b\n" in book.blocks("text")[-1]
-    assert "<p><strong>my_odd *name*.src</strong>, version 1</p>" in MarkdownIt().render(book.text)
+def test_notes_and_odd_characters(notebook):
+    notebook.session.execute("note 'so *far* '; 1.5")
+    assert "\nso *far* 1.5\n" in notebook.text
+    assert notebook.blocks("text") == []
+    notebook.zz("write 'a```b'\n", "my_odd *name*.src")
+    assert "a```b\n" in notebook.blocks("text")[-1]
+    assert "<p><strong>my_odd *name*.src</strong>, version 1</p>" in MarkdownIt().render(notebook.text)
 
 
-def test_a_comparison_and_a_report_are_kept(book):
-    book.zz(DECAY)
+def test_a_comparison_and_a_report_are_kept(notebook):
+    notebook.zz(DECAY)
     for command in ("compare rule 3", "dump run"):
-        book.session.execute(command)
-        head, *table = book.blocks("text")[-1].splitlines()
+        notebook.session.execute(command)
+        head, *table = notebook.blocks("text")[-1].splitlines()
         assert head == f"> {command}"
         assert len(table) > 2
 
 
-def test_long_output_is_cut(book):
-    book.zz("for k = 1 to 5000 | write 'line number '; k | next\n")
-    printed = book.blocks("text")[-1]
+def test_long_output_is_cut(notebook):
+    notebook.zz("for k = 1 to 5000 | write 'line number '; k | next\n")
+    printed = notebook.blocks("text")[-1]
     assert len(printed) < 21_000
     assert re.search(r"… \d+ more characters$", printed.rstrip())
 
@@ -224,16 +230,16 @@ def test_another_session_goes_on_in_the_same_file(tmp_path):
     assert heads == ["h1", "h2", "h2"]
 
 
-def test_off_and_on(book):
-    book.zz(DECAY)
-    book.session.execute("notebook off")
-    before = book.text
-    book.session.execute("write 'not this'")
-    assert book.text == before
-    book.session.execute("notebook on")
-    book.zz(DECAY.replace("a = 1", "a = 2"))
-    assert len(book.blocks("diff")) == 1
-    assert "not this" not in book.text
+def test_off_and_on(notebook):
+    notebook.zz(DECAY)
+    notebook.session.execute("notebook off")
+    before = notebook.text
+    notebook.session.execute("write 'not this'")
+    assert notebook.text == before
+    notebook.session.execute("notebook on")
+    notebook.zz(DECAY.replace("a = 1", "a = 2"))
+    assert len(notebook.blocks("diff")) == 1
+    assert "not this" not in notebook.text
 
 
 @pytest.mark.parametrize("name", ["missing/book.md", "folder"])
@@ -255,31 +261,33 @@ def test_a_disk_that_is_full_from_the_start(tmp_path):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_a_disk_that_fills_up_costs_the_notebook_not_the_run(book):
-    book.path.unlink()
-    book.path.symlink_to("/dev/full")
-    book.zz(DECAY)
-    assert book.session.runs[-1].ended == "tmax"
-    assert [w.key for w in book.listener.warnings] == ["notebook-lost"]
-    assert "No space left on device" in book.listener.warnings[0].message
-    book.session.execute("write 1")
-    assert len(book.listener.warnings) == 1
+def test_a_disk_that_fills_up_costs_the_notebook_not_the_run(notebook):
+    notebook.path.unlink()
+    notebook.path.symlink_to("/dev/full")
+    notebook.zz(DECAY)
+    assert notebook.session.runs[-1].ended == "tmax"
+    assert [w.key for w in notebook.listener.warnings] == ["notebook-lost"]
+    assert "No space left on device" in notebook.listener.warnings[0].message
+    notebook.session.execute("write 1")
+    assert len(notebook.listener.warnings) == 1
 
 
 def test_a_folder_that_vanishes_costs_the_notebook_not_the_run(tmp_path):
     (tmp_path / "inner").mkdir()
-    book = Book(tmp_path, "inner/book.md")
-    book.path.unlink()
-    book.path.parent.rmdir()
-    book.zz(DECAY)
-    assert book.session.runs[-1].ended == "tmax"
-    assert [w.key for w in book.listener.warnings] == ["notebook-lost"]
+    notebook = Book(tmp_path, "inner/book.md")
+    notebook.path.unlink()
+    notebook.path.parent.rmdir()
+    notebook.zz(DECAY)
+    assert notebook.session.runs[-1].ended == "tmax"
+    assert [w.key for w in notebook.listener.warnings] == ["notebook-lost"]
 
 
-def test_a_file_that_vanishes_begins_anew_and_says_so(book):
-    book.zz(DECAY)
-    book.path.unlink()
-    book.zz(DECAY.replace("a = 1", "a = 2"))
-    assert [w.key for w in book.listener.warnings] == ["notebook-vanished"]
-    assert book.text.startswith("# book\n")
-    assert book.blocks("desire") == [DECAY.replace("a = 1", "a = 2")]  # a difference alone would be worthless
+def test_a_file_that_vanishes_begins_anew_and_says_so(notebook):
+    notebook.zz(DECAY)
+    notebook.path.unlink()
+    notebook.zz(DECAY.replace("a = 1", "a = 2"))
+    assert [w.key for w in notebook.listener.warnings] == ["notebook-vanished"]
+    assert notebook.text.startswith("# book\n")
+    assert notebook.blocks("desire") == [
+        DECAY.replace("a = 1", "a = 2")
+    ]  # a difference alone would be worthless

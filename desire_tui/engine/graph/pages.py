@@ -106,7 +106,7 @@ class GraphPages:
         self._fresh = True
         return page
 
-    def chart(self, frame: Frame, text: str, curves: Iterable[Curve]) -> Graph:
+    def show_curves(self, frame: Frame, text: str, curves: Iterable[Curve]) -> Graph:
         """Show curves on a page of their own. The next run starts another page."""
         page = self._page(frame, text)
         page.curves.extend(curves)

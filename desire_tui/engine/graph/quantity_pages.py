@@ -22,15 +22,15 @@ MARGIN = 0.05
 """Room above and below a curve, in parts of its height."""
 
 
-def history_chart(pages: GraphPages, name: str, record: RunRecord, column: int) -> Graph:
+def history_page(pages: GraphPages, name: str, record: RunRecord, column: int) -> Graph:
     """Show one of a run's columns over time on a page of its own, as high as it needs."""
     bottom, top = _limits(record.rows[: record.count, 1 + column])
     frame = Frame("dispt", record.t0, record.t0 + record.t_max, bottom, top, _scale(bottom, top))
     curve = Curve(name, "t", pages.settings.curve_color(0), record, 1 + column, 0, frame)
-    return pages.chart(frame, f"{name} vs. t", [curve])
+    return pages.show_curves(frame, f"{name} vs. t", [curve])
 
 
-def array_chart(pages: GraphPages, name: str, values: NDArray[Any]) -> Graph:
+def array_page(pages: GraphPages, name: str, values: NDArray[Any]) -> Graph:
     """Show an array's elements over their index, from 1: a vector's as a curve, a matrix's by rows.
 
     COMPLEX: real and imaginary parts. A matrix of more than ROWS_MOST rows becomes a picture, as by SHOW.
@@ -58,7 +58,7 @@ def array_chart(pages: GraphPages, name: str, values: NDArray[Any]) -> Graph:
         Curve(curve, "index", pages.settings.curve_color(n), record, 1 + n, 0, frame, joined=length > 1)
         for n, curve in enumerate(named)
     ]
-    return pages.chart(frame, f"{name} vs. index", curves)
+    return pages.show_curves(frame, f"{name} vs. index", curves)
 
 
 def _row_name(name: str, shape: tuple[int, ...], number: int) -> str:

@@ -27,7 +27,8 @@ ERROR_SHARE = 0.02
 
 Errors of single states are larger than the mean, true ones larger than estimated, and they add up: with 1
 ERMAX was exceeded tenfold to a hundredfold at the end of common problems, and Robertson's ran away at most
-tolerances. With 1/50 rules 9 … 16 keep 10·ERMAX on all problems of docs/rules.md; steps grow by 1.3 to 2."""
+tolerances. With 1/50 the multistep rules keep 10·ERMAX on all problems of docs/rules.md, in 1.3 to 2 times
+the steps."""
 
 FLOOR = 1e-20
 """A wave that runs into states at rest moves distant ones by 1e-200 at once; to follow those to ERMAX of
@@ -59,7 +60,7 @@ class Matrix(IntEnum):
 
 
 class SolverProblem(ctypes.Structure):
-    """One model under one of the rules 9 … 16.
+    """One model under a multistep rule.
 
     Functions of the model, C calling convention: `derivatives(memory, k)` and `tangent(memory, k)` write n
     numbers to `k` from t and the states (and their directions) in the values; `jacobian(memory)` runs the

@@ -1,4 +1,4 @@
-"""One model under a rule 9 … 16: CVODE, the structure its callbacks get, and the memory both need."""
+"""One model under a multistep rule: CVODE, the structure its callbacks get, and the memory both need."""
 
 from __future__ import annotations
 

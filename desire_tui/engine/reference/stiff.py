@@ -1,4 +1,4 @@
-"""Rules 9 … 16 in the reference back end: CVODE with Python callbacks, one step at a time."""
+"""Multistep rules in the reference back end: CVODE with Python callbacks, one step at a time."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 
 class StiffReferenceModel(ReferenceModel):
-    """A segment under a rule 9 … 16. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
+    """A segment under a multistep rule. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
 
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         super().__init__(segment, EULER, values)

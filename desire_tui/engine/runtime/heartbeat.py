@@ -29,7 +29,7 @@ class Heartbeat:
         self._thread: threading.Thread | None = None
 
     def begin(self) -> None:
-        """Hear that a run begins."""
+        """Note that a run begins."""
         if self._thread is None or not self._thread.is_alive():
             self._thread = threading.Thread(
                 target=_beat_until_gone, args=(weakref.ref(self),), daemon=True, name="desire-heartbeat"
@@ -38,11 +38,11 @@ class Heartbeat:
         self._running.set()
 
     def block(self) -> None:
-        """Hear that a block begins."""
+        """Note that a block begins."""
         self._blocks += 1
 
     def end(self) -> None:
-        """Hear that the run is over."""
+        """Note that the run is over."""
         self._running.clear()
 
     def beat(self) -> bool:

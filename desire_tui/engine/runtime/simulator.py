@@ -46,7 +46,7 @@ class Observer(Protocol):
     """Hears of a run's progress, on the run's thread."""
 
     def block(self, record: RunRecord, first_row: int) -> None:
-        """Hear that samples `first_row … record.count - 1` have come."""
+        """Note that samples `first_row … record.count - 1` have come."""
 
 
 class Simulator:

@@ -108,7 +108,7 @@ def _sampled_alike(
             return run_again(workspace, runs, one, Variation(), spacing), other
         return one, run_again(workspace, runs, one, change, spacing)
     except DesireError:
-        return one, other  # the runs themselves came to their ends: that is enough to tell
+        return one, other  # the runs themselves ended well: their samples are compared as they are
 
 
 def run_again(

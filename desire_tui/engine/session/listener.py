@@ -1,4 +1,4 @@
-"""What a session tells its front end, and what it asks."""
+"""What a session reports to its front end, and what it asks."""
 
 from __future__ import annotations
 
@@ -49,19 +49,19 @@ class Listener:
         return False
 
     def program_accepted(self, program: Program, problems: Sequence[Diagnostic]) -> None:
-        """Hear that a text became the active program; `problems` are what parser and check say about it."""
+        """Note that a text became the active program; `problems` are what parser and check say about it."""
 
     def run_started(self, record: RunRecord) -> None:
-        """Hear that a run begins; its record grows from now on. `session.graph` already shows its frame."""
+        """Note that a run begins; its record grows from now on. `session.graph` already shows its frame."""
 
     def run_ended(self, record: RunRecord) -> None:
-        """Hear that the run ended: `record.ended` and `record.message` say why."""
+        """Note that the run ended: `record.ended` and `record.message` say why."""
 
     def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Problems that do not stop the script (warnings). What stops it is raised as DesireError instead."""
 
     def stopped_at(self, place: StoppedAt) -> None:
-        """Hear that the script stopped; `go` continues."""
+        """Note that the script stopped; `go` continues."""
 
     def graph_changed(self, graph: Graph) -> None:
         """Redraw: another graph, an erased one, a point, a curve. Samples of a run come without a call."""
@@ -70,7 +70,7 @@ class Listener:
         """All names were cleared (`erun`, `clear`, `new`)."""
 
     def noted(self, text: str) -> None:
-        """Hear that a line went into the notebook."""
+        """Note that a line went into the notebook."""
 
     def front_source(self) -> Source | None:
         """Return the text of the editor in front: what `erun` takes. None: run the active program again."""

@@ -1,6 +1,6 @@
 """The notebook: a session's commands, programs, results and pictures, as Markdown [B 5.5.3; form X].
 
-A session goes on without it: when it cannot be written any more it is switched off, and that is told once.
+A session goes on without it: when it cannot be written any more it is switched off, which is reported once.
 """
 
 from __future__ import annotations

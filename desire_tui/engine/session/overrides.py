@@ -31,7 +31,7 @@ _FORM = re.compile(r"\s*([A-Za-z][\w$]*)\s*(?:\[\s*(\d+(?:\s*,\s*\d+)*)\s*\])?\s
 _WORD = re.compile(r"[A-Za-z][\w$]*")
 
 
-def parts(setting: str) -> tuple[str, tuple[int, ...]]:
+def name_and_subscripts(setting: str) -> tuple[str, tuple[int, ...]]:
     """Return name and subscripts of `a` or `A[1,3]`. ValueError: it is neither."""
     found = _FORM.fullmatch(setting)
     if found is None:
@@ -40,13 +40,13 @@ def parts(setting: str) -> tuple[str, tuple[int, ...]]:
     return found[1], tuple(int(s) for s in subscripts.split(",")) if subscripts else ()
 
 
-def initial(program: Program, overrides: Mapping[str, float]) -> dict[str, float]:
+def initial_values(program: Program, overrides: Mapping[str, float]) -> dict[str, float]:
     """Return the scalars that have a value before the script begins: all that it does not declare."""
     names = {name for p in program.script if isinstance(p.node, Declare) for name in declared(p.node)}
     return {name: value for name, value in _scalars(overrides).items() if name not in names}
 
 
-def overridden(program: Program, structure: Structure, overrides: Mapping[str, float]) -> Program:
+def with_overrides(program: Program, structure: Structure, overrides: Mapping[str, float]) -> Program:
     """Return the program with the settings in place of the script's own values."""
     if not overrides:
         return program
@@ -67,7 +67,7 @@ def problems_of(program: Program, structure: Structure, overrides: Mapping[str, 
     known = {*survey.everything, *SYSTEM_VARIABLES, *words}
     problems = []
     for setting in overrides:
-        name, subscripts = parts(setting)
+        name, subscripts = name_and_subscripts(setting)
         facts = {"name": name, "setting": setting, "close": None}
         if name not in known:
             facts["close"] = closest(name, known)
@@ -92,7 +92,7 @@ class _Changer:
         self._scalars = _scalars(overrides)
         self._settings: dict[str, list[tuple[tuple[int, ...], float]]] = {}
         for setting, value in overrides.items():
-            name, subscripts = parts(setting)
+            name, subscripts = name_and_subscripts(setting)
             self._settings.setdefault(name, []).append((subscripts, value))
         self._same = _overlays(program)
         self._hidden: dict[int, frozenset[str]] = {}

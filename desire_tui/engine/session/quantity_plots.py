@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.graph.quantity_pages import array_chart, history_chart
+from desire_tui.engine.graph.quantity_pages import array_page, history_page
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.session.comparison import Variation, run_again
-from desire_tui.engine.session.overrides import parts
+from desire_tui.engine.session.overrides import name_and_subscripts
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.workspace import Workspace
     from desire_tui.engine.values import Values
 
-Charted = Literal["shown", "unknown", "no run", "constant", "changed", "failed"]
+PlotOutcome = Literal["shown", "unknown", "no run", "constant", "changed", "failed"]
 """What became of it: `unknown` has no value; `constant` is not changed by the run; after `changed` programs
 or forgotten names the run cannot be made again; it `failed` when made again."""
 
 
-def chart(
+def plot_quantity(
     workspace: Workspace, runs: Runs, graphs: GraphPages, wanted: str, show: Callable[[Graph], object]
-) -> Charted:
+) -> PlotOutcome:
     """Plot `x`, `A` or `A[2,3]` on a page, which `show` is given.
 
     What the last run did not record is recorded by that run made once more. Then everything is put
@@ -37,14 +37,14 @@ def chart(
     """
     values = workspace.values
     try:
-        name, subscripts = parts(wanted)
+        name, subscripts = name_and_subscripts(wanted)
     except ValueError:
         return "unknown"
     quantity = values.find(name)
     if quantity is None or not values.is_defined(quantity):
         return "unknown"
     if quantity.shape and not subscripts:
-        show(array_chart(graphs, name, np.array(values.view(quantity))))
+        show(array_page(graphs, name, np.array(values.view(quantity))))
         return "shown"
     slot = _slot(values, name, subscripts)
     if slot is None:
@@ -72,12 +72,12 @@ def _history(
     name: str,
     slot: int,
     show: Callable[[Graph], object],
-) -> Charted:
+) -> PlotOutcome:
     record = runs.kept[-1] if runs.kept else None
     if record is None or not record.count:
         return "no run"
     if slot in record.slots:
-        show(history_chart(graphs, name, record, record.slots.index(slot)))
+        show(history_page(graphs, name, record, record.slots.index(slot)))
         return "shown"
     program, script = workspace.runnable()
     if runs.run_of != (program.source.text, workspace.values.generation):
@@ -92,7 +92,7 @@ def _history(
         raise
     except DesireError:
         return "failed"
-    show(history_chart(graphs, name, again, again.slots.index(slot)))
+    show(history_page(graphs, name, again, again.slots.index(slot)))
     return "shown"
 
 

@@ -112,7 +112,7 @@ class Runs:
         return Checkpoint.taken(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
 
     def _advise(self, model: Model, segment: Segment) -> None:
-        """Show what a model has to say before its first run (rules 9 … 16)."""
+        """Show what a model has to say before its first run (multistep rules)."""
         advice = getattr(model, "advice", None)
         problems = advice() if advice is not None else ()
         if any(p.key == "jacobian-wrong" for p in problems):

@@ -107,9 +107,9 @@ class ScriptRunner:
             for name in state_order(workspace.program):
                 values.scalar(name, is_state=True)
             if workspace.overrides:
-                from desire_tui.engine.session.overrides import initial
+                from desire_tui.engine.session.overrides import initial_values
 
-                for name, value in initial(workspace.program, workspace.overrides).items():
+                for name, value in initial_values(workspace.program, workspace.overrides).items():
                     values.assign(values.scalar(name).slot, value)
         self._listener.quantities_cleared()
 

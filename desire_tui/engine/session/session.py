@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.listener import StoppedAt
-    from desire_tui.engine.session.quantity_plots import Charted
+    from desire_tui.engine.session.quantity_plots import PlotOutcome
     from desire_tui.engine.values import Values
 
 BackendName = Literal["native", "reference"]
@@ -161,9 +161,9 @@ class Session:
             self._script.edited = True
         active, script = program, structure(program)
         if self._workspace.overrides:
-            from desire_tui.engine.session.overrides import overridden
+            from desire_tui.engine.session.overrides import with_overrides
 
-            active = overridden(program, script, self._workspace.overrides)
+            active = with_overrides(program, script, self._workspace.overrides)
             script = structure(active)
         self._workspace.program, self._workspace.structure = active, script
         self._notebook.program(source)
@@ -188,10 +188,10 @@ class Session:
         Names are those of scalars, `a`, or of elements, `a[2]`, `A[1,3]`; ValueError for others. Segments and
         commands change them as ever.
         """
-        from desire_tui.engine.session.overrides import parts
+        from desire_tui.engine.session.overrides import name_and_subscripts
 
         for name in settings:
-            parts(name)
+            name_and_subscripts(name)
         self._workspace.overrides = dict(settings)
 
     def set_breakpoints(self, lines: Iterable[int]) -> None:
@@ -298,15 +298,15 @@ class Session:
         self._notebook.picture(path)
         return path
 
-    def chart(self, name: str) -> Charted:
+    def plot_quantity(self, name: str) -> PlotOutcome:
         """Plot `x`, `A` or `A[2,3]` on a page of its own: arrays over the index, others over the last run.
 
         What that run did not record is recorded by making it once more. Belongs to the session's thread.
         """
-        from desire_tui.engine.session.quantity_plots import chart
+        from desire_tui.engine.session.quantity_plots import plot_quantity
 
         with self._activity.working(State.RUNNING):
-            return chart(self._workspace, self._runs, self.graphs, name, self._listener.graph_changed)
+            return plot_quantity(self._workspace, self._runs, self.graphs, name, self._listener.graph_changed)
 
     def help(self, topic: str = "") -> str:
         """Return the help page (Markdown) of a statement, function, command or error number."""

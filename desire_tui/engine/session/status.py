@@ -52,7 +52,7 @@ class Status:
     """The run that goes on, or the last one: its counters, and why and when it ended."""
 
     runs: int | None = None
-    """How many runs there will be in all, where the script's loops tell."""
+    """How many runs there will be in all, where the script's loops show it."""
 
     @property
     def run_text(self) -> str:

@@ -66,7 +66,7 @@ class Solver:
         core = libraries().core
         context = ctypes.c_void_p()
         core.SUNContext_Create(0, ctypes.byref(context))
-        core.SUNContext_ClearErrHandlers(context)  # they would write to the terminal; flags tell us enough
+        core.SUNContext_ClearErrHandlers(context)  # they would write to the terminal; flags say enough
         self.vector: int = library.N_VMake_Serial(n, states, context)
         self.memory: int = library.CVodeCreate(ADAMS if is_adams else BDF, context)
         parts = _Parts(core, library, context, self.memory, self.vector)
