@@ -27,8 +27,8 @@ _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
 _ARRAYS = 5  # states at the step's start and four stages' derivatives
 SMALL = 200
 """Segments with at most this many statements and states run out of registers."""
-ABREAST_LEAST = 16
-"""States from which such a segment gains by being computed two abreast.
+PAIRED_LEAST = 16
+"""States from which such a segment gains by being computed two at a time.
 
 With fewer, each step waits for the packing: Van der Pol's equation 13 % longer, coupled oscillators 27 %.
 """
@@ -93,7 +93,7 @@ class NativeModel:
         if small:
             states, columns = self._states.tolist(), self._columns.tolist()
             self._loop = register_loop(self._passes, self._rule, states, columns)
-        self._better = self._store.fast(self._loop, slp=not small or self._segment.order >= ABREAST_LEAST)
+        self._better = self._store.fast(self._loop, slp=not small or self._segment.order >= PAIRED_LEAST)
         self.context.hurry = 1
         yield
         if not small:

@@ -27,7 +27,7 @@ class Improvable(Protocol):
 
 
 class Remembering(Improvable, Protocol):
-    """Also tells whether its fast code has come."""
+    """Also says whether its fast code has come."""
 
     improved: bool
 

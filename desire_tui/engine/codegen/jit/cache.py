@@ -56,7 +56,7 @@ class CodeCache:
         return found
 
     def fast(self, piece: Piece, *, slp: bool = True) -> Compiled:
-        """Return a piece compiled as well as LLVM can; `slp`: neighbours are computed two or more abreast."""
+        """Return a piece compiled as well as LLVM can; `slp`: several neighbours at a time."""
         known = self.find(piece.name, fast=True)
         if known is not None:
             return known
