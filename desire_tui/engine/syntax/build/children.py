@@ -7,25 +7,9 @@ tokens.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
-from desire_tui.engine.nodes.expressions import (
-    Binary,
-    Call,
-    Element,
-    Expr,
-    Logical,
-    Name,
-    Not,
-    Number,
-    Pair,
-    Relation,
-    RowOf,
-    Shifted,
-    Text,
-    Transposed,
-    Unary,
-)
+from desire_tui.engine.nodes.expressions import Condition, Expr
 from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.syntax.statement_tokens import NAME
 
@@ -53,10 +37,8 @@ class NumberToken(float):
 
 Value = Node | Token | list[Any]
 Kids = list[Any]
-_EXPRESSIONS = (
-    Number, Text, Name, Element, Call, Unary, Binary, Transposed, Shifted, RowOf, Pair,
-)  # fmt: skip
-CONDITIONS = (Relation, Logical, Not)
+_EXPRESSIONS = get_args(Expr)
+CONDITIONS = get_args(Condition)
 
 
 class Misuse(Exception):  # noqa: N818 - the user's, not the program's
