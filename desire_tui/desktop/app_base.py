@@ -10,9 +10,10 @@ from textual.app import App
 
 from desire_tui.common import config, paths
 from desire_tui.desktop.completer import Completer
-from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
+from desire_tui.desktop.engine_thread import EngineThread
 from desire_tui.desktop.key_ordering import KeyOrdering
 from desire_tui.desktop.main_screen import MainScreen
+from desire_tui.desktop.screen_listener import ScreenListener
 from desire_tui.engine.session.status import State
 from desire_tui.panes.command_history import CommandHistory
 from desire_tui.panes.problems_pane import ProgramProblems

@@ -8,7 +8,8 @@ import pytest
 from textual.events import Paste
 
 from desire_tui.app import DesireApp
-from desire_tui.desktop.engine_thread import EngineThread, ScreenListener
+from desire_tui.desktop.engine_thread import EngineThread
+from desire_tui.desktop.screen_listener import ScreenListener
 from desire_tui.editor.buffer import free_label
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.session.status import State, Status
