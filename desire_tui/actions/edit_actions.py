@@ -56,7 +56,7 @@ class EditActions(Controller):
         self._bar.switch(name)
 
     def match_case(self, argument: str = "") -> None:
-        """Tell capitals from small letters in a search, or not."""
+        """Distinguish capitals from small letters in a search, or not."""
         del argument
         self._switch("case")
 

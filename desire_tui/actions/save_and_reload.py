@@ -65,7 +65,7 @@ class SaveAndReload(Controller):
         self.app.editor.refresh_tabs()
 
     def notice_changes(self) -> None:
-        """Read files that somebody else changed again where no unsaved work is lost; tell of the others."""
+        """Read files that somebody else changed again where no unsaved work is lost; report the others."""
         for area in self.app.editor.areas:
             buffer = area.buffer
             if buffer.path is None or not buffer.changed_on_disk() or not exists(buffer.path):

@@ -1,4 +1,4 @@
-"""What is shown, and where the keys go."""
+"""What is shown, and what has the focus."""
 
 from __future__ import annotations
 
@@ -37,22 +37,22 @@ class ViewActions(Controller):
                 return
 
     def next_pane(self, argument: str = "") -> None:
-        """Move the keys to the next pane."""
+        """Move the focus to the next pane."""
         del argument
         self._step(1)
 
     def previous_pane(self, argument: str = "") -> None:
-        """Move the keys to the pane before."""
+        """Move the focus to the pane before."""
         del argument
         self._step(-1)
 
     def command_line(self, argument: str = "") -> None:
-        """Move the keys to the command line."""
+        """Move the focus to the command line."""
         del argument
         self.app.move_focus(self.app.command.prompt)
 
     def editor(self, argument: str = "") -> None:
-        """Move the keys to the editor."""
+        """Move the focus to the editor."""
         del argument
         self.app.move_focus(self.app.editor.front)
 

@@ -21,7 +21,7 @@ class CompletionHook(Protocol):
         """Follow a change of text or cursor."""
 
     def focus_lost(self, target: Any) -> None:
-        """Take notice that the text lost the keys."""
+        """React when the text lost the focus."""
 
     def offer(self, target: Any) -> None:
         """Offer completions, which were asked for."""

@@ -40,7 +40,7 @@ class AppBase(App[None]):
     """What actions and messages use of the app."""
 
     errors_reported = 0
-    """How often the user was told that something of his cannot be done."""
+    """How many errors were reported to the user."""
 
     def __init__(self, permissions: Permissions | None) -> None:
         super().__init__()
@@ -71,12 +71,12 @@ class AppBase(App[None]):
             await super().on_event(event)
 
     async def _on_message(self, message: Message) -> None:
-        """Deal with a message; while the desktop closes there is nobody to tell, its panes are gone."""
+        """Deal with a message; while the desktop closes its panes are gone, and nobody handles it."""
         if self.is_running or isinstance(message, events.Event):
             await super()._on_message(message)
 
     def on_screen(self, act: Callable[..., object], *args: object, **options: object) -> None:
-        """Have the app's thread tell what another thread found out, as long as the desktop is there."""
+        """Call a function on the app's thread for another thread, as long as the desktop is there."""
         self.call_later(lambda: self.is_running and act(*args, **options))
 
     # ----------------------------------------------------------------------------------------------- panes
@@ -109,7 +109,7 @@ class AppBase(App[None]):
     # ----------------------------------------------------------------------------------------------- layout
 
     def open_side(self, name: Side, *, toggle: bool = False) -> None:
-        """Show a page of the side pane and move there; with `toggle`, hide it if the keys are there."""
+        """Show a page of the side pane and move there; with `toggle`, hide it if it has the focus."""
         screen = self.main_screen
         if toggle and screen.side == name and screen.pane_of(self.focused) == "side":
             self.close_side()
@@ -128,7 +128,7 @@ class AppBase(App[None]):
             self.move_focus(self.command.prompt)
 
     def side_focus(self) -> Widget | None:
-        """Return what gets the keys in the side pane, None if it is hidden."""
+        """Return what gets the focus in the side pane, None if it is hidden."""
         match self.main_screen.side:
             case "quantities":
                 return self.quantities.table
@@ -139,7 +139,7 @@ class AppBase(App[None]):
         return None
 
     def move_focus(self, widget: Widget) -> bool:
-        """Move the keys to a widget; where only one pane is shown, it becomes the widget's."""
+        """Move the focus to a widget; where only one pane is shown, it becomes the widget's."""
         self.main_screen.make_visible(widget)
         self.main_screen.set_focus(
             widget
@@ -178,7 +178,7 @@ class AppBase(App[None]):
     # ------------------------------------------------------------------------------------------------ telling
 
     def report_error(self, sentence: str, *, code: int | None) -> None:
-        """Tell the user that something of his cannot be done."""
+        """Report an error of the user (`code` None: a warning)."""
         self.errors_reported += 1
         text = f"error {code}: {sentence}" if code else sentence
         self.command.console.add(text, "error" if code else "warning")
@@ -198,7 +198,7 @@ class AppBase(App[None]):
         self.list_problems()
 
     def snapshot_written(self, path: Path) -> None:
-        """Tell where the picture is."""
+        """Report where the picture is."""
         self.command.console.add(f"{path}", "notice")
         self.notify(f"Saved {path}", markup=False, timeout=3)
 
@@ -231,7 +231,7 @@ class AppBase(App[None]):
         self.main_screen.status_bar.hint = hints.get(self.session.status.state, "")
 
     def send_breakpoints(self) -> None:
-        """Tell the engine the breakpoints of the active program."""
+        """Send the engine the breakpoints of the active program."""
         area = self.editor.active or self.editor.front
         rows = (area.marks.row_then(row) for row in area.marks.breakpoints)
         self.session.set_breakpoints({row + 1 for row in rows if row is not None})

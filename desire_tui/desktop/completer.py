@@ -51,7 +51,7 @@ class Completer:
         self._timer: Timer | None = None
         self.seen_after_s = SEEN_AFTER_S
 
-    # ---------------------------------------------------------------------------------- what a target tells
+    # ---------------------------------------------------------------------------------- what a target reports
 
     def letter_typed(self, target: Target) -> None:
         """Follow a letter: narrow the list that is open, offer one when typing rests."""
@@ -68,7 +68,7 @@ class Completer:
             self._narrow(target)
 
     def focus_lost(self, target: Target) -> None:
-        """Close what a target had open: it lost the keys."""
+        """Close what a target had open: it lost the focus."""
         if target is self._target:
             self.close()
 

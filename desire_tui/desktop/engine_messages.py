@@ -1,4 +1,4 @@
-"""What the engine's thread tells the screen. Handlers own all state; the thread touches no widget."""
+"""What the engine's thread reports to the screen. Handlers own all state; the thread touches no widget."""
 
 from __future__ import annotations
 

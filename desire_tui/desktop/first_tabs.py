@@ -19,7 +19,7 @@ FIRST_EXAMPLES = ("ch1/step_response.src", "ch1/van_der_pol.src")
 
 
 async def open_first(app: DesireApp) -> None:
-    """Open the tabs; the keys go to the command line if there is something to run."""
+    """Open the tabs; the command line gets the focus if there is something to run."""
     await app.editor.add(Buffer())
     if app.files:
         for number, path in enumerate(app.files):

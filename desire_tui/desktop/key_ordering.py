@@ -3,7 +3,7 @@
 Textual puts a letter into the queue of the focused widget, but carries out bindings elsewhere: the app's own
 (F5) at once, ahead of letters that still wait; a widget's own (backspace, arrows) only after the key has gone
 up through all its parents, behind letters that were typed later. Whoever types faster than the screen follows
-would get another text than he typed, or run a program whose last line is still in the queue.
+would get another text than was typed, or run a program whose last line is still in the queue.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class KeyOrdering:
             event._bubble_to(field.parent)  # noqa: SLF001 - what Textual itself would have done
 
     async def _at_rest(self, screen: Screen[object]) -> None:
-        """Wait until an action just begun is done, or has opened a dialog that takes the keys."""
+        """Wait until an action just begun is done, or has opened a dialog that takes the focus."""
         end = asyncio.get_running_loop().time() + PATIENCE_S
         app, worker = self._app, self.action_begun
         while worker is not None and not worker.is_finished and asyncio.get_running_loop().time() < end:

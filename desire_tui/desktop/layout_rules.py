@@ -11,7 +11,7 @@ Order = Literal["columns", "rows", "one"]
 SMALLEST = (16, 3)
 """Columns and rows below which nothing useful can be shown."""
 ONE_BELOW = (30, 10)
-"""Below, one pane fills the screen: the one that has the keys."""
+"""Below, one pane fills the screen: the one that has the focus."""
 FEW_BELOW = (60, 16)
 """Below, the command line stands under the graph; editor and side pane are shown alone."""
 TALL_BELOW, TALL_FROM = 72, 30
@@ -35,7 +35,7 @@ def arrange(
 ) -> Arrangement:
     """Return the arrangement for a terminal of `width` × `height`.
 
-    `focused`: the pane that has the keys. `maximized`: a pane the user maximized. `side`: whether the user
+    `focused`: the pane that has the focus. `maximized`: a pane the user maximized. `side`: whether the user
     opened or closed the side pane, None for neither.
     """
     if width < SMALLEST[0] or height < SMALLEST[1]:

@@ -1,4 +1,4 @@
-"""The desktop's screen: its panes, and how they follow the terminal's size, the keys and the user's wishes.
+"""The desktop's screen: its panes, and how they follow the terminal's size, the focus and the user's wishes.
 
 ┌ editor ───┬ graph ──────┐
 │           │             │
@@ -140,7 +140,7 @@ class MainScreen(DeferredScreen):
         self.update_layout()
 
     def on_descendant_focus(self) -> None:
-        """Where there is room for one pane only, show the one that has the keys."""
+        """Where there is room for one pane only, show the one that has the focus."""
         self._focused_pane = self.pane_of(self.focused)
         self.update_layout()
 
@@ -167,12 +167,12 @@ class MainScreen(DeferredScreen):
         return self._arrangement.panes if self._arrangement is not None else frozenset()
 
     def pane_of(self, widget: Widget | None) -> Pane:
-        """Return the pane a widget belongs to; for none, the one that had the keys last."""
+        """Return the pane a widget belongs to; for none, the one that had the focus last."""
         inside = {ancestor.id for ancestor in widget.ancestors_with_self} if widget is not None else set()
         return next((name for name in PANES if name in inside), self._focused_pane)
 
     def make_visible(self, widget: Widget) -> None:
-        """See to it that a widget that gets the keys can be seen."""
+        """Make sure that a widget that gets the focus can be seen."""
         self._focused_pane = self.pane_of(widget)
         if self._only_pane is not None:
             self._only_pane = self._focused_pane
@@ -194,7 +194,7 @@ class MainScreen(DeferredScreen):
         self.update_layout()
 
     def close_side(self) -> bool:
-        """Hide the side pane; returns whether it had the keys."""
+        """Hide the side pane; returns whether it had the focus."""
         had_keys = self._focused_pane == "side"
         self._side = False
         if had_keys:

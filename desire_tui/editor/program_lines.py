@@ -1,4 +1,4 @@
-"""A program's lines. Several views may show one; whoever follows it hears of every replacement."""
+"""A program's lines. Several views may show one; followers are called at every replacement."""
 
 from __future__ import annotations
 

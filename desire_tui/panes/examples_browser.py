@@ -141,7 +141,7 @@ class ExamplesScreen(Question["ExampleChoice | None"]):
         self._list(event.value)
 
     def action_move(self, step: int) -> None:
-        """Move through the list while the search keeps the keys."""
+        """Move through the list while the search keeps the focus."""
         options = self.query_one(OptionList)
         at = options.highlighted
         if not self._listed or at is None:

@@ -22,7 +22,7 @@ class GraphPaging:
         self.overlay_next = False
 
     def follow(self, graph: Graph) -> bool:
-        """Show a graph that was just begun; tell whether it draws other variables than the one before."""
+        """Show a graph that was just begun; returns whether it draws other variables than the one before."""
         before = self.page
         others = before is None or (before.caption, before.frame.kind) != (graph.caption, graph.frame.kind)
         if self.overlay_next and before is not None:
@@ -56,7 +56,7 @@ class GraphPaging:
         return True
 
     def place(self, pages: Sequence[Graph]) -> str:
-        """Tell which page is shown if it is not the newest."""
+        """Return which page is shown if it is not the newest."""
         if self.page is None or not pages or self.page is pages[-1]:
             return ""
         return f"page {pages.index(self.page) + 1}/{len(pages)}" if self.page in pages else "old page"

@@ -113,7 +113,7 @@ class GraphPane(MouseGestures, can_focus=True):
 
     @property
     def page_mark(self) -> str:
-        """Tells which page is shown, if it is not the newest, and whether it is magnified."""
+        """Which page is shown, if it is not the newest, and whether it is magnified."""
         marks = [self.paging.place(self._pages()), "" if self.window.is_whole else "zoom"]
         told = " · ".join(mark for mark in marks if mark)
         return f" {told} " if told else ""

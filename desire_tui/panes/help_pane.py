@@ -74,7 +74,7 @@ class LinkRow(Static):
 
 
 class HelpPane(Vertical):
-    """One page at a time; Esc goes back to where the keys were."""
+    """One page at a time; Esc goes back to where the focus was."""
 
     DEFAULT_CSS = """
     HelpPane { background: $surface; }

@@ -19,7 +19,7 @@ DRAG_CELLS_MIN = 2
 
 
 class MouseGestures(Container):
-    """The part of a graph pane that hears the mouse; `rubber` is the rectangle being marked."""
+    """The part of a graph pane that handles the mouse; `rubber` is the rectangle being marked."""
 
     canvas: Canvas | None
     frame: TextFrame | None
@@ -60,7 +60,7 @@ class MouseGestures(Container):
         self.mark_cells()
 
     def on_mouse_up(self, event: events.MouseUp) -> None:
-        """Zoom into the rectangle; a mere click puts the cursor there."""
+        """Zoom into the rectangle; a plain click puts the cursor there."""
         self.release_mouse()
         box, self.rubber = self.rubber, None
         drag, self._drag = self._drag, None

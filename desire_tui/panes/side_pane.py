@@ -120,7 +120,7 @@ class SidePane(Vertical):
         self.query_one(ContentSwitcher).current = name
 
     def count_problems(self, count: int) -> None:
-        """Tell the tabs how many problems there are."""
+        """Show in the tabs how many problems there are."""
         self.query_one(SideTabs).problems = count
 
     @on(SideTabs.Chosen)

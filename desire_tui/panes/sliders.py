@@ -37,7 +37,7 @@ class Sliders(VerticalScroll):
         known.focus()
 
     def remove_focused(self) -> bool:
-        """Take away the slider that has the keys; False if none has."""
+        """Take away the slider that has the focus; False if none has."""
         focused = self.screen.focused
         if not isinstance(focused, Slider):
             return False
