@@ -411,3 +411,16 @@ def test_what_is_accepted_computes_what_python_computes(lines, start, n, x):
     expected = names["f"](mine, whole.tolist(), n, x)
     found = native(its.ctypes.data, whole.ctypes.data, n, x)
     assert repr([float(value) for value in (*mine, expected)]) == repr([*its.tolist(), found])
+
+
+@pytest.mark.parametrize("sign", ["<", "<=", ">", ">=", "==", "!="])
+def test_comparisons_of_equal_numbers_and_of_nan(sign):
+    text = f"def f(x: float, y: float) -> int:\n    return x {sign} y\n\ndef g(i: int, j: int) -> int:\n    return i {sign} j\n"
+    code = compile_text(write_program([Module(text, NAMES)], Outside({}), "plain_"), level=0)
+    floating = ctypes.CFUNCTYPE(INT, REAL, REAL)(code.address("plain_f"))
+    whole = ctypes.CFUNCTYPE(INT, INT, INT)(code.address("plain_g"))
+    for x, y in ((1, 1), (1, 2), (2, 1), (-1, 1)):
+        expected = eval(f"{x} {sign} {y}")
+        assert (floating(x, y), whole(x, y)) == (expected, expected)
+    for x, y in ((float("nan"), 1.0), (1.0, float("nan"))):
+        assert floating(x, y) == (sign == "!=")
