@@ -77,7 +77,7 @@ def forget_everything() -> None:
     forget_lines()
     shapes.forget()
     lowering_cache.forget()
-    for store in (rerolling._shapes, templates._known):  # nobody else wants them empty
+    for store in (rerolling._shapes, templates._templates):  # nobody else wants them empty
         store.clear()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_reach
+from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_footprint
 from tests.lowering.programs import segment
 
 ARRAYS = dict.fromkeys(("a", "b", "c", "x", "y"), (20,))
@@ -61,5 +61,5 @@ def test_overlapping_views_do_not_share_a_loop(views, body):
 
 def test_a_statement_that_would_read_what_it_has_written_goes_by_a_copy(views):
     bodies = ("Vector b = a", "Vector a = a{-1}", "Vector a = 2*a", "Vector a = c{1}")
-    copied = [needs_copy(statement_reach(views(body).body[0])) for body in bodies]
+    copied = [needs_copy(statement_footprint(views(body).body[0])) for body in bodies]
     assert copied == [True, True, False, False]

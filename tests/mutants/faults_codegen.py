@@ -23,14 +23,14 @@ def _stiff(old: str, new: str, *first: str) -> Mutant:
 
 CODEGEN = (
     # which array statements share a loop
-    _vector("and not touches(reach.writes, total.other)", "", "tests/codegen/test_fusion.py"),
-    _vector("and not touches(reach.other, total.writes)", "", "tests/codegen/test_fusion.py"),
-    _vector("and not _crosses(reach.same | reach.writes, total.writes)", "", "tests/codegen/test_fusion.py"),
-    _vector("and not _crosses(reach.writes, total.same)", "", "tests/codegen/test_fusion.py"),
-    _vector("touches(reach.writes, reach.other) or _crosses(reach.writes, reach.same)",
-            "touches(reach.writes, reach.other)", "tests/codegen/test_fusion.py"),
-    _vector("touches(reach.writes, reach.other) or _crosses(reach.writes, reach.same)",
-            "_crosses(reach.writes, reach.same)", "tests/codegen/test_fusion.py"),
+    _vector("and not any_overlap(footprint.writes, total.elsewhere)", "", "tests/codegen/test_fusion.py"),
+    _vector("and not any_overlap(footprint.elsewhere, total.writes)", "", "tests/codegen/test_fusion.py"),
+    _vector("and not _partial_overlap(footprint.elementwise | footprint.writes, total.writes)", "", "tests/codegen/test_fusion.py"),
+    _vector("and not _partial_overlap(footprint.writes, total.elementwise)", "", "tests/codegen/test_fusion.py"),
+    _vector("return overwrites or _partial_overlap(footprint.writes, footprint.elementwise)",
+            "return overwrites", "tests/codegen/test_fusion.py"),
+    _vector("return overwrites or _partial_overlap(footprint.writes, footprint.elementwise)",
+            "return _partial_overlap(footprint.writes, footprint.elementwise)", "tests/codegen/test_fusion.py"),
     # strips and elements
     _vector("icmp ult i64 {index}, {count}", "icmp ule i64 {index}, {count}", *program("vectors/shifts_beyond_the_end")),
     _vector("low, high = min(below, count), max(count - above, 0)", "low, high = min(below, count), count", *program("vectors/shifts_beyond_the_end")),
@@ -43,7 +43,7 @@ CODEGEN = (
     _scalar("operand != first and operand < first + count and first < operand + count",
             "operand > first and operand < first + count", "tests/codegen/test_rerolling.py"),
     _scalar("first <= slot < first + count for slot in operand", "first < slot < first + count for slot in operand", "tests/codegen/test_rerolled_reads.py"),
-    _scalar('frozenset((*OUTSIDE, "sinc", "sigmoid"))', "frozenset(())", "tests/codegen/test_rerolling.py"),
+    _scalar('frozenset((*C_FUNCTIONS, "sinc", "sigmoid"))', "frozenset(())", "tests/codegen/test_rerolling.py"),
     _scalar("if any(slot <= s < slot + count", "if any(slot < s < slot + count", "tests/codegen/test_registers.py"),
     _scalar('f"or i1 {later}, {alone}"', 'f"or i1 {alone}, {alone}"', *program("dynamic/last_of_thinned")),
     _scalar("icmp ne i64 {lag}, {count}", "icmp ne i64 {lag}, -1", *program("dynamic/delay_of_a_whole_buffer")),

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.ir.lanes import Lanes
 
-OUTSIDE = {
+C_FUNCTIONS = {
     "sin": "sin", "cos": "cos", "tan": "tan", "asin": "asin", "acos": "acos", "atan": "atan", "sinh": "sinh",
     "cosh": "cosh", "tanh": "tanh", "exp": "exp", "ln": "log", "log": "log10", "pow": "pow", "atan2": "atan2",
 }  # fmt: skip
@@ -18,9 +18,9 @@ OUTSIDE = {
 
 def apply(lanes: Lanes, name: str, args: list[str]) -> str:
     """Write the operation `name` (lowered.Op); return its value. KeyError for a name that does not exist."""
-    simple = OUTSIDE.get(name)
+    simple = C_FUNCTIONS.get(name)
     if simple is not None:
-        return lanes.outside(simple, *args)
+        return lanes.call_library(simple, *args)
     return _FORMULAS[name](lanes, *args)
 
 
@@ -62,7 +62,7 @@ def _rect(lanes: Lanes, x: str) -> str:
 
 
 def _sigmoid(lanes: Lanes, x: str) -> str:
-    grown = lanes.outside("exp", lanes.neg(x))
+    grown = lanes.call_library("exp", lanes.neg(x))
     return lanes.div(lanes.const(1.0), lanes.add(lanes.const(1.0), grown))
 
 
@@ -74,7 +74,7 @@ def _soft_step(lanes: Lanes, x: str) -> str:
 
 
 def _sinc(lanes: Lanes, x: str) -> str:
-    ratio = lanes.div(lanes.outside("sin", x), x)
+    ratio = lanes.div(lanes.call_library("sin", x), x)
     return lanes.choose(lanes.compare("oeq", x, lanes.const(0.0)), lanes.const(1.0), ratio)
 
 

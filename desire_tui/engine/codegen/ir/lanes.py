@@ -1,4 +1,4 @@
-"""Doubles one by one or several abreast: the same instructions over `double` or `<W x double>`."""
+"""Doubles one by one or as vectors: the same instructions over `double` or `<W x double>`."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Lanes:
         """Return a number in every lane."""
         return literal(value) if self.width == 1 else f"splat (double {literal(value)})"
 
-    def whole(self, value: int) -> str:
+    def integer(self, value: int) -> str:
         """Return a 64-bit integer in every lane."""
         return str(value) if self.width == 1 else f"splat (i64 {value})"
 
@@ -66,17 +66,17 @@ class Lanes:
     def intrinsic(self, name: str, a: str) -> str:
         """Call an exactly defined function of LLVM's own: sqrt, fabs, round, trunc."""
         function = f"llvm.{name}.{self.suffix}"
-        self.text.needs.add(f"declare {self.kind} @{function}({self.kind})")
+        self.text.declarations.add(f"declare {self.kind} @{function}({self.kind})")
         return self.text.op(f"call {self.kind} @{function}({self.kind} {a})")
 
-    def outside(self, name: str, *args: str) -> str:
+    def call_library(self, name: str, *args: str) -> str:
         """Call a function of the mathematical library, under a name that LLVM does not know.
 
         LLVM would rewrite `pow(x, 0.5)` and the like at some optimisation levels and not at others.
         """
         function = f"desire.{name}.{self.width}"
         kinds = ", ".join([self.kind] * len(args))
-        self.text.needs.add(f"declare {self.kind} @{function}({kinds}) #1")
+        self.text.declarations.add(f"declare {self.kind} @{function}({kinds}) #1")
         listed = ", ".join(f"{self.kind} {a}" for a in args)
         return self.text.op(f"call {self.kind} @{function}({listed})")
 

@@ -19,9 +19,9 @@ def advance(lanes: Lanes, state: str, count: int) -> str:
     """Write a jump of `count` draws from the integer state(s); return the new one(s)."""
     a, c = jump(count)
     text = lanes.text
-    grown = text.op(f"mul {lanes.integers} {state}, {lanes.whole(a)}")
-    moved = text.op(f"add {lanes.integers} {grown}, {lanes.whole(c)}")
-    return text.op(f"and {lanes.integers} {moved}, {lanes.whole(MASK)}")
+    grown = text.op(f"mul {lanes.integers} {state}, {lanes.integer(a)}")
+    moved = text.op(f"add {lanes.integers} {grown}, {lanes.integer(c)}")
+    return text.op(f"and {lanes.integers} {moved}, {lanes.integer(MASK)}")
 
 
 def fraction(lanes: Lanes, state: str) -> str:
@@ -37,7 +37,7 @@ def uniform(lanes: Lanes, state: str) -> str:
 
 def normal(lanes: Lanes, first: str, second: str) -> str:
     """Write sqrt(-2 ln u1)·cos(2π u2)."""
-    logarithm = lanes.outside("log", fraction(lanes, first))
+    logarithm = lanes.call_library("log", fraction(lanes, first))
     radius = apply(lanes, "sqrt", [lanes.mul(lanes.const(RADIUS_FACTOR), logarithm)])
     angle = lanes.mul(lanes.const(TWO_PI), fraction(lanes, second))
-    return lanes.mul(radius, lanes.outside("cos", angle))
+    return lanes.mul(radius, lanes.call_library("cos", angle))

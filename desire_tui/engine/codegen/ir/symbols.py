@@ -9,7 +9,7 @@ from __future__ import annotations
 import ctypes
 import functools
 
-from desire_tui.engine.codegen.ir.functions import OUTSIDE
+from desire_tui.engine.codegen.ir.functions import C_FUNCTIONS
 
 _MVEC_LETTER = {2: "b", 4: "d", 8: "e"}
 TWO_ARGUMENTS = frozenset(("pow", "atan2"))
@@ -19,7 +19,7 @@ TWO_ARGUMENTS = frozenset(("pow", "atan2"))
 def scalar_addresses() -> dict[str, int]:
     """Return the address of every library function, by its C name."""
     library = _mathematical_library()
-    return {name: _address(library, name) for name in OUTSIDE.values()}
+    return {name: _address(library, name) for name in C_FUNCTIONS.values()}
 
 
 def _mathematical_library() -> ctypes.CDLL:
@@ -42,7 +42,7 @@ def vector_addresses(width: int) -> dict[str, int]:
     except OSError:
         return {}
     found = {}
-    for name in OUTSIDE.values():
+    for name in C_FUNCTIONS.values():
         arguments = "vv" if name in TWO_ARGUMENTS else "v"
         try:
             found[name] = _address(library, f"_ZGV{letter}N{width}{arguments}_{name}")

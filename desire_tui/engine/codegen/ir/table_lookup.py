@@ -163,14 +163,14 @@ _SMIN = "declare i64 @llvm.smin.i64(i64, i64)"
 
 def table1(lanes: Lanes, node: Table1, x: str) -> str:
     """Write func1: linear between breakpoints, constant outside, nan for nan."""
-    lanes.text.needs.update((_PLACE, _TABLE1))
+    lanes.text.declarations.update((_PLACE, _TABLE1))
     base = lanes.text.op(f"getelementptr double, ptr %v, i64 {node.slot}")
     return _each(lanes, f"@table1(ptr {base}, i64 {node.count}, ", x)
 
 
 def table2(lanes: Lanes, node: Table2, x: str, y: str) -> str:
     """Write func2: bilinear over F, constant outside."""
-    lanes.text.needs.update((_PLACE, _BRACKET, _TABLE2, _SMIN))
+    lanes.text.declarations.update((_PLACE, _BRACKET, _TABLE2, _SMIN))
     f, xs, ys = (
         lanes.text.op(f"getelementptr double, ptr %v, i64 {slot}")
         for slot in (node.f_slot, node.x_slot, node.y_slot)

@@ -1,4 +1,4 @@
-"""The text of one LLVM function as it grows: fresh names, blocks, and what it needs declared.
+"""The text of one LLVM function as it grows: fresh names, blocks, and what the module must declare.
 
 Text rather than llvmlite's builder objects: writing 1,401 equations as strings takes 3 ms, as objects 200 ms.
 """
@@ -16,15 +16,16 @@ def literal(value: float) -> str:
 class IrText:
     """Lines of a function's body.
 
-    `needs` collects the names of outside functions and helpers called (`symbols`, `helpers` know their text).
+    `declarations` collects what the module must hold besides: declarations of the functions called, and
+    helpers' text.
     """
 
-    __slots__ = ("_count", "allocas", "label", "lines", "needs", "stem")
+    __slots__ = ("_count", "allocas", "declarations", "label", "lines", "stem")
 
     def __init__(self, stem: str = "v") -> None:
         self.lines: list[str] = []
         self.allocas: list[str] = []
-        self.needs: set[str] = set()
+        self.declarations: set[str] = set()
         self.stem = stem
         self.label = "entry"
         self._count = 0

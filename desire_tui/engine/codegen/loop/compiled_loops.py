@@ -46,4 +46,4 @@ def named(text: IrText) -> Piece:
     body = text.body()
     name = "r" + blake2b(body.encode(), digest_size=10).hexdigest()
     function = f"define i32 @{name}(ptr %m, ptr %c) #0 {{\n{body}\n}}"
-    return Piece(name, function, frozenset(text.needs))
+    return Piece(name, function, frozenset(text.declarations))

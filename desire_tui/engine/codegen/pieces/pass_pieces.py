@@ -62,7 +62,7 @@ def write(actions: Sequence[Action | Rolled]) -> Piece:
     whole = "\n".join((*start, body, "ret void"))
     name = "p" + blake2b(whole.encode(), digest_size=10).hexdigest()
     function = f"define void @{name}(ptr noalias %v, ptr noalias %dx, ptr noalias %c) #0 {{\n{whole}\n}}"
-    return Piece(name, function, frozenset(text.needs), statements.temps)
+    return Piece(name, function, frozenset(text.declarations), statements.temps)
 
 
 def _random_offset() -> int:

@@ -41,7 +41,7 @@ class Calls(Expressions):
             known = outside.modules.get(target.value.id, {}).get(name)
             if known is None:
                 self.refuse(node, f"a call of '{ast.unparse(target)}', which is unknown")
-            self.text.needs.add(known.declaration())
+            self.text.declarations.add(known.declaration())
             return self.call(node, known)
         place, _, _ = self.field(target)
         signature = outside.pointers.get(name)
@@ -81,7 +81,7 @@ class Calls(Expressions):
         return self.number(node.args[0])
 
     def _intrinsic(self, _node: ast.Call, name: str, argument: str) -> Value:
-        self.text.needs.add(f"declare double @llvm.{name}.f64(double)")
+        self.text.declarations.add(f"declare double @llvm.{name}.f64(double)")
         return Value(self.text.op(f"call double @llvm.{name}.f64(double {argument})"), REAL)
 
     def _call_min(self, node: ast.Call) -> Value:
@@ -115,7 +115,7 @@ class Calls(Expressions):
         ]
         width = 4 if to.kind.of == "i32" else 8
         size = self.text.op(f"mul i64 {self.whole(node.args[4]).text}, {width}")
-        self.text.needs.add("declare void @llvm.memmove.p0.p0.i64(ptr, ptr, i64, i1)")
+        self.text.declarations.add("declare void @llvm.memmove.p0.p0.i64(ptr, ptr, i64, i1)")
         self.text.do(
             f"call void @llvm.memmove.p0.p0.i64(ptr {places[0]}, ptr {places[1]}, i64 {size}, i1 false)"
         )

@@ -189,7 +189,7 @@ class Expressions:
         if isinstance(op, ast.Pow):
             if left.kind != REAL:
                 self.refuse(node, "a power of a whole number")
-            self.text.needs.add("declare double @llvm.pow.f64(double, double)")
+            self.text.declarations.add("declare double @llvm.pow.f64(double, double)")
             arguments = f"double {left.text}, double {self.as_real(right)}"
             return Value(self.text.op(f"call double @llvm.pow.f64({arguments})"), REAL)
         if isinstance(op, ast.Div):

@@ -44,7 +44,7 @@ def write_program(
     for node, module in found:
         text = IrText()
         _write(node, signatures[node.name], Surroundings(outside, module.names, signatures), text)
-        needs |= dict.fromkeys(sorted(text.needs))
+        needs |= dict.fromkeys(sorted(text.declarations))
         texts.append(text)
     heads = (_head(signatures[node.name], public=public is None or node.name in public) for node, _ in found)
     return "\n".join((*needs, *(f"{h} {{\n{text.body()}\n}}" for h, text in zip(heads, texts, strict=True))))

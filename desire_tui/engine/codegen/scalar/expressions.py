@@ -1,4 +1,4 @@
-"""Values of lowered segments as instructions, scalar or several elements abreast."""
+"""Values of lowered segments as instructions, scalar or as vectors."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.ir.functions import OUTSIDE
+from desire_tui.engine.codegen.ir.functions import C_FUNCTIONS
 from desire_tui.engine.codegen.scalar.templates import NotPlainError, shape
 from desire_tui.engine.lowered.statements import Deriv, Set
 
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action
 
-_FEWEST = 16
+_RUN_LEAST = 16
 """Shorter runs are not worth a loop."""
-_INEXACT = frozenset((*OUTSIDE, "sinc", "sigmoid"))
+_INEXACT = frozenset((*C_FUNCTIONS, "sinc", "sigmoid"))
 
 _Shape = tuple[tuple[object, ...], list[int | float]]
 _shapes: dict[int, tuple[Value, _Shape | None]] = {}
@@ -47,7 +47,7 @@ class Rolled:
 class _Run:
     """A run as it grows."""
 
-    __slots__ = ("actions", "key", "kind", "leaves", "round_again", "side_by_side", "target")
+    __slots__ = ("actions", "contiguous", "key", "kind", "leaves", "periodic", "target")
 
     def __init__(self, action: Set | Deriv, key: tuple[object, ...], leaves: list[int | float]) -> None:
         self.actions = [action]
@@ -55,27 +55,27 @@ class _Run:
         self.key = key
         self.leaves = [leaves]
         self.target = _target(action)
-        self.side_by_side = [type(leaf) is int for leaf in leaves]
-        self.round_again = [True] * len(leaves)
+        self.contiguous = [type(leaf) is int for leaf in leaves]
+        self.periodic = [True] * len(leaves)
 
-    def takes(self, action: Set | Deriv, leaves: list[int | float], width: int) -> bool:
+    def extend(self, action: Set | Deriv, leaves: list[int | float], width: int) -> bool:
         """Add a statement of the same shape if it continues the run."""
         count = len(self.actions)
         if _target(action) != self.target + count:
             return False
         first = self.leaves[0]
         earlier = self.leaves[count - width] if count >= width else None
-        sides, agains = self.side_by_side, self.round_again
+        contiguous, periodic = self.contiguous, self.periodic
         changed = []
         for q, leaf in enumerate(leaves):
-            side = sides[q] and leaf == first[q] + count and type(leaf) is int
-            again = agains[q] and (earlier is None or leaf is earlier[q] or _same(leaf, earlier[q]))
-            if not (side or again):
+            is_contiguous = contiguous[q] and leaf == first[q] + count and type(leaf) is int
+            is_periodic = periodic[q] and (earlier is None or leaf is earlier[q] or _same(leaf, earlier[q]))
+            if not (is_contiguous or is_periodic):
                 return False
-            if side is not sides[q] or again is not agains[q]:
-                changed.append((q, side, again))
-        for q, side, again in changed:
-            sides[q], agains[q] = side, again
+            if is_contiguous is not contiguous[q] or is_periodic is not periodic[q]:
+                changed.append((q, is_contiguous, is_periodic))
+        for q, is_contiguous, is_periodic in changed:
+            contiguous[q], periodic[q] = is_contiguous, is_periodic
         self.actions.append(action)
         self.leaves.append(leaves)
         return True
@@ -83,11 +83,11 @@ class _Run:
     def result(self, width: int) -> list[Action | Rolled]:
         """Return the run as one, or its statements if it is short or a statement reads what another sets."""
         count = len(self.actions)
-        if count < _FEWEST:
+        if count < _RUN_LEAST:
             return list(self.actions)
         operands: list[int | tuple[int | float, ...]] = []
         for q, leaf in enumerate(self.leaves[0]):
-            if self.side_by_side[q]:
+            if self.contiguous[q]:
                 assert isinstance(leaf, int)
                 operands.append(leaf)
             else:
@@ -131,7 +131,7 @@ def roll(actions: Iterable[Action], width: int) -> list[Action | Rolled]:
         key, leaves = found
         assert type(action) is Set or type(action) is Deriv
         if run is not None:
-            if run.kind is type(action) and run.key == key and run.takes(action, leaves, width):
+            if run.kind is type(action) and run.key == key and run.extend(action, leaves, width):
                 continue
             done += run.result(width)
         run = _Run(action, key, leaves)

@@ -129,8 +129,8 @@ class ScalarStatements:
         op = self.text.op
         before = op(f"add i64 {self.memory.load('points_before')}, {self.memory.load('point')}")
         number = op(f"add i64 {before}, 1")
-        whole = op(f"icmp eq i64 {op(f'srem i64 {number}, {every}')}, 0")
-        return op(f"and i1 {whole}, {self._fresh_point()}")
+        divisible = op(f"icmp eq i64 {op(f'srem i64 {number}, {every}')}, 0")
+        return op(f"and i1 {divisible}, {self._fresh_point()}")
 
     def _fresh_point(self) -> str:
         """Whether this is not the joint of a continued run, which was already counted.

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.cells import Cells
     from desire_tui.engine.lowered.expressions import Value
 
-_known: dict[tuple[object, ...], tuple[str, frozenset[str], str]] = {}
+_templates: dict[tuple[object, ...], tuple[str, frozenset[str], str]] = {}
 """Shape → lines with places for leaves and a prefix, what they need declared, the result."""
 _SHAPES_MOST = 5000
 _NODES_MOST = 200
@@ -74,13 +74,13 @@ def write(text: IrText, cells: Cells, node: Value) -> str | None:
     names = [load(leaf) if type(leaf) is int else literal(leaf) for leaf in leaves]
     if len(key) == 1:
         return names[0]
-    template = _known.get(tuple(key))
+    template = _templates.get(tuple(key))
     if template is None:
-        template = _learn(tuple(key), node)
-    lines, needs, result = template
+        template = _make_template(tuple(key), node)
+    lines, declarations, result = template
     prefix = text.fresh()
-    if needs:
-        text.needs |= needs
+    if declarations:
+        text.declarations |= declarations
     text.lines.append(lines.format(prefix, *names))
     return result.format(prefix)
 
@@ -96,20 +96,20 @@ def write_shape(lanes: Lanes, node: Value, leaves: Iterator[str]) -> str:
     return apply(lanes, node.name, [write_shape(lanes, a, leaves) for a in node.args])
 
 
-def _learn(key: tuple[object, ...], node: Value) -> tuple[str, frozenset[str], str]:
+def _make_template(key: tuple[object, ...], node: Value) -> tuple[str, frozenset[str], str]:
     text = IrText("!")
     lanes = Lanes(text)
     count = key.count(None)
     result = write_shape(lanes, node, iter([f"?{number}?" for number in range(1, count + 1)]))
     lines = "\n".join(text.lines).replace("{", "{{").replace("}", "}}")
-    lines = _places(lines, count)
-    if len(_known) > _SHAPES_MOST:
-        _known.clear()
-    template = _known[key] = (lines, frozenset(text.needs), _places(result, count))
+    lines = _with_placeholders(lines, count)
+    if len(_templates) > _SHAPES_MOST:
+        _templates.clear()
+    template = _templates[key] = (lines, frozenset(text.declarations), _with_placeholders(result, count))
     return template
 
 
-def _places(lines: str, count: int) -> str:
+def _with_placeholders(lines: str, count: int) -> str:
     lines = lines.replace("%!", "%{0}.")
     for number in range(1, count + 1):
         lines = lines.replace(f"?{number}?", f"{{{number}}}")

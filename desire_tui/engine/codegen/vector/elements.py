@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
 
 
-class Prepared:
+class LoopSetup:
     """What a statement's loop needs from before it: invariants in all lanes, bases, products, random state.
 
     `states` is a stack cell with the random state of each lane *before* its first draw; `per_element` numbers
@@ -59,7 +59,7 @@ def invariants(node: Value) -> list[Value]:
 class StripExpressions(IrExpressions):
     """Evaluates one statement for one strip."""
 
-    def __init__(self, strip: Strip, cells: Cells, prepared: Prepared) -> None:
+    def __init__(self, strip: Strip, cells: Cells, prepared: LoopSetup) -> None:
         super().__init__(strip.lanes, cells)
         self.strip = strip
         self.prepared = prepared
@@ -130,4 +130,4 @@ def lane_states(lanes: Lanes, start: str, count: int, per_element: int) -> str:
     all_same = text.op(f"shufflevector {lanes.integers} {one}, {lanes.integers} poison, {zeros}")
     grown = text.op(f"mul {lanes.integers} {all_same}, <{a}>")
     moved = text.op(f"add {lanes.integers} {grown}, <{c}>")
-    return text.op(f"and {lanes.integers} {moved}, {lanes.whole(MASK)}")
+    return text.op(f"and {lanes.integers} {moved}, {lanes.integer(MASK)}")

@@ -23,17 +23,17 @@ _FUSED_MOST = 16
 
 
 @dataclass(slots=True)
-class Reach:
-    """Ranges (slot, end). `same`: read at the element's own index; `other`: read anyhow else."""
+class Footprint:
+    """Ranges (slot, end). `elementwise`: read at the element's own index; `elsewhere`: read anyhow else."""
 
-    same: set[Range] = field(default_factory=set)
-    other: set[Range] = field(default_factory=set)
+    elementwise: set[Range] = field(default_factory=set)
+    elsewhere: set[Range] = field(default_factory=set)
     writes: set[Range] = field(default_factory=set)
 
-    def absorb(self, more: Reach) -> None:
+    def merge(self, more: Footprint) -> None:
         """Add another statement's."""
-        self.same |= more.same
-        self.other |= more.other
+        self.elementwise |= more.elementwise
+        self.elsewhere |= more.elsewhere
         self.writes |= more.writes
 
 
@@ -42,44 +42,45 @@ def overlap(a: Range, b: Range) -> bool:
     return a[0] < b[1] and b[0] < a[1]
 
 
-def touches(ranges: Iterable[Range], others: Iterable[Range]) -> bool:
+def any_overlap(ranges: Iterable[Range], others: Iterable[Range]) -> bool:
     """Whether any two overlap."""
     listed = list(others)
     return any(overlap(a, b) for a in ranges for b in listed)
 
 
-def _crosses(ranges: Iterable[Range], others: Iterable[Range]) -> bool:
+def _partial_overlap(ranges: Iterable[Range], others: Iterable[Range]) -> bool:
     """Whether any two overlap without being the same range."""
     listed = list(others)
     return any(a != b and overlap(a, b) for a in ranges for b in listed)
 
 
-def value_reach(node: Value) -> Reach:
+def value_footprint(node: Value) -> Footprint:
     """Return what an expression reads."""
-    reach = Reach()
+    footprint = Footprint()
     for part in walk_values(node):
-        ranges = reach.same if isinstance(part, Vec) else reach.other
+        ranges = footprint.elementwise if isinstance(part, Vec) else footprint.elsewhere
         ranges.update((slot, slot + count) for slot, count in memory(part))
-    return reach
+    return footprint
 
 
-def statement_reach(action: SetVec | DerivVec) -> Reach:
-    """Return what an elementwise statement reads and writes (derivatives are nobody's operand)."""
-    reach = value_reach(action.value)
-    reach.same.update((slot, slot + count) for slot, count in own_reads(action))
-    reach.writes.update((slot, slot + count) for slot, count in writes(action))
-    return reach
+def statement_footprint(action: SetVec | DerivVec) -> Footprint:
+    """Return what an elementwise statement reads and writes (no statement reads derivatives)."""
+    footprint = value_footprint(action.value)
+    footprint.elementwise.update((slot, slot + count) for slot, count in own_reads(action))
+    footprint.writes.update((slot, slot + count) for slot, count in writes(action))
+    return footprint
 
 
-def needs_copy(reach: Reach) -> bool:
+def needs_copy(footprint: Footprint) -> bool:
     """Whether a statement would read elements that it has already changed."""
-    return touches(reach.writes, reach.other) or _crosses(reach.writes, reach.same)
+    overwrites = any_overlap(footprint.writes, footprint.elsewhere)
+    return overwrites or _partial_overlap(footprint.writes, footprint.elementwise)
 
 
 def groups(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]]:
     """Group neighbouring statements that may share one loop; all others stand alone."""
     group: list[Action | Rolled] = []
-    total = Reach()
+    total = Footprint()
     count = 0
     for action in actions:
         if not isinstance(action, SetVec | DerivVec) or (
@@ -90,27 +91,27 @@ def groups(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]
                 group = []
             yield [action]
             continue
-        reach = statement_reach(action)
+        footprint = statement_footprint(action)
         joins = (
             group
             and count == action.count
             and len(group) < _FUSED_MOST
-            and not needs_copy(reach)
-            and not touches(reach.other, total.writes)
-            and not touches(reach.writes, total.other)
-            and not _crosses(reach.same | reach.writes, total.writes)
-            and not _crosses(reach.writes, total.same)
+            and not needs_copy(footprint)
+            and not any_overlap(footprint.elsewhere, total.writes)
+            and not any_overlap(footprint.writes, total.elsewhere)
+            and not _partial_overlap(footprint.elementwise | footprint.writes, total.writes)
+            and not _partial_overlap(footprint.writes, total.elementwise)
         )
         if joins:
             group.append(action)
-            total.absorb(reach)
+            total.merge(footprint)
             continue
         if group:
             yield group
             group = []
-        if needs_copy(reach):
+        if needs_copy(footprint):
             yield [action]
             continue
-        group, total, count = [action], reach, action.count
+        group, total, count = [action], footprint, action.count
     if group:
         yield group

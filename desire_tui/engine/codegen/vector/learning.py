@@ -28,18 +28,18 @@ def write_learning(statements: ArrayOperands, action: LearningStep) -> None:
         case "CLEARN":
             criterion = "0.0" if action.criterion is None else statements.scalars.value(action.criterion)
             wins = "null" if action.count_slot is None else statements.at(action.count_slot)
-            text.needs.add(_compete())
+            text.declarations.add(_compete())
             arrays = f"ptr {out}, ptr {weights}, ptr {x}"
             found = text.op(f"call double @compete({arrays}, {sizes}, double {criterion}, ptr {wins})")
             if action.full_slot is not None:
                 text.do(f"store double {found}, ptr {statements.at(action.full_slot)}")
         case "INTP":
             _write_product(statements, action, out, weights, x)
-            text.needs.add(_threshold())
+            text.declarations.add(_threshold())
             text.do(f"call void @threshold(ptr {out}, i64 {rows}, double {rate})")
         case "PLEARN":
             _write_product(statements, action, out, weights, x)
-            text.needs.add(_sanger())
+            text.declarations.add(_sanger())
             rest = statements.temp(cols)
             text.do(f"call void @sanger(ptr {out}, ptr {weights}, ptr {x}, {sizes}, ptr {rest})")
         case _:
@@ -49,7 +49,7 @@ def write_learning(statements: ArrayOperands, action: LearningStep) -> None:
 def _write_product(statements: ArrayOperands, action: LearningStep, out: str, weights: str, x: str) -> None:
     """Write v = W·x."""
     text = statements.text
-    text.needs.add(products.matrix_times_vector())
+    text.declarations.add(products.matrix_times_vector())
     sizes = f"i64 {action.out_count}, i64 {action.in_count}"
     text.do(f"call void @matvec(ptr {weights}, ptr {x}, ptr {out}, {sizes})")
 

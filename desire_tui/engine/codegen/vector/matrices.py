@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.counted_loops import loop
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
-from desire_tui.engine.codegen.vector.fusion import Reach, needs_copy, value_reach
+from desire_tui.engine.codegen.vector.fusion import needs_copy, value_footprint
 from desire_tui.engine.codegen.vector.strips import Strip
 from desire_tui.engine.lowered.effects import count_draws
 from desire_tui.engine.lowered.expressions import Outer
@@ -25,8 +25,9 @@ def write_matrix(statements: ArrayOperands, action: SetMat) -> None:
     count = action.rows * action.cols
     values = (action.value, action.lower, action.upper)
     prepared = statements.prepare(count, count_draws(*values), *values)
-    reads = value_reach(action.value)
-    copies = needs_copy(Reach(reads.same, reads.other, {(action.slot, action.slot + count)}))
+    footprint = value_footprint(action.value)
+    footprint.writes.add((action.slot, action.slot + count))
+    copies = needs_copy(footprint)
     own = statements.at(action.slot)
     target = statements.temp(count) if copies else own
     mask = None if action.mask_slot is None else statements.at(action.mask_slot)
@@ -63,15 +64,15 @@ def _row_strips(statements: ArrayOperands, cols: int, row: str, body: Callable[[
     """Write the loop over one row's strips."""
     text, wide = statements.text, statements.wide
     start = text.op(f"mul i64 {row}, {cols}")
-    whole = cols // wide.width * wide.width
+    full = cols // wide.width * wide.width
 
     def strip(column: str, active: int) -> None:
         body(Strip(wide, text.op(f"add i64 {start}, {column}"), active, row=row, column=column))
 
-    if whole:
-        loop(text, "0", str(whole), wide.width, lambda column: strip(column, wide.width))
-    if cols > whole:
-        strip(str(whole), cols - whole)
+    if full:
+        loop(text, "0", str(full), wide.width, lambda column: strip(column, wide.width))
+    if cols > full:
+        strip(str(full), cols - full)
 
 
 def write_dot(statements: ArrayOperands, action: SetDot) -> None:
@@ -82,10 +83,10 @@ def write_dot(statements: ArrayOperands, action: SetDot) -> None:
         count = term.left.count
         left = statements.at(term.left.slot)
         if term.right is None:
-            text.needs.add(products.total())
+            text.declarations.add(products.total())
             value = text.op(f"call double @total(ptr {left}, i64 {count})")
         else:
-            text.needs.add(products.dot())
+            text.declarations.add(products.dot())
             right = statements.base(term.right)
             value = text.op(f"call double @dot(ptr {left}, ptr {right}, i64 {count})")
         total = lanes.add(total, value if term.sign == 1.0 else lanes.mul(lanes.const(term.sign), value))

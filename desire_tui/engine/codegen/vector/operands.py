@@ -9,7 +9,7 @@ from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.random import advance
 from desire_tui.engine.codegen.scalar.statements import ScalarStatements
 from desire_tui.engine.codegen.vector import products
-from desire_tui.engine.codegen.vector.elements import Prepared, invariants, lane_states
+from desire_tui.engine.codegen.vector.elements import LoopSetup, invariants, lane_states
 from desire_tui.engine.codegen.vector.strips import Strip
 from desire_tui.engine.lowered.expressions import ElementOperand, MatVec, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowered.walk import walk_values
@@ -50,9 +50,9 @@ class ArrayOperands(ScalarStatements):
 
     # ------------------------------------------------------------------ before a loop
 
-    def prepare(self, count: int, per_element: int, *values: Value | None) -> Prepared:
+    def prepare(self, count: int, per_element: int, *values: Value | None) -> LoopSetup:
         """Write what one statement's loop needs from before it."""
-        prepared = Prepared()
+        prepared = LoopSetup()
         for value in values:
             if value is None:
                 continue
@@ -77,7 +77,7 @@ class ArrayOperands(ScalarStatements):
             case MatVec():
                 return self.product(node)
             case PatternRow():
-                return self._row(node)
+                return self._pattern_row(node)
             case Outer():
                 return self.at(node.v_slot)
             case Vec() | ShiftedVec():
@@ -88,7 +88,7 @@ class ArrayOperands(ScalarStatements):
     def product(self, node: MatVec) -> str:
         """Write a matrix product into scratch memory."""
         name = "tmatvec" if node.transposed else "matvec"
-        self.text.needs.add(
+        self.text.declarations.add(
             products.transposed_times_vector() if node.transposed else products.matrix_times_vector()
         )
         result = self.temp(node.cols if node.transposed else node.rows)
@@ -98,14 +98,14 @@ class ArrayOperands(ScalarStatements):
         )
         return result
 
-    def _row(self, node: PatternRow) -> str:
+    def _pattern_row(self, node: PatternRow) -> str:
         """Return the address of row ((trnc(iRow) - 1) mod rows); beyond all reason, the first one."""
         op = self.text.op
         number = self.cells.load(IROW)
         sane = self.lanes.compare("olt", self.lanes.intrinsic("fabs", number), self.lanes.const(1e15))
         safe = self.lanes.choose(sane, number, self.lanes.const(1.0))
-        whole = op(f"add i64 {op(f'fptosi double {safe} to i64')}, -1")
-        rest = op(f"srem i64 {whole}, {node.rows}")
+        zero_based = op(f"add i64 {op(f'fptosi double {safe} to i64')}, -1")
+        rest = op(f"srem i64 {zero_based}, {node.rows}")
         lifted = op(f"add i64 {rest}, {node.rows}")
         row = op(f"select i1 {op(f'icmp slt i64 {rest}, 0')}, i64 {lifted}, i64 {rest}")
         return op(f"getelementptr double, ptr {self.at(node.slot)}, i64 {op(f'mul i64 {row}, {node.cols}')}")
@@ -118,13 +118,13 @@ class ArrayOperands(ScalarStatements):
         low, high = min(below, count), max(count - above, 0)
         if low >= high:
             low = high = count
-        whole = low + (high - low) // wide.width * wide.width
+        full_end = low + (high - low) // wide.width * wide.width
         if low:
             loop(text, "0", str(low), 1, lambda i: body(Strip(wide, i, 1, edge=True)))
-        if whole > low:
-            loop(text, str(low), str(whole), wide.width, lambda i: body(Strip(wide, i, wide.width)))
-        if high > whole:
-            body(Strip(wide, str(whole), high - whole))
+        if full_end > low:
+            loop(text, str(low), str(full_end), wide.width, lambda i: body(Strip(wide, i, wide.width)))
+        if high > full_end:
+            body(Strip(wide, str(full_end), high - full_end))
         if count > high:
             loop(text, str(high), str(count), 1, lambda i: body(Strip(wide, i, 1, edge=True)))
 
@@ -134,6 +134,6 @@ class ArrayOperands(ScalarStatements):
 
     def move(self, source: str, target: str, count: int) -> None:
         """Copy an array."""
-        self.text.needs.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
+        self.text.declarations.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
         arguments = f"ptr {target}, ptr {source}, i64 {8 * count}, i1 false"
         self.text.do(f"call void @llvm.memcpy.p0.p0.i64({arguments})")

@@ -25,19 +25,19 @@ def _function(kind: str, name: str, parameters: str, text: IrText, memory: str) 
     return f"{head} {{\n{text.body()}\n}}"
 
 
-def _begin(text: IrText, lanes: Lanes, count: int) -> list[str]:
+def _accumulators(text: IrText, lanes: Lanes, count: int) -> list[str]:
     cells = [text.alloca(lanes.kind) for _ in range(count)]
     for cell in cells:
         text.do(f"store {lanes.kind} zeroinitializer, ptr {cell}")
     return cells
 
 
-def _grow(lanes: Lanes, cell: str, value: str) -> None:
+def _accumulate(lanes: Lanes, cell: str, value: str) -> None:
     text = lanes.text
     text.do(f"store {lanes.kind} {lanes.add(text.op(f'load {lanes.kind}, ptr {cell}'), value)}, ptr {cell}")
 
 
-def _collect(wide: Lanes, cell: str) -> str:
+def _sum_of_lanes(wide: Lanes, cell: str) -> str:
     """Sum of the lanes, in pairs."""
     text, single = wide.text, Lanes(wide.text)
     total = text.op(f"load {wide.kind}, ptr {cell}")
@@ -47,7 +47,7 @@ def _collect(wide: Lanes, cell: str) -> str:
     return parts[0]
 
 
-def _rows_times(text: IrText, first: str, rows: int) -> None:
+def _write_rows(text: IrText, first: str, rows: int) -> None:
     """Write y[first …] for so many rows side by side."""
     wide, single = Lanes(text, _LANES), Lanes(text)
     bases = []
@@ -62,16 +62,16 @@ def _rows_times(text: IrText, first: str, rows: int) -> None:
     def wide_step(k: str) -> None:
         x = fetch(wide, "%x", k)
         for base, cell in zip(bases, cells, strict=True):
-            _grow(wide, cell, wide.mul(fetch(wide, base, k), x))
+            _accumulate(wide, cell, wide.mul(fetch(wide, base, k), x))
 
     def single_step(k: str) -> None:
         x = fetch(single, "%x", k)
         for base, cell in zip(bases, sums, strict=True):
-            _grow(single, cell, single.mul(fetch(single, base, k), x))
+            _accumulate(single, cell, single.mul(fetch(single, base, k), x))
 
     loop(text, "0", "%main", _LANES, wide_step)
     for cell, total in zip(cells, sums, strict=True):
-        text.do(f"store double {_collect(wide, cell)}, ptr {total}")
+        text.do(f"store double {_sum_of_lanes(wide, cell)}, ptr {total}")
     loop(text, "%main", "%cols", 1, single_step)
     for q, total in enumerate(sums):
         put(single, "%y", text.op(f"add i64 {first}, {q}"), text.op(f"load double, ptr {total}"))
@@ -85,8 +85,8 @@ def matrix_times_vector() -> str:
     text.do("%main = sub i64 %cols, %rest")
     text.do(f"%some = urem i64 %rows, {_ROWS}")
     text.do("%fours = sub i64 %rows, %some")
-    loop(text, "0", "%fours", _ROWS, lambda r: _rows_times(text, r, _ROWS))
-    loop(text, "%fours", "%rows", 1, lambda r: _rows_times(text, r, 1))
+    loop(text, "0", "%fours", _ROWS, lambda r: _write_rows(text, r, _ROWS))
+    loop(text, "%fours", "%rows", 1, lambda r: _write_rows(text, r, 1))
     text.do("ret void")
     parameters = "ptr noalias readonly %a, ptr noalias readonly %x, ptr noalias %y, i64 %rows, i64 %cols"
     return _function("void", "matvec", parameters, text, "argmem: readwrite")
@@ -107,7 +107,7 @@ def transposed_times_vector() -> str:
         def one(i: str) -> None:
             at = text.op(f"add i64 {text.op(f'mul i64 {i}, %cols')}, {k}")
             x = lanes.splat(fetch(single, "%x", i))
-            _grow(lanes, total, lanes.mul(fetch(lanes, "%a", at), x))
+            _accumulate(lanes, total, lanes.mul(fetch(lanes, "%a", at), x))
 
         loop(text, "0", "%rows", 1, one)
         put(lanes, "%y", k, text.op(f"load {lanes.kind}, ptr {total}"))
@@ -125,21 +125,21 @@ def _reduction(name: str, arrays: Sequence[str]) -> str:
     wide, single = Lanes(text, _LANES), Lanes(text)
     text.do(f"%rest = urem i64 %n, {2 * _LANES}")
     text.do("%main = sub i64 %n, %rest")
-    first, second = _begin(text, wide, 2)
-    (total,) = _begin(text, single, 1)
+    first, second = _accumulators(text, wide, 2)
+    (total,) = _accumulators(text, single, 1)
 
     def product(lanes: Lanes, i: str) -> str:
         parts = [fetch(lanes, f"%{array}", i) for array in arrays]
         return lanes.mul(*parts) if len(parts) == 2 else parts[0]
 
     def both(i: str) -> None:
-        _grow(wide, first, product(wide, i))
-        _grow(wide, second, product(wide, text.op(f"add i64 {i}, {_LANES}")))
+        _accumulate(wide, first, product(wide, i))
+        _accumulate(wide, second, product(wide, text.op(f"add i64 {i}, {_LANES}")))
 
     loop(text, "0", "%main", 2 * _LANES, both)
-    _grow(wide, first, text.op(f"load {wide.kind}, ptr {second}"))
-    text.do(f"store double {_collect(wide, first)}, ptr {total}")
-    loop(text, "%main", "%n", 1, lambda i: _grow(single, total, product(single, i)))
+    _accumulate(wide, first, text.op(f"load {wide.kind}, ptr {second}"))
+    text.do(f"store double {_sum_of_lanes(wide, first)}, ptr {total}")
+    loop(text, "%main", "%n", 1, lambda i: _accumulate(single, total, product(single, i)))
     text.do(f"ret double {text.op(f'load double, ptr {total}')}")
     parameters = ", ".join((*(f"ptr readonly %{array}" for array in arrays), "i64 %n"))
     return _function("double", name, parameters, text, "argmem: read")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, assert_never
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
-from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_reach
+from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_footprint
 from desire_tui.engine.codegen.vector.learning import write_learning
 from desire_tui.engine.codegen.vector.matrices import write_dot, write_matrix
 from desire_tui.engine.codegen.vector.operands import ArrayOperands
@@ -95,7 +95,7 @@ class _Writer:
         if isinstance(action, DerivVec):
             self._target = statements.text.op(f"getelementptr double, ptr %dx, i64 {action.state}")
             return
-        self._copy = needs_copy(statement_reach(action)) or action.mode == "largest"
+        self._copy = needs_copy(statement_footprint(action)) or action.mode == "largest"
         self._target = statements.temp(action.count) if self._copy else statements.at(action.slot)
         if action.mask_slot is not None:
             self._mask = statements.at(action.mask_slot)
@@ -122,7 +122,7 @@ class _Writer:
             return
         match action.mode:
             case "largest":
-                statements.text.needs.add(products.largest())
+                statements.text.declarations.add(products.largest())
                 target = statements.at(action.slot)
                 arguments = f"ptr {self._target}, ptr {target}, i64 {action.count}"
                 statements.text.do(f"call void @largest({arguments})")
