@@ -9,7 +9,7 @@ from desire_tui.engine.passes.sparsity import sparsity_pattern
 from tests.passes.test_differentiate import Model, program
 
 SCRIPT = """
-ARRAY c[2], m[2], W[2, 2], A[2, 2], a[2], b[2], F[2, 2], U[2], V[2]
+ARRAY big[4], c[2], m[2], W[2, 2], A[2, 2], a[2], b[2], F[2, 2], U[2], V[2]
 STATE x[2]
 c[1] = 3 | c[2] = 5 | m[2] = 1 | x[1] = 0.25 | x[2] = 0.75
 F[1, 1] = 1 | F[1, 2] = 3 | F[2, 1] = 2 | F[2, 2] = 8
@@ -56,7 +56,12 @@ CASES = {
         "Vectr d/dt x = 0*c\nd/dt z = recip(x[1]) + sat(x[2]) + min(x[1], x[2])*2 + 2^x[2]",
         [[0, 0, 0], [0, 0, 0], [2 - X**-2, 1 + np.log(2) * 2**Y, 0]],
     ),
-    # an element of a view: a is x, shifted by one, and the scalar of its first element is set anew
+    # an element in the middle is set anew, the last one is the vector's still
+    "an element behind one that is set anew": (
+        "Vector big = 3*x[1]\nbig[2] = x[2]\nVectr d/dt x = 0*c\nd/dt z = big[4] + 10*big[2]",
+        [[0, 0, 0], [0, 0, 0], [3, 10, 0]],
+    ),
+    # its first element is the other state
     "an element that is set behind its vector": (
         "Vector a = 3*x\na[1] = x[2]\nVectr d/dt x = a\nd/dt z = 0",
         [[0, 1, 0], [0, 3, 0], [0, 0, 0]],
