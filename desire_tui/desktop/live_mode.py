@@ -1,4 +1,4 @@
-"""LiveMode mode: a moved slider re-runs the program with its value at once.
+"""Live mode: a moved slider re-runs the program with its value at once.
 
 While a re-run goes on only the newest values wait for the next one: a slider never has to catch up.
 """

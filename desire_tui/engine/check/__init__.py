@@ -1,1 +1,1 @@
-"""Check."""
+"""Every problem of a program that can be found before it runs."""

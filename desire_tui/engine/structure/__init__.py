@@ -1,1 +1,1 @@
-"""Structure."""
+"""What a script is made of: blocks, jumps, labels, definitions, data."""
