@@ -1,4 +1,4 @@
-"""The session: what a user of the engine holds in his hand."""
+"""A session: the engine as its users see it; one program at a time, its values, runs and graphs."""
 
 from __future__ import annotations
 

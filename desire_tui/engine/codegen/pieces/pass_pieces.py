@@ -14,7 +14,7 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
-from desire_tui.engine.codegen.vector.vectors import ArrayStatements
+from desire_tui.engine.codegen.vector.array_statements import ArrayStatements
 from desire_tui.engine.lowered.walk import walk_actions
 
 if TYPE_CHECKING:
