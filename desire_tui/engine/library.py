@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def _lim(x: float) -> float:
-    return x if x > 0.0 else 0.0
+    return 0.0 if x <= 0.0 else x
 
 
 def _sat(x: float) -> float:
@@ -29,7 +29,7 @@ def _sat(x: float) -> float:
 
 
 def _sat_unit(x: float) -> float:
-    return 1.0 if x > 1.0 else x if x > 0.0 else 0.0
+    return 1.0 if x > 1.0 else 0.0 if x <= 0.0 else x
 
 
 def _deadz(x: float) -> float:
@@ -37,23 +37,23 @@ def _deadz(x: float) -> float:
 
 
 def _deadc(x: float) -> float:
-    return 1.0 if x > 1.0 else -1.0 if x < -1.0 else 0.0
+    return 1.0 if x > 1.0 else -1.0 if x < -1.0 else 0.0 if x <= 1.0 else x
 
 
 def _swtch(x: float) -> float:
-    return 1.0 if x > 0.0 else 0.0
+    return 1.0 if x > 0.0 else 0.0 if x <= 0.0 else x
 
 
 def _sgn(x: float) -> float:
-    return 1.0 if x > 0.0 else -1.0 if x < 0.0 else 0.0
+    return 1.0 if x > 0.0 else -1.0 if x < 0.0 else x + 0.0
 
 
 def _comp(x: float, minus: float, plus: float) -> float:
-    return plus if x > 0.0 else minus
+    return plus if x > 0.0 else minus if x <= 0.0 else x
 
 
 def _rect(x: float) -> float:
-    return 1.0 if -1.0 < x < 1.0 else 0.0
+    return 1.0 if -1.0 < x < 1.0 else x if x != x else 0.0  # noqa: PLR0124 - nan
 
 
 def _tri(x: float) -> float:
@@ -75,7 +75,7 @@ def _sigmoid_rational(x: float) -> float:
     if x <= 0.0:
         return 0.0
     square = x * x
-    return square / (1.0 + square) if square < math.inf else 1.0
+    return 1.0 if square == math.inf else square / (1.0 + square)
 
 
 def rounded(x: float) -> float:
@@ -83,11 +83,19 @@ def rounded(x: float) -> float:
     if not -4503599627370496.0 < x < 4503599627370496.0:  # whole already, or inf, or nan
         return x
     whole = float(int(x))
-    return whole + math.copysign(1.0, x) if abs(x - whole) >= 0.5 else whole
+    return math.copysign(whole + math.copysign(1.0, x) if abs(x - whole) >= 0.5 else whole, x)
 
 
 def _trnc(x: float) -> float:
-    return float(int(x)) if abs(x) < 4503599627370496.0 else x
+    return math.copysign(int(x), x) if abs(x) < 4503599627370496.0 else x
+
+
+def _max(x: float, y: float) -> float:
+    return x if y <= x or x != x else y  # noqa: PLR0124 - nan
+
+
+def _min(x: float, y: float) -> float:
+    return x if y >= x or x != x else y  # noqa: PLR0124 - nan
 
 
 def _recip(x: float) -> float:
@@ -112,11 +120,15 @@ def power(x: float, y: float) -> float:
         return math.pow(x, y)
     if x == 0.0 and y > 0.0:
         return 0.0
+    if x != x or y != y:  # noqa: PLR0124 - nan
+        return math.nan
     raise ValueError
 
 
 def func1(x: float, table: Sequence[float]) -> float:
     """Linear interpolation: breakpoints in the table's first half, values in the second; constant outside."""
+    if x != x:  # noqa: PLR0124 - nan
+        return x
     n = len(table) // 2
     if x <= table[0]:
         return table[n]
@@ -129,6 +141,8 @@ def func1(x: float, table: Sequence[float]) -> float:
 
 def func2(x: float, y: float, f: Sequence[float], xs: Sequence[float], ys: Sequence[float]) -> float:
     """Bilinear interpolation of F[n,m] (row-major) over breakpoints X[n], Y[m]; constant outside."""
+    if x != x or y != y:  # noqa: PLR0124 - nan
+        return math.nan
     i, p = _bracket(x, xs)
     k, q = _bracket(y, ys)
     m = len(ys)
@@ -233,8 +247,8 @@ _ALL = (
     LibraryFunction("func2", "x, y; F, X, Y", 5, 5, "bilinear table function of F[n,m] over X[n], Y[m]",
                     func2, where="SD", kind="table"),
     LibraryFunction("recip", "A", 1, 1, "1/A, element by element", _recip),
-    LibraryFunction("max", "x, y", 2, 2, "the larger one; a program's own max wins", max, kind="choice"),
-    LibraryFunction("min", "x, y", 2, 2, "the smaller one; a program's own min wins", min, kind="choice"),
+    LibraryFunction("max", "x, y", 2, 2, "the larger one; a program's own max wins", _max, kind="choice"),
+    LibraryFunction("min", "x, y", 2, 2, "the smaller one; a program's own min wins", _min, kind="choice"),
     _of_complex("Re", lambda z: z.real, "real part"),
     _of_complex("Im", lambda z: z.imag, "imaginary part"),
     _of_complex("Cabs", abs, "absolute value of a complex number"),

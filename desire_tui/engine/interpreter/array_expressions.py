@@ -246,7 +246,7 @@ def _elementwise(
 
 def _whole_or_real_power(x: float, y: float) -> complex:
     """x^y as in scalar expressions: whole powers are products."""
-    return integer_power(x, int(y)) if y == int(y) and abs(y) < 1 << 31 else power(x, y)
+    return integer_power(x, int(y)) if abs(y) < 1 << 31 and y == int(y) else power(x, y)
 
 
 def _quotient(a: Any, b: Any, divisor: Node) -> Any:

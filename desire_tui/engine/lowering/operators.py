@@ -14,6 +14,6 @@ OPERATIONS = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
 
 def power(left: Value, right: Value) -> Op:
     """Lower `left ^ right`: whole constant powers are products (language.md 4)."""
-    if isinstance(right, Const) and right.value == int(right.value) and abs(right.value) <= 1024:
+    if isinstance(right, Const) and abs(right.value) <= 1024 and right.value == int(right.value):
         return Op("ipow", (left, right))
     return Op("pow", (left, right))

@@ -45,7 +45,7 @@ def power(x: float, y: float) -> float:
 def integer_power(x: Number, n: int) -> Number:
     """Return x^n by repeated products: binary powering from the top bit, negative n as 1/x^|n|."""
     if n == 0:
-        return x * 0.0 + 1.0 if isinstance(x, np.ndarray) else 1.0
+        return np.ones_like(x) if isinstance(x, np.ndarray) else 1.0
     value = x
     for bit in bin(abs(n))[3:]:
         value = value * value
@@ -72,7 +72,11 @@ def _sinc(x: Array) -> Array:
 
 def _sigmoid_rational(x: Array) -> Array:
     square = x * x
-    return np.where(x > 0.0, np.where(np.isinf(square), 1.0, square / (1.0 + square)), 0.0)
+    return np.where(x <= 0.0, 0.0, np.where(np.isinf(square), 1.0, square / (1.0 + square)))
+
+
+def _comp(x: Array, minus: Number, plus: Number) -> Array:
+    return np.where(x > 0.0, plus, np.where(x <= 0.0, minus, x))
 
 
 ARRAYS: dict[str, Callable[..., Any]] = {
@@ -81,28 +85,28 @@ ARRAYS: dict[str, Callable[..., Any]] = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan,
     "sinh": np.sinh, "cosh": np.cosh, "tanh": np.tanh, "exp": np.exp, "sqrt": np.sqrt, "abs": np.abs,
     "ln": np.log, "log": np.log10, "atan2": np.arctan2,
-    "lim": lambda x: np.where(x > 0.0, x, 0.0),
+    "lim": lambda x: np.where(x <= 0.0, 0.0, x),
     "sat": _sat,
-    "SAT": lambda x: np.where(x > 1.0, 1.0, np.where(x > 0.0, x, 0.0)),
+    "SAT": lambda x: np.where(x > 1.0, 1.0, np.where(x <= 0.0, 0.0, x)),
     "deadz": lambda x: x - _sat(x),
-    "deadc": lambda x: np.where(x > 1.0, 1.0, np.where(x < -1.0, -1.0, 0.0)),
-    "swtch": lambda x: np.where(x > 0.0, 1.0, 0.0),
-    "sgn": lambda x: np.where(x > 0.0, 1.0, np.where(x < 0.0, -1.0, 0.0)),
-    "comp": lambda x, minus, plus: np.where(x > 0.0, plus, minus),
-    "rect": lambda x: np.where(np.abs(x) < 1.0, 1.0, 0.0),
+    "deadc": lambda x: np.where(x > 1.0, 1.0, np.where(x < -1.0, -1.0, np.where(x <= 1.0, 0.0, x))),
+    "swtch": lambda x: _comp(x, 0.0, 1.0),
+    "sgn": lambda x: np.where(x > 0.0, 1.0, np.where(x < 0.0, -1.0, x + 0.0)),
+    "comp": _comp,
+    "rect": lambda x: np.where(np.abs(x) < 1.0, 1.0, np.where(np.isnan(x), x, 0.0)),
     "tri": lambda x: 1.0 - np.abs(x),
     "sinc": _sinc,
     "sigmoid": lambda x: 1.0 / (1.0 + np.exp(-x)),
     "SIGMOID": _sigmoid_rational,
     "round": _round, "trnc": np.trunc, "recip": lambda x: 1.0 / x,
-    "max": lambda x, y: np.where(y > x, y, x), "min": lambda x, y: np.where(y < x, y, x),
+    "max": lambda x, y: np.where((y <= x) | np.isnan(x), x, y),
+    "min": lambda x, y: np.where((y >= x) | np.isnan(x), x, y),
 }  # fmt: skip
 """Operations of `lowered.Op` over arrays (and scalars mixed with them)."""
 
 SCALARS: dict[str, Callable[..., float]] = {
     "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": divide,
     "neg": lambda a: -a, "pow": power,
-    "max": max, "min": min,
 }  # fmt: skip
 """Operations of `lowered.Op` over numbers that Python does not spoil; the others come from the library."""
 

@@ -1,4 +1,7 @@
-"""The library of language.md 4.1 as instructions, one formula each, scalar or several lanes wide."""
+"""The library of language.md 4.1 as instructions, one formula each, scalar or several lanes wide.
+
+A comparison with nan is false, so each formula is written so that nan falls through to x itself.
+"""
 
 from __future__ import annotations
 
@@ -36,29 +39,53 @@ def power(lanes: Lanes, x: str, exponent: int) -> str:
     return lanes.div(lanes.const(1.0), result) if exponent < 0 else result
 
 
+def _where(lanes: Lanes, x: str, relation: str, limit: float, yes: str, no: str) -> str:
+    return lanes.choose(lanes.compare(relation, x, lanes.const(limit)), yes, no)
+
+
 def _clip(lanes: Lanes, x: str, low: float) -> str:
-    below = lanes.choose(lanes.compare("olt", x, lanes.const(low)), lanes.const(low), x)
-    return lanes.choose(lanes.compare("ogt", x, lanes.const(1.0)), lanes.const(1.0), below)
+    below = _where(
+        lanes, x, "ole", low, lanes.const(low), x
+    )  # SAT(-0) is 0, as of every x that is not above 0
+    return _where(lanes, x, "ogt", 1.0, lanes.const(1.0), below)
 
 
-def _if_positive(lanes: Lanes, x: str, yes: str, no: str) -> str:
-    return lanes.choose(lanes.compare("ogt", x, lanes.const(0.0)), yes, no)
+def _lim(lanes: Lanes, x: str) -> str:
+    return _where(lanes, x, "ole", 0.0, lanes.const(0.0), x)
+
+
+def _comp(lanes: Lanes, x: str, minus: str, plus: str) -> str:
+    return _where(lanes, x, "ogt", 0.0, plus, _where(lanes, x, "ole", 0.0, minus, x))
 
 
 def _sgn(lanes: Lanes, x: str) -> str:
-    negative = lanes.compare("olt", x, lanes.const(0.0))
-    other = lanes.choose(negative, lanes.const(-1.0), lanes.const(0.0))
-    return _if_positive(lanes, x, lanes.const(1.0), other)
+    zero = lanes.add(x, lanes.const(0.0))  # 0 for -0, nan for nan
+    other = _where(lanes, x, "olt", 0.0, lanes.const(-1.0), zero)
+    return _where(lanes, x, "ogt", 0.0, lanes.const(1.0), other)
 
 
 def _deadc(lanes: Lanes, x: str) -> str:
-    low = lanes.choose(lanes.compare("olt", x, lanes.const(-1.0)), lanes.const(-1.0), lanes.const(0.0))
-    return lanes.choose(lanes.compare("ogt", x, lanes.const(1.0)), lanes.const(1.0), low)
+    inside = _where(lanes, x, "ole", 1.0, lanes.const(0.0), x)
+    low = _where(lanes, x, "olt", -1.0, lanes.const(-1.0), inside)
+    return _where(lanes, x, "ogt", 1.0, lanes.const(1.0), low)
 
 
 def _rect(lanes: Lanes, x: str) -> str:
-    inside = lanes.compare("olt", lanes.intrinsic("fabs", x), lanes.const(1.0))
-    return lanes.choose(inside, lanes.const(1.0), lanes.const(0.0))
+    size = lanes.intrinsic("fabs", x)
+    outside = _where(lanes, size, "oge", 1.0, lanes.const(0.0), x)
+    return _where(lanes, size, "olt", 1.0, lanes.const(1.0), outside)
+
+
+def maximum(lanes: Lanes, x: str, y: str) -> str:
+    """Write the larger of two; x of equal ones, nan where either is nan."""
+    larger = lanes.choose(lanes.compare("ole", y, x), x, y)
+    return lanes.choose(lanes.compare("uno", x, x), x, larger)
+
+
+def minimum(lanes: Lanes, x: str, y: str) -> str:
+    """Write the smaller of two; x of equal ones, nan where either is nan."""
+    smaller = lanes.choose(lanes.compare("oge", y, x), x, y)
+    return lanes.choose(lanes.compare("uno", x, x), x, smaller)
 
 
 def _sigmoid(lanes: Lanes, x: str) -> str:
@@ -89,9 +116,9 @@ _FORMULAS: dict[str, Callable[..., str]] = {
     "round": lambda e, a: e.intrinsic("round", a),
     "trnc": lambda e, a: e.intrinsic("trunc", a),
     "recip": lambda e, a: e.div(e.const(1.0), a),
-    "lim": lambda e, a: _if_positive(e, a, a, e.const(0.0)),
-    "swtch": lambda e, a: _if_positive(e, a, e.const(1.0), e.const(0.0)),
-    "comp": lambda e, a, minus, plus: _if_positive(e, a, plus, minus),
+    "lim": _lim,
+    "swtch": lambda e, a: _comp(e, a, e.const(0.0), e.const(1.0)),
+    "comp": _comp,
     "sat": lambda e, a: _clip(e, a, -1.0),
     "SAT": lambda e, a: _clip(e, a, 0.0),
     "deadz": lambda e, a: e.sub(a, _clip(e, a, -1.0)),
@@ -102,6 +129,6 @@ _FORMULAS: dict[str, Callable[..., str]] = {
     "sinc": _sinc,
     "sigmoid": _sigmoid,
     "SIGMOID": _soft_step,
-    "max": lambda e, a, b: e.choose(e.compare("ogt", b, a), b, a),
-    "min": lambda e, a, b: e.choose(e.compare("olt", b, a), b, a),
+    "max": maximum,
+    "min": minimum,
 }

@@ -82,7 +82,7 @@ def write(text: IrText, cells: Cells, node: Value) -> str | None:
     if declarations:
         text.declarations |= declarations
     text.lines.append(lines.format(prefix, *names))
-    return result.format(prefix)
+    return result.format(prefix, *names)  # x^1 is its own leaf
 
 
 def write_shape(lanes: Lanes, node: Value, leaves: Iterator[str]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.codegen.ir import random
+from desire_tui.engine.codegen.ir.functions import minimum
 from desire_tui.engine.codegen.scalar.expressions import IrExpressions
 from desire_tui.engine.lowered.expressions import (
     Const,
@@ -100,7 +101,7 @@ class StripExpressions(IrExpressions):
             case "mul":
                 return lanes.mul(u, v)
             case "min":
-                return lanes.choose(lanes.compare("olt", v, u), v, u)
+                return minimum(lanes, u, v)
             case _:
                 assert_never(node.op)
 

@@ -159,7 +159,7 @@ def total() -> str:
 
 @functools.cache
 def largest() -> str:
-    """Return `void @largest(x, y, n)`: y is x at its largest element (ties: the highest index), else 0."""
+    """Return `void @largest(x, y, n)`: y is x at its largest element (ties: the last; nan wins), else 0."""
     text = IrText()
     single = Lanes(text)
     most, where = text.alloca("double"), text.alloca("i64")
@@ -169,7 +169,7 @@ def largest() -> str:
     def look(i: str) -> None:
         value = fetch(single, "%x", i)
         before = text.op(f"load double, ptr {most}")
-        wins = single.compare("oge", value, before)
+        wins = text.op(f"or i1 {single.compare('oge', value, before)}, {single.compare('uno', value, value)}")
         text.do(f"store double {single.choose(wins, value, before)}, ptr {most}")
         place = text.op(f"load i64, ptr {where}")
         text.do(f"store i64 {text.op(f'select i1 {wins}, i64 {i}, i64 {place}')}, ptr {where}")
