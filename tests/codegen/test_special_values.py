@@ -46,7 +46,9 @@ TWO = {
     "p + q": "add", "p - q": "sub", "p*q": "mul", "p/q": "div", "p^q": "pow", "max(p, q)": "max", "min(p, q)": "min",
     "atan2(p, q)": "atan2",
 }  # fmt: skip
-INEXACT = set("sin cos tan asin acos atan sinh cosh tanh exp ln log sinc sigmoid".split())
+INEXACT = {
+    "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "ln", "log", "sinc", "sigmoid",
+}  # fmt: skip
 OTHERS = {"comp(p, 3, 7)": lambda p: math.nan if math.isnan(p) else 7.0 if p > 0 else 3.0}
 
 

@@ -64,8 +64,8 @@ def combine(inner):
 
 
 def guard(function, *args):
-    if any(a is None for a in args):
-        return None
+    if any(a is None or not math.isfinite(a) for a in args):
+        return None  # an infinite value must not vanish in an argument: error 3
     try:
         return function(*args)
     except (ValueError, OverflowError, ZeroDivisionError):
