@@ -36,6 +36,9 @@ def open_desktop(files: tuple[str, ...]) -> NoReturn:
         from desire_tui.app import DesireApp
 
         status = DesireApp([Path(file) for file in files]).run()
+    from desire_tui.engine.session.process_groups import end_all
+
+    end_all()
     interruptible = sys.modules.get("desire_tui.engine.interpreter.interruptible")
     if interruptible is not None:
         interruptible.leave_at_once(0)

@@ -13,6 +13,7 @@ from desire_tui.batch.runner import Runner, RunOptions
 from desire_tui.engine.diagnostics import DesireError, render_all
 from desire_tui.engine.files import decoded, read_source
 from desire_tui.engine.interpreter import interruptible
+from desire_tui.engine.session import process_groups
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
@@ -85,6 +86,7 @@ def run_file(
         place = runner.session.stopped_at
         row = place.source.position(place.placed.at).row
         sys.stderr.write(f"{place.source.name}:{row}: stopped at STOP; --go continues\n")
+    process_groups.end_all()
     if runner.abandoned or listener.reading.is_set():
         _leave_at_once(status)
     interruptible.leave_at_once(status)

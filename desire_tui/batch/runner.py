@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.session.permissions import Permissions
+from desire_tui.engine.session.process_groups import end_all
 from desire_tui.engine.session.session import Session
 from desire_tui.version import __version__
 
@@ -42,6 +44,13 @@ class RunOptions:
     folder: Path | None = None
     allow_shell: bool = False
     allow_write: bool = False
+
+
+def _leave(number: int, _: object) -> None:
+    """End what `sh` started, then do what the signal does without a handler."""
+    end_all()
+    signal.signal(number, signal.SIG_DFL)
+    os.kill(os.getpid(), number)
 
 
 class Runner:
@@ -88,11 +97,13 @@ class Runner:
         if threading.current_thread() is not threading.main_thread():
             yield
             return
-        before = signal.signal(signal.SIGINT, lambda *_: self._interrupted.set())
+        before = {number: signal.signal(number, _leave) for number in (signal.SIGTERM, signal.SIGHUP)}
+        before[signal.SIGINT] = signal.signal(signal.SIGINT, lambda *_: self._interrupted.set())
         try:
             yield
         finally:
-            signal.signal(signal.SIGINT, before)
+            for number, handler in before.items():
+                signal.signal(number, handler)
 
     def _end(self, thread: threading.Thread, key: str, **facts: object) -> None:
         """Ask the program to end until it does; one that waits for input is left alone."""
