@@ -24,7 +24,7 @@ from desire_tui.actions.run_actions import RunActions
 from desire_tui.actions.view_actions import ViewActions
 from desire_tui.common import config, paths, themes
 from desire_tui.common.key_names import key_names
-from desire_tui.desktop import alt_keys
+from desire_tui.desktop import alt_keys, visible_screen
 from desire_tui.desktop.app_base import AppBase
 from desire_tui.desktop.command_line import CommandLine
 from desire_tui.desktop.engine_messages import CheckFinished, EngineFault, EngineMessage
@@ -77,6 +77,7 @@ class DesireApp(AppBase):
 
     def __init__(self, files: Sequence[Path] = (), *, permissions: Permissions | None = None) -> None:
         alt_keys.teach()
+        visible_screen.teach()
         super().__init__(permissions)
         self.files = [Path(file) for file in files]
         for theme in themes.THEMES:

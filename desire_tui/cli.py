@@ -82,6 +82,7 @@ def _output_options(command: _Command) -> _Command:
 @click.option("--go", is_flag=True, help="Continue after every STOP.")
 @click.option("--input", "answers", metavar="F", help="File with the lines that `input` reads.")
 @click.option("--quiet", is_flag=True, help="No console text.")
+@click.option("--raw", is_flag=True, help="Write control characters to a terminal as they are (`write $27`).")
 @click.option(
     "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="S", help="End after S seconds."
 )
@@ -111,7 +112,9 @@ def _run(file: str, **options: Any) -> int:
         backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
     )  # fmt: skip
     outputs = OutputFiles(files, plot=options["plot"])
-    return run_file(file, run_options, outputs, options["answers"], quiet=options["quiet"])
+    return run_file(
+        file, run_options, outputs, options["answers"], quiet=options["quiet"], raw=options["raw"]
+    )
 
 
 @main.command()

@@ -15,6 +15,7 @@ from desire_tui.engine.files import decoded, read_source
 from desire_tui.engine.interpreter import interruptible
 from desire_tui.engine.session import process_groups
 from desire_tui.engine.source import Source
+from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -53,7 +54,7 @@ def check_files(names: Sequence[str]) -> int:
 
 
 def run_file(
-    name: str, options: RunOptions, outputs: OutputFiles, answers: str | None, *, quiet: bool
+    name: str, options: RunOptions, outputs: OutputFiles, answers: str | None, *, quiet: bool, raw: bool
 ) -> int:
     """Run a program and write its output files; returns the exit status."""
     try:
@@ -62,7 +63,7 @@ def run_file(
     except DesireError as error:
         report(error.diagnostics)
         return FAILED
-    console = Console(sys.stderr if outputs.takes_stdout else sys.stdout, quiet=quiet)
+    console = Console(sys.stderr if outputs.takes_stdout else sys.stdout, quiet=quiet, raw=raw)
 
     def show_problems(problems: Sequence[Diagnostic]) -> None:
         console.end_line()
@@ -85,7 +86,7 @@ def run_file(
     if runner.session.stopped_at is not None and not quiet and runner.status == "stopped":
         place = runner.session.stopped_at
         row = place.source.position(place.placed.at).row
-        sys.stderr.write(f"{place.source.name}:{row}: stopped at STOP; --go continues\n")
+        sys.stderr.write(f"{visible_line(place.source.name)}:{row}: stopped at STOP; --go continues\n")
     process_groups.end_all()
     if runner.abandoned or listener.reading.is_set():
         _leave_at_once(status)

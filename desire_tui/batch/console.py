@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from typing import IO, TYPE_CHECKING
 
+from desire_tui.engine.visible_text import for_stream
+
 if TYPE_CHECKING:
     from desire_tui.batch.progress import Progress
 
 
 class Console:
-    """Writes console text to a stream, unless `quiet`; a progress line is cleared before."""
+    """Writes console text to a stream, unless `quiet`; a progress line is cleared before.
 
-    def __init__(self, stream: IO[str], *, quiet: bool) -> None:
-        self._stream, self._quiet = stream, quiet
+    A terminal gets it visible, unless `raw`.
+    """
+
+    def __init__(self, stream: IO[str], *, quiet: bool, raw: bool = False) -> None:
+        self._stream, self._quiet, self._raw = stream, quiet, raw
         self._at_line_start = True
         self.progress: Progress | None = None
 
@@ -22,7 +27,7 @@ class Console:
             return
         if self.progress is not None:
             self.progress.clear()
-        self._stream.write(text)
+        self._stream.write(text if self._raw else for_stream(text, self._stream))
         self._stream.flush()
         self._at_line_start = text.endswith("\n")
 

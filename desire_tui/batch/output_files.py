@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass, field
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import write_bytes, write_file
 from desire_tui.engine.outputs.formats import DATA, PICTURES
 from desire_tui.engine.outputs.picture_files import write_pictures
+from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -62,7 +64,12 @@ def _check_memory(session: Session, data: DataFormat) -> None:
 
 def _write_data(result: Result, name: str, data: DataFormat) -> None:
     if name == STANDARD_OUTPUT:
-        data.write(result, sys.stdout if data.is_text else sys.stdout.buffer)
+        if data.is_text and sys.stdout.isatty():
+            text = StringIO()
+            data.write(result, text)
+            sys.stdout.write(visible(text.getvalue()))
+        else:
+            data.write(result, sys.stdout if data.is_text else sys.stdout.buffer)
         sys.stdout.flush()
         return
     write = write_file if data.is_text else write_bytes

@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from desire_tui.editor.program_lines import ProgramLines
+from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -58,8 +59,9 @@ class LineHighlights(dict[int, "list[Range]"]):
 
     def __missing__(self, row: int) -> list[Range]:
         assert self.document is not None
-        line = self.document.get_line(row)
-        ranges = list(_colours(self.before(row), line)) if len(line) <= LINE_MAX and self.are_on() else []
+        text = self.document.get_line(row)
+        line = visible(text)  # the bytes of what is drawn
+        ranges = list(_colours(self.before(row), text)) if len(line) <= LINE_MAX and self.are_on() else []
         ranges += [(_bytes(line, a), _bytes(line, b), "found") for a, b in self.found.get(row, ()) if a < b]
         for mark in self.marks.get(row, ()):
             start = min(mark.start, max(len(line) - 1, 0))
@@ -73,9 +75,9 @@ def _colours(before: str, line: str) -> tuple[Range, ...]:
     try:
         from desire_tui.engine.syntax.highlighting import highlight
 
-        skipped = len(before)
+        skipped, shown = len(before), visible(line)
         return tuple(
-            (_bytes(line, start - skipped), _bytes(line, end - skipped), name)
+            (_bytes(shown, start - skipped), _bytes(shown, end - skipped), name)
             for start, end, name in highlight(before + line)
             if start >= skipped
         )

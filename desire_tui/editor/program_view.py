@@ -22,6 +22,7 @@ from desire_tui.editor.line_marks import Marks
 from desire_tui.editor.program_lines import ProgramLines, follow
 from desire_tui.editor.text_rendering import RenderedText
 from desire_tui.editor.unwrapped_lines import UnwrappedDocument
+from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -186,4 +187,6 @@ def _width(lines: Sequence[str]) -> int:
 
 
 def _cells(line: str) -> int:
-    return len(line) if line.isascii() and "\t" not in line else cell_len(line.expandtabs(indent.WIDTH))
+    return (
+        len(line) if line.isascii() and "\t" not in line else cell_len(visible(line).expandtabs(indent.WIDTH))
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from textual.containers import Horizontal
+from textual.content import Content
 from textual.message import Message
 from textual.widgets import Label
 
@@ -52,7 +53,7 @@ class StatusRow(Horizontal):
         self._set_label("#place", f"{row + 1}:{column + 1}")
         label = self._set_label("#problem", sentence)
         label.set_class(mark is not None and mark.style == "error", "-error")
-        label.tooltip = mark.text if mark else None
+        label.tooltip = Content(mark.text) if mark else None
 
     def _set_label(self, place: str, text: str) -> Label:
         """Show a text in the row below; a key that changes nothing there draws nothing, lays out nothing."""

@@ -12,6 +12,8 @@ from textual.reactive import reactive
 from textual.strip import Strip
 from textual.widget import Widget
 
+from desire_tui.engine.visible_text import visible_line
+
 if TYPE_CHECKING:
     from textual import events
 
@@ -61,7 +63,10 @@ class TabStrip(Widget):
 
     def _pieces(self) -> list[tuple[int, str]]:
         """Tab keys with their texts, as many as fit, the front one among them."""
-        texts = [(t.key, f" {'▸' if t.active else ''}{t.name}{' ●' if t.dirty else ''} ") for t in self.tabs]
+        texts = [
+            (t.key, f" {'▸' if t.active else ''}{visible_line(t.name)}{' ●' if t.dirty else ''} ")
+            for t in self.tabs
+        ]
         room = self.size.width - 5
         keys = [key for key, _ in texts]
         first = last = keys.index(self.front) if self.front in keys else 0

@@ -1,23 +1,28 @@
 """How a program is drawn: Textual's TextArea with the language's colours and marks in the gutter.
 
 Overridden of TextArea: `_build_highlight_map` (colours without tree-sitter), `render_line` and `refresh`
-(gutter marks; only rows that look otherwise than before are drawn), `find_matching_bracket` (near the cursor
-only).
+(gutter marks; only rows that look otherwise than before are drawn), `get_line` and what measures its columns
+(control characters are seen), `find_matching_bracket` (near the cursor only).
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
+from rich.text import Text
+from textual._cells import cell_width_to_column_index
 from textual.cache import LRUCache
+from textual.expand_tabs import expand_tabs_inline
 from textual.geometry import Region
 from textual.strip import Strip
 from textual.widgets import TextArea
 
 from desire_tui.editor.brackets import partner
 from desire_tui.editor.highlighting import LineHighlights
+from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
     from typing import Self
@@ -94,6 +99,19 @@ class RenderedText(TextArea):
         rows = [y for y in range(self.size.height) if self._looks(top + y, common) != shown.get(y)]
         if rows:
             super().refresh(*(Region(0, y, width, 1) for y in rows))
+
+    def get_line(self, line_index: int) -> Text:
+        """Return a line as it is drawn: control characters are seen, each in a column of its own."""
+        return Text(visible(self.document.get_line(line_index)), end="", no_wrap=True)
+
+    def get_column_width(self, row: int, column: int) -> int:
+        """Return the cell at which a column is drawn."""
+        return cell_len(expand_tabs_inline(visible(self.document.get_line(row)[:column]), self.indent_width))
+
+    def cell_width_to_column_index(self, cell_width: int, row_index: int) -> int:
+        """Return the column that is drawn in a cell."""
+        line = visible(self.document.get_line(row_index))
+        return cell_width_to_column_index(line, cell_width, self.indent_width)
 
     def render_lines(self, crop: Region) -> list[Strip]:
         """Draw rows; blank ones before the style sheet was applied (a tab opened as a dialog closes)."""

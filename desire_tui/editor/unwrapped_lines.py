@@ -9,13 +9,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, overload
 
+from textual._cells import cell_width_to_column_index
 from textual.document._wrapped_document import WrappedDocument
 from textual.expand_tabs import get_tab_widths
+
+from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from textual.document._document import DocumentBase, Location
+    from textual.geometry import Offset
 
 
 class _Rows(Sequence[Any]):
@@ -56,7 +60,20 @@ class UnwrappedDocument(WrappedDocument):
         self._tab_width_cache = _Rows(document, self._tabs)  # type: ignore[assignment]
 
     def _tabs(self, row: int) -> list[int]:
-        return [width for _, width in get_tab_widths(self.document.get_line(row), self._tab_width)]
+        return [width for _, width in get_tab_widths(self._shown(row), self._tab_width)]
+
+    def _shown(self, row: int) -> str:
+        """Return a line as it is drawn, where control characters take a cell each."""
+        return visible(self.document.get_line(row))
+
+    def get_sections(self, line_index: int) -> list[str]:
+        """Return a line, which is one section."""
+        return [self._shown(line_index)]
+
+    def offset_to_location(self, offset: Offset) -> Location:
+        """Return the place that is drawn in a row and a cell."""
+        row = min(max(offset.y, 0), self.document.line_count - 1)
+        return row, cell_width_to_column_index(self._shown(row), max(offset.x, 0), self._tab_width)
 
     @property
     def height(self) -> int:

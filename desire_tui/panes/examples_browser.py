@@ -130,7 +130,7 @@ class ExamplesScreen(Question["ExampleChoice | None"]):
             options.add_option(Option(line, example.path.as_posix()))
         if not found:
             none = "No such example." if self._examples else f"No examples in {examples_folder()}"
-            options.add_option(Option(none, disabled=True))
+            options.add_option(Option(Text(none), disabled=True))
             self._show(None)
             return
         options.action_first()

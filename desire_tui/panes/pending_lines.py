@@ -9,6 +9,8 @@ from rich.style import Style
 from textual.strip import Strip
 from textual.widget import Widget
 
+from desire_tui.engine.visible_text import visible_line
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -70,5 +72,5 @@ class PendingLines(Widget):
             return Strip.blank(self.size.width, base)
         here = number == self._at
         style = base + Style(color=str(self.app.current_theme.accent), bold=True) if here else base
-        text = f" {'▸' if here else ' '} {self._lines[number]}"[: self.size.width]
+        text = f" {'▸' if here else ' '} {visible_line(self._lines[number])}"[: self.size.width]
         return Strip([Segment(text, style)]).adjust_cell_length(self.size.width, base)

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
+from rich.cells import cell_len
 from textual.binding import Binding, BindingType
+from textual.expand_tabs import expand_tabs_inline
 from textual.message import Message
 from textual.widgets import Input
+
+from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -100,6 +104,10 @@ class Prompt(Input):
     def _end_search(self) -> None:
         self._pattern = None
         self.post_message(self.Searching(None))
+
+    def _position_to_cell(self, position: int) -> int:
+        """Return where a character is drawn: control characters that were pasted take a cell, too."""
+        return cell_len(expand_tabs_inline(visible(self.value[:position]), 4))
 
     # ------------------------------------------------------------------------------------------------ keys
 

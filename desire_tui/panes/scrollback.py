@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Literal, NamedTuple
 
+from desire_tui.engine.visible_text import visible
+
 Kind = Literal["output", "command", "error", "warning", "notice", "code"]
 LINES_MAX = 20_000
 LINE_CHARS_MAX = 4_000
 WIDTH_LEAST = 10
-_CONTROL = {code: 0xFFFD for code in (*range(32), 127, *range(128, 160)) if code != 9}
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,4 +117,4 @@ class Scrollback:
 
 
 def _shown(text: str) -> str:
-    return text.expandtabs(8).translate(_CONTROL)
+    return visible(text).expandtabs(8)

@@ -9,6 +9,7 @@ from rich.style import Style
 from textual.strip import Strip
 from textual.widget import Widget
 
+from desire_tui.engine.visible_text import visible
 from desire_tui.panes.graph_styles import NO_COLOR, WHITE_STYLE, curve_style, net_style
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ class Thumbnail(Widget):
         graph = self._graph
         if self.text:
             ground = self.rich_style
-            lines = self.text.expandtabs(8).split("\n")[:height]
+            lines = visible(self.text).expandtabs(8).split("\n")[:height]
             return [Strip([Segment(f" {line}", ground)]).adjust_cell_length(width, ground) for line in lines]
         if graph is None:
             ground = self.rich_style + Style(dim=True)

@@ -13,6 +13,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from unicodedata import category, combining, east_asian_width
 
+from desire_tui.engine.visible_text import visible, visible_line
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -29,14 +31,14 @@ CONTEXT = 30
 
 def render(diagnostic: Diagnostic) -> str:
     """Return the message, its source line with carets, and the hint, as lines without a trailing newline."""
-    lines = [f"{_place(diagnostic)}{diagnostic.severity} {diagnostic.code}: {diagnostic.message}"]
+    lines = [f"{_place(diagnostic)}{diagnostic.severity} {diagnostic.code}: {visible(diagnostic.message)}"]
     if diagnostic.source is not None and diagnostic.span is not None:
         lines += _frame(diagnostic.source, diagnostic.span)
     hint = diagnostic.hint
     if hint:
-        lines.append(f"hint: {hint}")
+        lines.append(f"hint: {visible(hint)}")
     for other in diagnostic.related:
-        lines.append(f"{_place(other)}note: {other.message}")
+        lines.append(f"{_place(other)}note: {visible(other.message)}")
         if other.source is not None and other.span is not None:
             lines += _frame(other.source, other.span)
     return "\n".join(lines)
@@ -51,10 +53,11 @@ def _place(diagnostic: Diagnostic) -> str:
     source, span = diagnostic.source, diagnostic.span
     if source is None:
         return ""
+    name = visible_line(source.name)
     if span is None:
-        return f"{source.name}: "
+        return f"{name}: "
     row, column = source.position(span.start)
-    return f"{source.name}:{row}:{column}: "
+    return f"{name}:{row}:{column}: "
 
 
 def _frame(source: Source, span: Span) -> list[str]:
@@ -85,17 +88,12 @@ def _window(before: str, inside: str, after: str) -> tuple[str, str, str]:
 
 
 def _drawn(text: str, column: int) -> str:
-    """Return what a terminal can show: tabs expanded from `column` on, control characters as `·`."""
+    """Return what a terminal can show: tabs expanded from `column` on, control characters visible."""
     if text.isascii() and text.isprintable():
         return text
     out = []
-    for char in text:
-        if char == "\t":
-            drawn = " " * (TAB_STOP - column % TAB_STOP)
-        elif category(char) in {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}:
-            drawn = "·"
-        else:
-            drawn = char
+    for char in visible(text):
+        drawn = " " * (TAB_STOP - column % TAB_STOP) if char == "\t" else char
         out.append(drawn)
         column += _width(drawn)
     return "".join(out)

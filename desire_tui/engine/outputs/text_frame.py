@@ -13,6 +13,8 @@ from functools import lru_cache
 from threading import Lock
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.visible_text import visible_line
+
 if TYPE_CHECKING:
     from desire_tui.engine.graph.model import Graph
 
@@ -86,7 +88,7 @@ def _frame(
         figure.clear()
         figure.theme("colorless")
         figure.plot_size(columns, rows)
-        figure.title(title[:columns])
+        figure.title(visible_line(title[:columns]))
         # The positions of ticks are all that plotext needs to know: 0, 1/2 and 1 of each side
         figure.ruler("x").lim(0.0, 1.0)
         figure.ruler("y").lim(0.0, 1.0)
@@ -94,7 +96,7 @@ def _frame(
         figure.ruler("y").ticks([0.0, 0.5, 1.0][: len(y_ticks)], list(y_ticks))
         figure.axes(net)
         if caption:
-            figure.label(caption[:columns], "x")
+            figure.label(visible_line(caption[:columns]), "x")
         text = _ESCAPES.sub("", figure.build().string())
     lines = tuple(line.ljust(columns)[:columns] for line in text.split("\n")[:rows])
     top = next((i for i, line in enumerate(lines) if "┌" in line), None)

@@ -1,0 +1,43 @@
+"""Nothing a program or a file holds reaches the terminal as a command: Textual draws visible text only.
+
+Textual and Rich delete five control characters from text and let all others through to the terminal. Their
+functions for that are replaced by `visible`, which keeps every character's column; a text's width is then
+counted as it is drawn. What a widget draws without these two classes is made visible where it is turned into
+bytes: there is one such place.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import rich.text
+import textual.content
+from rich.segment import Segment
+from textual.strip import Strip
+
+from desire_tui.engine.visible_text import visible, visible_line
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+_render = Strip.render
+
+
+def teach() -> None:
+    """Let Textual draw visible text; a second call changes nothing."""
+    library: Any = textual.content
+    library._strip_control_codes = visible  # noqa: SLF001 - no public way (Textual is pinned)
+    library = rich.text
+    library.strip_control_codes = visible
+    drawing: Any = Strip
+    drawing.render = _render_visible
+
+
+def _render_visible(strip: Strip, console: Console) -> str:
+    """Return a row as what is sent to the terminal."""
+    if all(text.isprintable() for text, _, control in strip if not control):
+        return _render(strip, console)
+    return _render(
+        Strip([Segment(s.text if s.control else visible_line(s.text), s.style, s.control) for s in strip]),
+        console,
+    )
