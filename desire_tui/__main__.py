@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
-COMMANDS = frozenset({"run", "check", "config", "serve", "ide"})
+COMMANDS = frozenset({"run", "check", "config", "serve", "served", "ide"})
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 
 
 def main(arguments: list[str] | None = None) -> None:
     """Open the desktop if there are only names of files, or nothing; else read the command line."""
+    keep_current_folder_out()
     words = sys.argv[1:] if arguments is None else arguments
     try:
         if not any(word.startswith("-") for word in words) and not COMMANDS.intersection(words[:1]):
@@ -23,6 +25,23 @@ def main(arguments: list[str] | None = None) -> None:
     except KeyboardInterrupt:  # Ctrl-C while modules are still being loaded
         sys.stderr.write("stopped by the user\n")
         sys.exit(3)
+
+
+def keep_current_folder_out() -> None:
+    """Import nothing from the folder that programs of strangers may stand in.
+
+    `python -m` and an empty entry in PYTHONPATH put it before the libraries: its `numpy.py` would run as
+    ours. The folder of this package itself stays, and those of Python.
+    """
+    try:
+        here = os.path.realpath(os.getcwd())  # noqa: PTH109 - pathlib is not loaded yet
+    except OSError:  # it was deleted
+        here = ""
+    own = (os.path.dirname(os.path.dirname(os.path.abspath(__file__))), sys.prefix, sys.base_prefix)  # noqa: PTH100, PTH120
+    sys.path[:] = [
+        entry for entry in sys.path
+        if os.path.isabs(entry) and (os.path.realpath(entry) != here or entry.startswith(own))  # noqa: PTH117
+    ]  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -24,6 +24,7 @@ from desire_tui.actions.run_actions import RunActions
 from desire_tui.actions.view_actions import ViewActions
 from desire_tui.common import config, paths, themes
 from desire_tui.common.key_names import key_names
+from desire_tui.common.reach import Reach
 from desire_tui.desktop import alt_keys, visible_screen
 from desire_tui.desktop.app_base import AppBase
 from desire_tui.desktop.command_line import CommandLine
@@ -103,6 +104,14 @@ class DesireApp(AppBase):
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.stylesheet.set_variables(self.get_css_variables())
+
+    def limit_to_visitors(self, folder: Path, *, allow_shell: bool, allow_write: bool) -> None:
+        """Give whoever is here, and programs, what the one who serves allows, and ask for nothing more."""
+        from desire_tui.engine.session.permissions import Permissions
+
+        self.engine.permissions = Permissions(allow_shell, allow_write, asks=False)
+        if not allow_write:
+            self.reach = Reach(folder.resolve())
 
     # ------------------------------------------------------------------------------------- start and end
 

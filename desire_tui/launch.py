@@ -23,11 +23,14 @@ def is_possible() -> bool:
 
 def is_served() -> bool:
     """Whether this process was started by `desire serve` for a browser."""
-    return os.environ.get("TEXTUAL_DRIVER", "").endswith(":WebDriver")
+    return os.environ.get("TEXTUAL_DRIVER", "").endswith("WebDriver")
 
 
-def open_desktop(files: tuple[str, ...]) -> NoReturn:
-    """Open the desktop with files in tabs; ends the process."""
+def open_desktop(files: tuple[str, ...], *, allow_shell: bool = False, allow_write: bool = False) -> NoReturn:
+    """Open the desktop with files in tabs; ends the process.
+
+    In a browser nobody is asked for permissions: what is not allowed here is refused.
+    """
     _speak_utf8()
     pause_gc()
     with nullcontext() if is_served() else watched():
@@ -35,7 +38,10 @@ def open_desktop(files: tuple[str, ...]) -> NoReturn:
             import asyncio  # noqa: F401 - here it must do without
         from desire_tui.app import DesireApp
 
-        status = DesireApp([Path(file) for file in files]).run()
+        app = DesireApp([Path(file) for file in files])
+        if is_served():
+            app.limit_to_visitors(Path.cwd(), allow_shell=allow_shell, allow_write=allow_write)
+        status = app.run()
     from desire_tui.engine.session.process_groups import end_all
 
     end_all()

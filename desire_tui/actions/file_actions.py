@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from desire_tui.editor.code_area import CodeArea
 
 SUFFIX = ".src"
+_NAMED_MOST = 40
 
 
 def numbered(text: str) -> str:
@@ -67,6 +68,8 @@ class FileActions(Controller):
             await self.open_path(path, focus=not from_prompt)
 
     async def _pick(self) -> Path | None:
+        if self.app.reach.folder is not None:  # a dialog that shows every folder is not for visitors
+            return await self._ask_within("Open", "")
         from textual_fspicker import FileOpen, Filters
 
         kinds = Filters(
@@ -81,6 +84,8 @@ class FileActions(Controller):
         """
         path = full(path)
         editor = self.app.editor
+        if not self.app.may_read(path):
+            return None
         if (known := next((a for a in editor.areas if a.buffer.path == path), None)) is not None:
             editor.show(known, focus=focus)
             return known
@@ -143,11 +148,22 @@ class FileActions(Controller):
         return True
 
     async def _ask_path(self, area: CodeArea) -> Path | None:
+        if self.app.reach.folder is not None:
+            return await self._ask_within("Save as", area.buffer.name.removesuffix(SUFFIX) + SUFFIX)
         from textual_fspicker import FileSave
 
         return await self.app.push_screen_wait(
             FileSave(self._folder(), default_file=area.buffer.name.removesuffix(SUFFIX) + SUFFIX)
         )
+
+    async def _ask_within(self, title: str, value: str) -> Path | None:
+        """Ask for a file of the folder that is served."""
+        programs = sorted(
+            path.name for path in self._folder().glob(f"*{SUFFIX}") if self.app.reach.may_read(path)
+        )
+        hint = ", ".join(programs[:_NAMED_MOST]) + (" …" if len(programs) > _NAMED_MOST else "")
+        name = await self.app.push_screen_wait(LineDialog(title, value, hint or "a file of this folder"))
+        return self._resolve(name) if name else None
 
     # ------------------------------------------------------------------------------------- reload and copies
 

@@ -114,6 +114,8 @@ class GraphActions(Controller):
             name = typed
         path = full(Path(name) if Path(name).suffix else Path(f"{name}{PNG.ending}"), app.session.folder)
         page = app.graph.page
+        if not app.may_write(path, frozenset(known.ending for known in PICTURES)):
+            return
 
         def write() -> None:
             try:
@@ -148,6 +150,8 @@ class GraphActions(Controller):
         if not name:
             return
         path = full(Path(name) if Path(name).suffix else Path(f"{name}{CSV.ending}"), app.session.folder)
+        if not app.may_write(path, frozenset({CSV.ending})):
+            return
         try:
             with replacing(path, make_folder=True) as file:
                 app.write_samples(file)

@@ -21,6 +21,8 @@ class SaveAndReload(Controller):
 
     def write(self, path: Path, text: str) -> bool:
         """Write a file; False if it cannot be written, which the user is told."""
+        if not self.app.may_write(path):
+            return False
         try:
             replace_text(path, text)
         except OSError as error:
@@ -30,6 +32,8 @@ class SaveAndReload(Controller):
 
     async def may_overwrite(self, area: CodeArea, path: Path) -> bool:
         """Ask before others' work is overwritten by a tab's text."""
+        if not self.app.may_write(path):
+            return False
         own = area.buffer.path is not None and full(path) == area.buffer.path
         if own and area.buffer.changed_on_disk():
             sentence = f"{path.name} was changed on disk since it was read here."

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import platformdirs
 
 APP = "desire-tui"
+STATE_VARIABLE = "DESIRE_STATE"
+"""Environment variable by which `desire serve` keeps the owner's unsaved work and history from visitors."""
 
 
 def config_file() -> Path:
@@ -16,7 +19,8 @@ def config_file() -> Path:
 
 def state_folder() -> Path:
     """Folder for history, session and recovery files; it need not exist."""
-    return Path(platformdirs.user_state_dir(APP, appauthor=False))
+    apart = os.environ.get(STATE_VARIABLE)
+    return Path(apart) if apart else Path(platformdirs.user_state_dir(APP, appauthor=False))
 
 
 def examples_folder() -> Path:

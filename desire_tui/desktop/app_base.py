@@ -9,6 +9,7 @@ from textual import events
 from textual.app import App
 
 from desire_tui.common import config, paths
+from desire_tui.common.reach import Reach
 from desire_tui.desktop.completer import Completer
 from desire_tui.desktop.engine_thread import EngineThread
 from desire_tui.desktop.key_ordering import KeyOrdering
@@ -55,6 +56,7 @@ class AppBase(App[None]):
             lambda: list(self.session.graphs),
         )
         self.key_ordering = KeyOrdering(self)
+        self.reach = Reach()
 
     @property
     def session(self) -> Session:
@@ -183,6 +185,22 @@ class AppBase(App[None]):
         text = f"error {code}: {sentence}" if code else sentence
         self.command.console.add(text, "error" if code else "warning")
         self.notify(text, severity="error" if code else "warning", markup=False, timeout=6)
+
+    def may_read(self, path: Path) -> bool:
+        """Whether the user may open a file; he is told if not."""
+        return self._within_reach(self.reach.may_read(path))
+
+    def may_write(self, path: Path, *endings: frozenset[str]) -> bool:
+        """Whether the user may save a file of a program, or one with such endings; he is told if not."""
+        return self._within_reach(self.reach.may_write(path, *endings))
+
+    def _within_reach(self, allowed: bool) -> bool:
+        if not allowed:
+            # the same words for every file: whether one is there is not for visitors either
+            self.report_error(
+                f"visitors open and save programs and results in {self.reach.folder} only", code=451
+            )
+        return allowed
 
     def list_problems(self) -> None:
         """Bring the problems pane up to date."""

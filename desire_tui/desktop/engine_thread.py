@@ -38,7 +38,7 @@ class EngineThread:
     def __init__(self, listener: ScreenListener, post: Post, permissions: Permissions | None = None) -> None:
         self._listener = listener
         self._post = post
-        self._permissions = permissions
+        self.permissions = permissions
         self._jobs: queue.Queue[Callable[[], object]] = queue.Queue()
         self._pending = 0
         self._session: Session | None = None
@@ -84,7 +84,7 @@ class EngineThread:
         try:
             from desire_tui.engine.session.session import Session
 
-            self._session = Session(self._listener, permissions=self._permissions)
+            self._session = Session(self._listener, permissions=self.permissions)
         except Exception as error:  # noqa: BLE001 - an installation that lacks a part: the screen's thread ends the app
             self._post(engine_messages.EngineMissing(error))
             return

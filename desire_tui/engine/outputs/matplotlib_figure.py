@@ -49,7 +49,11 @@ def picture_of(
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it reports that it fills its font cache
     from matplotlib import rc_context
 
-    with _drawing, rc_context({"svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000}):
+    # no TeX, which can read files: a `matplotlibrc` beside a stranger's program may ask for it
+    fixed = rc_context({
+        "svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000, "text.usetex": False,
+    })  # fmt: skip
+    with _drawing, fixed:
         figure = draw(graph, inches)
         buffer = BytesIO()
         figure.savefig(buffer, format=kind, dpi=dots_per_inch, facecolor=figure.get_facecolor())
