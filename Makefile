@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: run test check lint types contracts bench mutants pictures help clean
+.PHONY: run test check lint types contracts bench fuzz mutants pictures help clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -29,6 +29,12 @@ contracts: $(STAMP)
 
 bench: $(STAMP)  ## every benchmark, each side by side with its yardstick
 	$(BIN)/python -m benchmarks
+
+SECONDS := 60
+SEED := 1
+
+fuzz: $(STAMP)  ## random inputs of every kind, SECONDS=60 of them; what failed is kept in fuzz-failures/
+	$(BIN)/python -m tests.fuzz --seconds $(SECONDS) --seed $(SEED)
 
 mutants: $(STAMP)  ## put deliberate faults into a copy of the engine and see which of them no test notices
 	$(BIN)/python -m tests.mutants

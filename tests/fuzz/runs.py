@@ -1,0 +1,87 @@
+"""Damaged programs run without a screen, into every output: a status of the four, and whole files, whatever they do."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+from zlib import crc32
+
+import numpy as np
+
+from desire_tui.batch.headless_listener import HeadlessListener
+from desire_tui.batch.runner import Runner, RunOptions
+from desire_tui.engine.diagnostics import DesireError, render_all
+from desire_tui.engine.outputs.formats import DATA, PICTURES
+from desire_tui.engine.outputs.text_plot import text_plot
+from desire_tui.engine.source import Source
+from tests.fuzz.corpus import texts
+from tests.fuzz.mutations import mutated
+
+if TYPE_CHECKING:
+    from random import Random
+
+STATUS = frozenset({"done", "failed", "stopped", "limit"})
+SECONDS = 0.5
+_PICTURE_EVERY = 24
+
+
+def generate(rng: Random) -> str:
+    """Return a damaged program."""
+    return mutated(rng.choice(texts()), rng)
+
+
+def check(text: str) -> None:
+    """Run it, write CSV, JSON and NPZ, now and then a picture."""
+    chance = crc32(text.encode("utf-8", "surrogatepass"))
+    listener = HeadlessListener(lambda _: None, iter(["1", "x", "", "2.5"]), lambda _: None)
+    options = RunOptions(
+        timeout=SECONDS,
+        folder=Path.cwd(),
+        answer_stops=chance % 2 == 0,
+        backend="reference" if chance % 5 == 0 else "native",
+    )
+    runner = Runner(Source(text, "program.src"), options, listener)
+    runner.run()
+    assert not runner.abandoned, "it did not end when it was asked to"
+    assert runner.status in STATUS
+    assert "Traceback" not in render_all(runner.problems)
+    assert runner.status != "failed" or runner.problems
+    result = runner.result()
+    for data in DATA:
+        file = io.StringIO() if data.is_text else io.BytesIO()
+        data.write(result, file)
+        file.seek(0)
+        _READ[data.name](file)
+    if runner.session.graph is not None:
+        if chance % 3 == 0:
+            text_plot(runner.session.graph, 80, 24, colored=chance % 2 == 0)
+        if chance % _PICTURE_EVERY == 0:
+            picture = PICTURES[chance // _PICTURE_EVERY % len(PICTURES)]
+            with suppress(DesireError):  # a graph may be too large to draw
+                assert picture.content(runner.session.graph)
+
+
+def _read_csv(file: io.StringIO) -> None:
+    rows = list(csv.reader(file))
+    assert len({len(row) for row in rows}) <= 1, "rows of different lengths"
+
+
+def _read_json(file: io.StringIO) -> None:
+    json.load(file, parse_constant=_no_number)
+
+
+def _no_number(word: str) -> None:
+    raise AssertionError(f"{word} is not JSON")
+
+
+def _read_npz(file: io.BytesIO) -> None:
+    with np.load(file, allow_pickle=False) as arrays:
+        for name in arrays.files:
+            assert arrays[name].dtype != object
+
+
+_READ = {"csv": _read_csv, "json": _read_json, "npz": _read_npz}
