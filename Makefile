@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: run test check lint types contracts bench fuzz mutants pictures help clean
+.PHONY: run test check lint types contracts bench fuzz mutants pictures soak help clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -38,6 +38,9 @@ fuzz: $(STAMP)  ## random inputs of every kind, SECONDS=60 of them; what failed 
 
 mutants: $(STAMP)  ## put deliberate faults into a copy of the engine and see which of them no test notices
 	$(BIN)/python -m tests.mutants
+
+soak: $(STAMP)  ## edit and run at full speed for SECONDS; memory, threads and files must end as they began
+	$(BIN)/python -m tests.soak $(SECONDS)
 
 pictures: $(STAMP)  ## the screenshots in docs/
 	$(BIN)/python -m tests.app.pictures

@@ -68,7 +68,8 @@ class EditorPane(Vertical):
         """A second view of one of the tabs."""
         self._active: CodeArea | None = None
         self.versions: dict[int, int] = {}
-        self._check_timer: Timer | None = None
+        self._checks_due: dict[int, Timer] = {}
+        """By the tab's number: an edit in one tab does not put off the check of another."""
 
     def compose(self) -> ComposeResult:
         """Tabs above, texts, find bar and message row below."""
@@ -152,6 +153,9 @@ class EditorPane(Vertical):
             await self._drop_twin()
         at = self.areas.index(area)
         self.areas.remove(area)
+        due = self._checks_due.pop(area.buffer.number, None)
+        if due is not None:
+            due.stop()
         if area is self._second:
             self._second = None
         if area is self.active:
@@ -288,11 +292,16 @@ class EditorPane(Vertical):
         self.query_one(FindBar).text_changed()
 
     def _ask_check(self, area: CodeArea) -> None:
-        if self._check_timer is not None:
-            self._check_timer.stop()
-        self._check_timer = self.set_timer(
-            CHECK_AFTER_S, lambda: self.post_message(self.CheckRequested(area)) and None
-        )
+        number = area.buffer.number
+        due = self._checks_due.pop(number, None)
+        if due is not None:
+            due.stop()
+
+        def ask() -> None:
+            self._checks_due.pop(number, None)
+            self.post_message(self.CheckRequested(area))
+
+        self._checks_due[number] = self.set_timer(CHECK_AFTER_S, ask)
 
     @on(TextArea.SelectionChanged)
     def _moved(self, event: TextArea.SelectionChanged) -> None:

@@ -11,6 +11,8 @@ from desire_tui.editor.buffer import Buffer
 from desire_tui.editor.live_check import LiveChecker
 from desire_tui.engine.diagnostics import Diagnostic
 
+from .conftest import desktop
+
 PATIENCE = 20.0
 QUICK, CLOSER = (Diagnostic("no-run"),), (Diagnostic("no-run"), Diagnostic("jacobian-wrong"))
 
@@ -70,3 +72,21 @@ def test_a_fault_does_not_end_all_checking(reports):
     assert isinstance(reports.get(timeout=PATIENCE), ZeroDivisionError)
     made.ask(buffer(1), 2, "x = 2\n")
     assert reports.get(timeout=PATIENCE) == (1, 2, QUICK)
+
+
+async def test_each_tab_has_a_check_of_its_own_to_come(program, monkeypatch):
+    """An edit in a second tab a moment later does not put off the first one's check for ever."""
+    async with desktop(program("x = 1\n")) as desk:
+        editor = desk.app.editor
+        first = editor.front
+        second = await editor.add(Buffer(), "y = 1\n")
+        await desk.idle()
+        asked: list[int] = []
+        monkeypatch.setattr(
+            desk.app.checker, "ask", lambda buffer, _version, _text: asked.append(buffer.number)
+        )
+        first.insert("z = ")
+        await desk.pilot.pause()
+        second.insert("z = ")
+        await desk.until(lambda: second.buffer.number in asked)
+        await desk.until(lambda: first.buffer.number in asked)

@@ -8,7 +8,6 @@ import threading
 from desire_tui.engine.codegen import compiler_state
 from desire_tui.engine.codegen.backend import NativeBackend
 from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
-from desire_tui.engine.session import compiled_segments
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
@@ -16,7 +15,7 @@ DECAY = "x = 1 | TMAX = 1 | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\nd/dt x = -x\ndispt
 
 
 def threads():
-    """All but those of the sessions' own heartbeats, which end with their sessions."""
+    """All but the heartbeat, which ends soon after the last run."""
     return {thread for thread in threading.enumerate() if thread.name != "desire-heartbeat"}
 
 
@@ -65,8 +64,7 @@ def test_a_state_of_ones_own_ends_when_it_is_closed(monkeypatch):
     monkeypatch.setattr(atexit, "unregister", registered.remove)
     before = threads()
     own = CompilerState()
-    monkeypatch.setattr(compiled_segments, "make_backend", lambda _name: NativeBackend(own))
-    session = Session()
+    session = Session(compiler=own)
     session.erun(Source(DECAY))
     assert session.runs[-1].count == 3
     assert own.code is not shared_state().code

@@ -101,7 +101,7 @@ def test_submodels_that_become_too_many_lines(monkeypatch) -> None:
     text += "x = 0 | NN = 3\ndrun\nDYNAMIC\ninvoke s8(x)\ndispt x"
     (problem,) = check(parse(Source(text, "program.src")))
     assert (problem.key, problem.code) == ("too-many-lines", 411)
-    assert problem.related[-1].span == (text.index("invoke s8"), text.index("\ndispt"))
+    assert problem.span == (text.index("invoke s8"), text.index("\ndispt"))
 
 
 FLAGS = {

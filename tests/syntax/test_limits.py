@@ -11,6 +11,7 @@ import pytest
 
 from desire_tui.engine import disk_cache
 from desire_tui.engine.nodes.files import Data
+from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import structure
 from desire_tui.engine.syntax import lalr_tables as tables_module
@@ -71,10 +72,11 @@ def test_messages_quote_only_the_beginning_of_long_words() -> None:
 
 def test_the_store_of_lines_is_bounded(monkeypatch) -> None:
     module = sys.modules[forget_lines.__module__]
-    monkeypatch.setattr(module, "CACHED_MAX", 10_000)
-    forget_lines()
-    parse(Source("\n".join(f"x = {i}" for i in range(1_000))))
-    assert 0 < len(module._lines) < 100
+    lines = RecentlyUsed(10_000, cost=lambda line: len(line) + module.LINE_COST)
+    monkeypatch.setattr(module, "_lines", lines)
+    for program in range(100):
+        parse(Source("\n".join(f"x = {program}.{i}" for i in range(50))))
+    assert 50 <= lines.size <= 300
 
 
 def test_nested_blocks_of_any_depth() -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.check.unknown import misplaced, unknown_names
 from desire_tui.engine.check.uses import unfit_uses
+from desire_tui.engine.diagnostics.spelling import few_hints
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.lowering.lowering import functions_of, in_order
 from desire_tui.engine.lowering.segments import lower_segment
@@ -21,6 +22,7 @@ _WORD = re.compile(r"[A-Za-z][\w$]*")
 
 
 @undisturbed_allocation
+@few_hints()
 def check(program: Program) -> tuple[Diagnostic, ...]:
     """Return all problems that can be found before a run, in the order of the text.
 

@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.gc_pause import undisturbed_allocation
+from desire_tui.engine.lowering.lowering_context import DEPTH_MAX
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.names import invocation
 from desire_tui.engine.nodes.segment import Derivative
+from desire_tui.engine.structure.expanded_lines import LINES_MOST, expanded_lines
 from desire_tui.engine.structure.structure import structure as find_structure
 
 if TYPE_CHECKING:
@@ -24,9 +26,12 @@ def state_order(program: Program) -> tuple[str, ...]:
     Memory laid out in this order lets the compiled code load neighbouring states together (performance.md 3).
     """
     found = find_structure(program)
+    lines = expanded_lines(found.submodels)
     names: dict[str, None] = {}
 
-    def collect(statements: Iterable[Placed], rename: Mapping[str, str], depth: int) -> None:
+    recursive: set[str] = set()
+
+    def collect(statements: Iterable[Placed], rename: Mapping[str, str], calls: tuple[str, ...]) -> None:
         for statement, _, _ in statements:
             if isinstance(statement, Derivative):
                 if isinstance(statement.target, Name):
@@ -37,16 +42,18 @@ def state_order(program: Program) -> tuple[str, ...]:
                 continue
             name, args = invoked
             submodel = found.submodels.get(name)
-            if submodel is None or depth > 20:
-                continue
+            if name in calls or len(calls) > DEPTH_MAX:
+                recursive.add(name)
+            if submodel is None or name in recursive or lines[name] > LINES_MOST:
+                continue  # the last three are errors
             inner = {
                 dummy: rename.get(argument.name, argument.name)
                 for dummy, argument in zip(submodel.dummies, args, strict=False)
                 if isinstance(argument, Name)
             }
-            collect(submodel.body, inner, depth + 1)
+            collect(submodel.body, inner, (*calls, name))
 
     for segment in program.segments:
-        collect(segment.body, {}, 0)
+        collect(segment.body, {}, ())
     arrays = DeclaredNames(program, found).array_names
     return tuple(name for name in names if name not in arrays)

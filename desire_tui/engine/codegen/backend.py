@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
 from desire_tui.engine.codegen.native_model import NativeModel
+from desire_tui.engine.codegen.scalar import rerolling, templates
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.integration.rules import rule_numbered
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.values import Values
+
 
 _MODELS_MOST = 32
 
@@ -31,7 +33,7 @@ class NativeBackend:
         self._models: OrderedDict[tuple[int, int, int], tuple[Segment, Values, Model]] = OrderedDict()
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
-        """Prepare `segment` for integration rule `rule`; the same segment again costs nothing."""
+        """Prepare `segment` for a rule; the same segment again costs nothing, until `forget`."""
         improver = self._compiler.improver
         key = (id(segment), rule, id(values))
         known = self._models.get(key)
@@ -46,6 +48,12 @@ class NativeBackend:
         while len(self._models) > _MODELS_MOST:
             self._models.popitem(last=False)
         return made
+
+    def forget(self) -> None:
+        """Drop all models: their segments will not come again. What was compiled for them may."""
+        self._models.clear()
+        rerolling.age()
+        templates.age()
 
     def _make(self, segment: Segment, rule: int, values: Values) -> Model:
         code, improver = self._compiler.code, self._compiler.improver

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from desire_tui.engine.diagnostics.wording import wording_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
     from desire_tui.engine.source import Source, Span
 
@@ -75,38 +75,6 @@ class DesireError(Exception):
 
     def __str__(self) -> str:
         return "; ".join(f"error {d.code}: {d.message}" for d in self.diagnostics)
-
-
-def closest(name: str, known: Iterable[str]) -> str | None:
-    """Return the known name that `name` was probably meant to be, or None.
-
-    Short words count as close after one slip of the fingers, which is too much for a ratio of equal letters.
-    """
-    from difflib import get_close_matches  # 3 ms at every start, for the sake of mistakes
-
-    candidates = list(known)
-    swapped = [word for word in candidates if _letters_swapped(name, word)]
-    found = swapped or get_close_matches(name, candidates, n=1, cutoff=0.7)
-    found = found or [word for word in candidates if len(name) > 2 and _one_letter_off(name, word)]
-    return found[0] if found else None
-
-
-def _differences(name: str, word: str) -> list[tuple[str, str]]:
-    """Return the letters in which two words of one length differ; nothing for different lengths."""
-    same_length = len(name) == len(word)
-    return [pair for pair in zip(name, word, strict=True) if pair[0] != pair[1]] if same_length else []
-
-
-def _letters_swapped(name: str, word: str) -> bool:
-    """Whether two letters changed places, `fro` for `for`."""
-    different = _differences(name, word)
-    return len(different) == 2 and different[0] == different[1][::-1]
-
-
-def _one_letter_off(name: str, word: str) -> bool:
-    """Whether one letter is another (another digit, `x1` for `x2`, is no slip)."""
-    different = _differences(name, word)
-    return len(different) == 1 and "".join(different[0]).isalpha()
 
 
 def _counted(sentence: str) -> str:

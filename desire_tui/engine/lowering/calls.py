@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
@@ -35,7 +36,7 @@ def call(context: LoweringContext, node: Call, extent: Extent) -> Value:
         return _expanded(context, node, extent)
     entry = LIBRARY.get(node.name)
     if entry is None:
-        known = [*context.functions, *(n for n, f in LIBRARY.items() if "D" in f.where)]
+        known = chain(context.functions, (n for n, f in LIBRARY.items() if "D" in f.where))
         close = closest(node.name, known)
         return context.report("unknown-function-in-dynamic", node, name=node.name, close=close)
     if "D" not in entry.where:

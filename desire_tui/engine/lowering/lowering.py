@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.diagnostics.spelling import few_hints
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.lowering.lowering_context import FunctionText
 from desire_tui.engine.lowering.scope import LiveScope
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 
 @undisturbed_allocation
+@few_hints()
 def lower(
     program: Program,
     label: str | None,

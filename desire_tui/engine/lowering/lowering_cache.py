@@ -10,14 +10,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.lowering.scope import LiveScope
+from desire_tui.engine.recently_used import RecentlyUsed
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
 
-CACHED_MOST = 100_000
-"""Expressions in a cache before it is emptied."""
+ROOM = 5_000
+"""Expressions of earlier programs in a cache: some 2 KB each."""
 
 
 class _Cached(NamedTuple):
@@ -28,8 +29,8 @@ class _Cached(NamedTuple):
     value: Value
 
 
-_live: dict[int, _Cached] = {}
-_checked: dict[int, _Cached] = {}
+_live: RecentlyUsed[int, _Cached] = RecentlyUsed(ROOM)
+_checked: RecentlyUsed[int, _Cached] = RecentlyUsed(ROOM)
 """Checks number the slots in their own way."""
 
 
@@ -39,7 +40,7 @@ def lower_cached(context: LoweringContext, node: Expr) -> Value:
         return context.lower(node)
     cache = _live if isinstance(context.scope, LiveScope) else _checked
     ready = context.flow.ready
-    known = cache.get(id(node))
+    known = cache[id(node)]
     if known is not None:
         for name, slot in known.reads:
             load = ready.get(name)
@@ -54,13 +55,17 @@ def lower_cached(context: LoweringContext, node: Expr) -> Value:
         loads = [(name, ready.get(name)) for name in context.reads]
         reads = tuple([(name, load.slot) for name, load in loads if load is not None])
         if len(reads) == len(loads):
-            if len(cache) >= CACHED_MOST:
-                cache.clear()
-            cache[id(node)] = _Cached(node, reads, value)
+            cache.keep(id(node), _Cached(node, reads, value))
     return value
+
+
+def age() -> None:
+    """Between two segments: forget expressions that no program of late had."""
+    _live.age()
+    _checked.age()
 
 
 def forget() -> None:
     """Empty the caches."""
-    _live.clear()
-    _checked.clear()
+    _live.forget()
+    _checked.forget()

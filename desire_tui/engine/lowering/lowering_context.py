@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.diagnostics import Diagnostic, closest
@@ -16,7 +17,7 @@ from desire_tui.engine.source import Source, Span
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action
@@ -197,8 +198,8 @@ class LoweringContext(ABC):
         places = self.assigned.get(name)
         if places is None:
             if self.first_report(name):
-                known = [n for n in (*self.scope.names, *self.assigned) if n != name]
-                self.report("undefined-in-segment", node, name=name, close=closest(name, known))
+                close = closest(name, self.known_names(name))
+                self.report("undefined-in-segment", node, name=name, close=close)
             return BAD
         if name == self.assigned_scalar and quantity is not None:
             # difference equation x = x + e whose target is new: starts at 0 [O]
@@ -208,6 +209,10 @@ class LoweringContext(ABC):
             line = self.source.position(places[0].start).row
             self.report("used-before-set", node, name=name, line=line)
         return BAD
+
+    def known_names(self, but: str) -> Iterator[str]:
+        """Yield the names of scalars and arrays other than `but`."""
+        return (name for name in chain(self.scope.names, self.assigned) if name != but)
 
     def known_function(self, name: str) -> bool:
         """Whether `name` can be called in a segment."""

@@ -119,7 +119,7 @@ def array(context: LoweringContext, node: Expr) -> Quantity | None:
         if quantity is not None or actual in context.assigned:
             context.report("number-as-array", node, name=actual)
         elif context.first_report(actual):
-            arrays = [q.name for q in context.scope.names.values() if q.shape]
+            arrays = (q.name for q in context.scope.names.values() if q.shape)
             context.report("undefined-in-vector", node, name=actual, close=closest(actual, arrays))
         return None
     if quantity.kind is Kind.COMPLEX:

@@ -61,7 +61,7 @@ def column(builder: SegmentBuilder, item: Target) -> SampleColumn | None:
         return None
     if quantity is None or not (name in context.assigned or context.scope.is_defined(quantity)):
         if context.first_report(name):
-            close = closest(name, [n for n in (*context.scope.names, *context.assigned) if n != name])
+            close = closest(name, context.known_names(name))
             context.report("undefined-in-segment", item, name=name, close=close)
         return None
     builder.names[quantity.slot] = name

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, assert_never, get_args
 
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment, StateRange
-from desire_tui.engine.lowering import arrays, learning, requests, statements, targets
+from desire_tui.engine.lowering import arrays, learning, lowering_cache, requests, statements, targets
 from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
 from desire_tui.engine.lowering.expressions import ExpressionLowering
@@ -64,6 +64,7 @@ def lower_segment(
     rule: int | None = None,
 ) -> tuple[Segment, list[Diagnostic]]:
     """Return the lowered segment and every problem found in it."""
+    lowering_cache.age()
     context = ExpressionLowering(scope, source, functions)
     lines = expand(context, text.body, submodels)
     jacobian_lines = expand(context, text.jacobian, submodels)

@@ -9,6 +9,7 @@ from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, ExpansionFrame
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.names import invocation
+from desire_tui.engine.structure.expanded_lines import LINES_MOST, expanded_lines
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.structure.structure import SubmodelText
 
-LINES_MOST = 1_000_000
-"""Statements that a segment may have when its submodels are expanded."""
-
 Line = tuple["Statement", ExpansionFrame]
 
 
@@ -30,12 +28,20 @@ def expand(
 ) -> list[Line]:
     """Return the statements with every invocation replaced by its body. Errors 201, 56, 52, 209."""
     lines: list[Line] = []
+    expanded = expanded_lines(submodels) if submodels else {}
+    total = 0
     for statement, at, _ in statements:
         frame, invoked = ExpansionFrame(at), invocation(statement)
+        total += 1
         if invoked is None:
             lines.append((statement, frame))
+            continue
+        context.frame = frame
+        total += expanded.get(invoked[0], 0)
+        if total > LINES_MOST:
+            if context.first_report("SUBMODEL expansions"):
+                context.report("too-many-lines", statement, name=invoked[0], most=LINES_MOST)
         else:
-            context.frame = frame
             _invoke(context, statement, *invoked, submodels, lines)
     return lines
 
@@ -56,12 +62,11 @@ def _invoke(
         )
         context.report(key, node, name=name, close=closest(name, submodels))
         return
+    if f"SUBMODEL {name}" in context.reported:
+        return  # it invokes itself, which was said: its bodies may have any number of lines
     if name in frame.calls or len(frame.calls) > DEPTH_MAX:
+        context.reported.add(f"SUBMODEL {name}")
         context.report("submodel-recursion", node, name=name)
-        return
-    if len(lines) > LINES_MOST:
-        if context.first_report("SUBMODEL expansions"):
-            context.report("too-many-lines", node, name=name, most=LINES_MOST)
         return
     if len(args) != len(submodel.dummies):
         context.report("submodel-arguments", node, name=name, wanted=len(submodel.dummies), given=len(args))

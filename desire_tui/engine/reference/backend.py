@@ -26,3 +26,6 @@ class ReferenceBackend:
         from desire_tui.engine.reference.stiff import StiffReferenceModel
 
         return StiffReferenceModel(segment, rule, values)
+
+    def forget(self) -> None:
+        """Do nothing: no model is kept."""

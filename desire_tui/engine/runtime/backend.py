@@ -26,3 +26,7 @@ class Backend(Protocol):
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
         """Prepare `segment` for an integration rule. DesireError 86: there is no such rule."""
         ...
+
+    def forget(self) -> None:
+        """Drop all models: their segments will not come again."""
+        ...

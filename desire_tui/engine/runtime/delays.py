@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import weakref
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, assert_never
 
@@ -66,17 +67,19 @@ class TimedDelay:
 
 
 class Delays:
-    """The delay lines of segments, looked for once."""
+    """The delay lines of segments, looked for once; forgotten with their segment."""
 
     def __init__(self) -> None:
-        self._found: dict[int, tuple[Segment, tuple[TimedDelay, ...], bool]] = {}
+        self._found: dict[int, tuple[weakref.ref[Segment], tuple[TimedDelay, ...], bool]] = {}
 
     def lags(self, segment: Segment, plan: RunPlan, values: Values) -> dict[int, int]:
         """Return each delay line's lag by its counter. DesireError 105: buffer too short; 122: DT varies."""
         known = self._found.get(id(segment))
-        if known is None or known[0] is not segment:
+        if known is None or known[0]() is not segment:
             changes_dt = any(isinstance(a, Set) and a.slot == DT for a in simple_actions(segment.body))
-            known = self._found[id(segment)] = (segment, tuple(_lines(segment.body, [])), changes_dt)
+            number, found = id(segment), self._found
+            gone = weakref.ref(segment, lambda _: found.pop(number, None))
+            known = found[number] = (gone, tuple(_lines(segment.body, [])), changes_dt)
         _, lines, changes_dt = known
         return _lags(segment, lines, changes_dt, plan, values) if lines else {}
 

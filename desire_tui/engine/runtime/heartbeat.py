@@ -8,7 +8,6 @@ wants nothing, it goes on.
 from __future__ import annotations
 
 import threading
-import weakref
 from time import sleep
 from typing import TYPE_CHECKING
 
@@ -16,26 +15,20 @@ if TYPE_CHECKING:
     from desire_tui.engine.runtime.pause_and_stop import Control
 
 BEAT_SECONDS = 0.05
-_WAIT_SECONDS = 2.0  # how long the thread outlives its session
+_WAIT_SECONDS = 2.0
+"""How long the thread outlives the last run: the next one of a loop need not start it again."""
 
 
 class Heartbeat:
-    """Brings back blocks that last longer than a beat. Its one thread sleeps between runs."""
+    """Brings back blocks of one session that last longer than a beat."""
 
     def __init__(self, control: Control) -> None:
-        self._control = weakref.ref(control)
-        self._running = threading.Event()
+        self._control = control
         self._blocks = 0
-        self._thread: threading.Thread | None = None
 
     def begin(self) -> None:
         """Note that a run begins."""
-        if self._thread is None or not self._thread.is_alive():
-            self._thread = threading.Thread(
-                target=_beat_until_gone, args=(weakref.ref(self),), daemon=True, name="desire-heartbeat"
-            )
-            self._thread.start()
-        self._running.set()
+        _beats.begin(self)
 
     def block(self) -> None:
         """Note that a block begins."""
@@ -43,24 +36,51 @@ class Heartbeat:
 
     def end(self) -> None:
         """Note that the run is over."""
-        self._running.clear()
+        _beats.end(self)
 
-    def beat(self) -> bool:
-        """Bring the block back if it has lasted for a beat; False: the session is gone."""
-        if self._running.wait(_WAIT_SECONDS):
-            seen = self._blocks
+    @property
+    def blocks(self) -> int:
+        """How many blocks have begun."""
+        return self._blocks
+
+    def bring_back(self) -> None:
+        """End the block under way early."""
+        self._control.interrupt_block()
+
+
+class _Beats:
+    """The one thread of the process that watches all runs; there is none when nothing has run for a while."""
+
+    def __init__(self) -> None:
+        self._running: set[Heartbeat] = set()
+        self._changed = threading.Condition()
+        self._thread: threading.Thread | None = None
+
+    def begin(self, heartbeat: Heartbeat) -> None:
+        with self._changed:
+            self._running.add(heartbeat)
+            if self._thread is None or not self._thread.is_alive():
+                self._thread = threading.Thread(target=self._beat, daemon=True, name="desire-heartbeat")
+                self._thread.start()
+            self._changed.notify()
+
+    def end(self, heartbeat: Heartbeat) -> None:
+        with self._changed:
+            self._running.discard(heartbeat)
+
+    def _beat(self) -> None:
+        while True:
+            with self._changed:
+                if not self._changed.wait_for(lambda: self._running, _WAIT_SECONDS):
+                    self._thread = None
+                    return
+                seen = [(heartbeat, heartbeat.blocks) for heartbeat in self._running]
             sleep(BEAT_SECONDS)
-            control = self._control()
-            if control is None:
-                return False
-            if self._running.is_set() and self._blocks == seen:
-                control.interrupt_block()
-        return True
+            with self._changed:
+                for heartbeat, blocks in seen:
+                    if heartbeat in self._running and heartbeat.blocks == blocks:
+                        heartbeat.bring_back()
+            del seen
 
 
-def _beat_until_gone(reference: weakref.ref[Heartbeat]) -> None:
-    while True:
-        heartbeat = reference()
-        if heartbeat is None or not heartbeat.beat():
-            return
-        del heartbeat
+_beats = _Beats()

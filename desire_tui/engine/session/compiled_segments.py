@@ -12,6 +12,7 @@ from desire_tui.engine.runtime.stash import read_stash, with_recovery
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from desire_tui.engine.codegen.compiler_state import CompilerState
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Program
     from desire_tui.engine.runtime.backend import Backend, Model
@@ -19,13 +20,16 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 
-def make_backend(name: str) -> Backend:
-    """Return the back end; the reference one where there is no LLVM."""
+def make_backend(name: str, compiler: CompilerState | None = None) -> Backend:
+    """Return the back end; the reference one where there is no LLVM.
+
+    `compiler` keeps what a native one compiles; without it, what all sessions share.
+    """
     if name == "native":
         try:
             from desire_tui.engine.codegen.backend import NativeBackend
 
-            return NativeBackend()
+            return NativeBackend(compiler)
         except ImportError:
             pass  # no llvmlite on this machine: slower, the same numbers
     from desire_tui.engine.reference.backend import ReferenceBackend
@@ -36,8 +40,9 @@ def make_backend(name: str) -> Backend:
 class CompiledSegments:
     """Segments of the active program, by label."""
 
-    def __init__(self, values: Values, backend: str) -> None:
+    def __init__(self, values: Values, backend: str, compiler: CompilerState | None = None) -> None:
         self._values = values
+        self._compiler = compiler
         self._backend_name = backend
         self._backend: Backend | None = None
         self._kept: dict[tuple[str | None, int], Segment] = {}
@@ -49,13 +54,15 @@ class CompiledSegments:
     def backend(self) -> Backend:
         """The back end, loaded when it is needed first: that takes some 50 ms."""
         if self._backend is None:
-            self._backend = make_backend(self._backend_name)
+            self._backend = make_backend(self._backend_name, self._compiler)
         return self._backend
 
     def forget(self) -> None:
         """Compile everything anew at the next drun."""
         self._kept.clear()
         self._histories.clear()
+        if self._backend is not None:
+            self._backend.forget()
 
     def lowered(self, program: Program, structure: Structure, label: str | None, rule: int) -> Segment:
         """Return a segment ready for a back end. DesireError: everything that is wrong with it; 215: none."""

@@ -190,7 +190,7 @@ class Notebook:
             self._flush()
             if not self.is_on or self.path is None or graph is None or graph.is_empty:
                 return
-            state = (id(graph), len(graph.curves), graph.points.count, graph.erased, len(graph.shown))
+            state = (graph.number, len(graph.curves), graph.points.count, graph.erased, len(graph.shown))
             if not self._picture_due or state == self._drawn:
                 return
             self._drawn, self._picture_due = state, False

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
+    from desire_tui.engine.codegen.compiler_state import CompilerState
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.runtime.run_record import RunRecord
@@ -55,6 +56,7 @@ class Session:
         backend: BackendName = "native",
         folder: Path | None = None,
         permissions: Permissions | None = None,
+        compiler: CompilerState | None = None,
     ) -> None:
         self._listener = console if console is not None else Listener()
         self._control = Control()
@@ -62,7 +64,7 @@ class Session:
         self._notebook = Notebook(lambda problem: self._listener.problems((problem,)), _draw)
         if permissions is None:
             permissions = Permissions()
-        self._workspace = Workspace(backend, folder, permissions, self._notebook)
+        self._workspace = Workspace(backend, folder, permissions, self._notebook, compiler)
         self.graphs = GraphPages()
         """The last graphs, oldest first; `graph` is the newest."""
         self._runs = Runs(self._workspace, self._listener, self._control, self.graphs)

@@ -11,6 +11,7 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.values import Values
 
 if TYPE_CHECKING:
+    from desire_tui.engine.codegen.compiler_state import CompilerState
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.session.notebook import Notebook
     from desire_tui.engine.session.permissions import Ask, Permissions
@@ -23,10 +24,15 @@ class Workspace:
     """State of a session that belongs to the program rather than to a run."""
 
     def __init__(
-        self, backend: str, folder: Path | None, permissions: Permissions, notebook: Notebook
+        self,
+        backend: str,
+        folder: Path | None,
+        permissions: Permissions,
+        notebook: Notebook,
+        compiler: CompilerState | None = None,
     ) -> None:
         self.values = Values()
-        self.segments = CompiledSegments(self.values, backend)
+        self.segments = CompiledSegments(self.values, backend, compiler)
         self.permissions = permissions
         self.program: Program | None = None
         self.structure: Structure | None = None

@@ -15,7 +15,9 @@ from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import Label
 from desire_tui.engine.nodes.expressions import Call, Name
 from desire_tui.engine.nodes.program import Placed, Program, SegmentText
+from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.source import Source, Span
+from desire_tui.engine.syntax import shapes
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
 from desire_tui.engine.syntax.shapes import statement
@@ -32,13 +34,12 @@ if TYPE_CHECKING:
     Item = tuple[Statement | TokenFault, int]
     Entry = tuple[tuple[Item, ...], bool]
 
-CACHED_MAX = 20_000_000
-"""Characters of lines cached before the cache is emptied; a longer program runs, but starts slower."""
+ROOM = 1_000_000
+"""Characters of lines of earlier programs that are cached; their nodes take ten times as many bytes."""
 LINE_COST = 100
 """What a line adds to that beside its characters."""
 
-_lines: dict[str, Entry] = {}
-_cached = 0
+_lines: RecentlyUsed[str, Entry] = RecentlyUsed(ROOM, cost=lambda line: len(line) + LINE_COST)
 _NUMBERED = re.compile(r"[ \t]*([0-9]+)(?=[ \t]*(?:\r?\Z|--|—)|[ \t]+[A-Za-z|])")
 _HEADER = re.compile(r"[ \t]*(?:/[ \t]*(?:NEW)?[ \t\r]*\Z|PIC[ \t]*['\"‘’“”])")
 _STARTS_ODD = frozenset("0123456789/P \t")
@@ -47,6 +48,8 @@ _STARTS_ODD = frozenset("0123456789/P \t")
 @undisturbed_allocation
 def parse(source: Source) -> Program:
     """Parse a whole program. Never raises: problems are in the result."""
+    _lines.age()
+    shapes.age()
     script: list[Placed] = []
     segments: list[SegmentText] = []
     problems: list[Diagnostic] = []
@@ -116,9 +119,7 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
 
 def forget_lines() -> None:
     """Empty the store of parsed lines."""
-    global _cached  # noqa: PLW0603 - as in _parse_line
-    _lines.clear()
-    _cached = 0
+    _lines.forget()
 
 
 def _number_before(text: str, end: int) -> Span:
@@ -138,7 +139,7 @@ def _swallowed(line: str, whole: Entry, parts: list[str]) -> bool:
     """Whether a line that only seems to go on (`x =`) would spoil a good statement in the next one."""
     if line.rstrip().endswith("_") or not _has_fault(whole):
         return False
-    following = _lines.get(parts[1]) or _parse_line(parts[1])
+    following = _lines[parts[1]] or _parse_line(parts[1])
     return bool(following[0]) and not _has_fault(following) and not isinstance(following[0][0][0], Bare)
 
 
@@ -176,7 +177,7 @@ def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, 
 
     Lines without statements are left out, unless they are numbered. Rows are counted from 0.
     """
-    known = _lines.get
+    known = _lines.__getitem__
     rows = text.split("\n")
     count = len(rows)
     at = i = 0
@@ -224,11 +225,7 @@ def _parse_line(line: str) -> Entry:
     """Parse the statements of a logical line, and keep them."""
     scanned = scan(line)
     entry: Entry = (tuple((_item(chunk), chunk.base) for chunk in scanned.chunks), scanned.continues)
-    global _cached  # noqa: PLW0603 - it belongs to the store beside it
-    _cached += len(line) + LINE_COST
-    if _cached > CACHED_MAX:
-        forget_lines()
-    _lines[line] = entry
+    _lines.keep(line, entry)
     return entry
 
 

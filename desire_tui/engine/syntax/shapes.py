@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.nodes.expressions import Binary
 from desire_tui.engine.nodes.record import Node
+from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.syntax.automaton import derive
 from desire_tui.engine.syntax.build import NumberToken, Token
 from desire_tui.engine.syntax.literals import octal_value
@@ -26,13 +27,14 @@ if TYPE_CHECKING:
 
     Maker = Callable[[StatementTokens], Statement]
 
-SHAPES_MAX = 5_000
+SHAPES_ROOM = 500
+"""Shapes of earlier programs: with its function, one takes some 10 KB."""
 SHARED_TOKENS_MAX = 300
 """Longer statements (mostly data lists) share no shape: they seldom look alike, and lines are cached."""
 _LETTERED = frozenset({"display", "FFT"})
 """Statements whose letter decides how many arguments they take: it is part of their shape."""
-_patterns: dict[tuple[str, ...], Statement] = {}
-_makers: dict[tuple[str, ...], Maker] = {}
+_patterns: RecentlyUsed[tuple[str, ...], Statement] = RecentlyUsed(SHAPES_ROOM)
+_makers: RecentlyUsed[tuple[str, ...], Maker] = RecentlyUsed(SHAPES_ROOM)
 
 
 def statement(chunk: StatementTokens) -> Statement:
@@ -43,24 +45,30 @@ def statement(chunk: StatementTokens) -> Statement:
     if len(shape) > SHARED_TOKENS_MAX:
         alone: Statement = _filled(derive(chunk.kinds, chunk.texts), chunk)
         return alone
-    maker = _makers.get(shape)
+    maker = _makers[shape]
     if maker is not None:
         return maker(chunk)
-    pattern = _patterns.get(shape)
+    pattern = _patterns[shape]
     if pattern is None:
-        if len(_patterns) > SHAPES_MAX:
-            forget()
-        pattern = _patterns[shape] = derive(chunk.kinds, chunk.texts)
+        pattern = derive(chunk.kinds, chunk.texts)
+        _patterns.keep(shape, pattern)
         node: Statement = _filled(pattern, chunk)
         return node
-    maker = _makers[shape] = _generate(pattern)
+    maker = _generate(pattern)
+    _makers.keep(shape, maker)
     return maker(chunk)
+
+
+def age() -> None:
+    """Between two programs: forget shapes that no program of late had."""
+    _patterns.age()
+    _makers.age()
 
 
 def forget() -> None:
     """Forget all shapes: the next statement of each is derived from the grammar again."""
-    _patterns.clear()
-    _makers.clear()
+    _patterns.forget()
+    _makers.forget()
 
 
 def _filled(part: Any, chunk: StatementTokens) -> Any:

@@ -11,10 +11,11 @@ from desire_tui.engine.codegen.jit.compiler import compile_text, module_text
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.codegen.jit.compiler import MachineCode
+    from desire_tui.engine.codegen.jit.linker import MachineCode
     from desire_tui.engine.codegen.jit.piece import Piece
 
-_KEPT_MOST = 2000
+_BYTES_MOST = 24_000_000
+"""Of code that may be in nobody's use: a model of 1,400 equations takes 2 MB."""
 
 
 class Compiled(NamedTuple):
@@ -22,6 +23,8 @@ class Compiled(NamedTuple):
 
     address: int
     code: MachineCode
+    size: int
+    """Its share of the code's bytes."""
 
 
 class CodeCache:
@@ -30,6 +33,12 @@ class CodeCache:
     def __init__(self) -> None:
         self._known: OrderedDict[tuple[str, bool], Compiled] = OrderedDict()
         self._lock = threading.Lock()
+        self._bytes = 0
+
+    @property
+    def bytes(self) -> int:
+        """How much is kept, about."""
+        return self._bytes
 
     def find(self, name: str, *, fast: bool) -> Compiled | None:
         """Return what is there already."""
@@ -51,8 +60,9 @@ class CodeCache:
                 missing[piece.name] = piece
         if missing:
             code = compile_text(_module(missing.values()), level=0)
+            share = code.size // len(missing)
             for name in missing:
-                found[name] = self._keep(name, Compiled(code.address(name), code), fast=False)
+                found[name] = self._keep(name, Compiled(code.address(name), code, share), fast=False)
         return found
 
     def fast(self, piece: Piece, *, slp: bool = True) -> Compiled:
@@ -61,13 +71,15 @@ class CodeCache:
         if known is not None:
             return known
         code = compile_text(_module([piece]), level=2, slp=slp)
-        return self._keep(piece.name, Compiled(code.address(piece.name), code), fast=True)
+        return self._keep(piece.name, Compiled(code.address(piece.name), code, code.size), fast=True)
 
     def _keep(self, name: str, compiled: Compiled, *, fast: bool) -> Compiled:
         with self._lock:
+            before = self._known.pop((name, fast), None)
             self._known[name, fast] = compiled
-            while len(self._known) > _KEPT_MOST:
-                self._known.popitem(last=False)
+            self._bytes += compiled.size - (before.size if before is not None else 0)
+            while self._bytes > _BYTES_MOST and len(self._known) > 1:
+                self._bytes -= self._known.popitem(last=False)[1].size
         return compiled
 
 

@@ -3,39 +3,73 @@
 from __future__ import annotations
 
 import functools
+import re
 import threading
-from dataclasses import dataclass
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine import disk_cache
 from desire_tui.engine.codegen.ir import symbols
+from desire_tui.engine.codegen.jit.linker import Linker
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from desire_tui.engine.codegen.jit.linker import MachineCode
 
 _ATTRIBUTES = """
 attributes #0 = { nounwind }
 attributes #1 = { nounwind willreturn memory(none) }
 attributes #2 = { nounwind willreturn memory(argmem: read) }
 """
+_FORMAT = 2
+"""Of stored code: exported names before the object file."""
 _STARTING = threading.Lock()
+_DEFINITION = re.compile(r"^define (?!internal|private)[^@\n]*@([\w.$]+)\(", re.MULTILINE)
 
 
-@dataclass(frozen=True)
 class TargetMachine:
     """The machine compiled for: LLVM's binding, its target, and the widest useful vector of doubles."""
 
-    llvm: Any
-    target: Any
-    triple: str
-    cpu: str
-    features: str
-    width: int
+    def __init__(self, llvm: Any, target: Any, width: int) -> None:
+        self.llvm = llvm
+        self.width = width
+        self.triple: str = llvm.get_process_triple()
+        self.cpu: str = llvm.get_host_cpu_name()
+        self.features: str = llvm.get_host_cpu_features().flatten()
+        self._target = target
+        self._options: dict[int, Any] = {}
+        self._symbols: dict[str, int] = {}
+        self._linker: Linker | None = None
+        self._lock = threading.Lock()
 
     def options(self, level: int) -> Any:
-        """Return a new target machine; an engine takes it over."""
-        return self.target.create_target_machine(cpu=self.cpu, features=self.features, opt=level)
+        """Return LLVM's target machine for a level: one for the whole process, as it takes 0.8 MB."""
+        with self._lock:
+            known = self._options.get(level)
+            if known is None:
+                known = self._options[level] = self._target.create_target_machine(
+                    cpu=self.cpu, features=self.features, opt=level, jit=True
+                )
+            return known
+
+    def add_symbol(self, name: str, address: int) -> None:
+        """Let code compiled from now on call a function of this process by a name."""
+        with self._lock:
+            if self._symbols.get(name) == address:
+                return
+            self._symbols[name] = address
+            linker, self._linker = self._linker, None
+        if linker is not None:
+            linker.close()
+
+    def link(self, content: bytes, exported: Iterable[str]) -> MachineCode:
+        """Put an object file into memory."""
+        options = self.options(0)
+        with self._lock:
+            if self._linker is None or self._linker.is_full:
+                self._linker = Linker(self.llvm, options, self._symbols)
+            return self._linker.link(content, exported)
 
 
 @functools.cache
@@ -45,32 +79,19 @@ def _machine() -> TargetMachine:
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     host = llvm.get_host_cpu_features()
-    for name, address in symbols.scalar_addresses().items():
-        llvm.add_symbol(f"desire.{name}.1", address)
     width = 8 if host.get("avx512f") and host.get("avx512dq") else 4 if host.get("avx2") else 2
+    found = TargetMachine(llvm, llvm.Target.from_default_triple(), width)
+    for name, address in symbols.scalar_addresses().items():
+        found.add_symbol(f"desire.{name}.1", address)
     for name, address in symbols.vector_addresses(width).items():
-        llvm.add_symbol(f"desire.{name}.{width}", address)
-    return TargetMachine(
-        llvm, llvm.Target.from_default_triple(), llvm.get_process_triple(), llvm.get_host_cpu_name(),
-        host.flatten(), width,
-    )  # fmt: skip
+        found.add_symbol(f"desire.{name}.{width}", address)
+    return found
 
 
 def machine() -> TargetMachine:
     """Return the machine; the first call loads LLVM (about 60 ms)."""
     with _STARTING:
         return _machine()
-
-
-class MachineCode:
-    """Compiled functions; their memory is freed with this object."""
-
-    def __init__(self, engine: Any) -> None:
-        self._engine = engine
-
-    def address(self, name: str) -> int:
-        """Return a function's address."""
-        return int(self._engine.get_function_address(name))
 
 
 def module_text(functions: Iterable[str], needs: Iterable[str]) -> str:
@@ -110,16 +131,20 @@ def _scalar_declaration(name: str) -> str:
 
 def compile_text(text: str, *, level: int, slp: bool = False, vectorize: bool = False) -> MachineCode:
     """Compile a module at level 0 … 3. Level 0 is for quick code: no optimisation passes at all."""
-    engine = _engine(text, level, slp=slp, vectorize=vectorize)
-    engine.finalize_object()
-    return MachineCode(engine)
+    return machine().link(_object_file(text, level, slp=slp, vectorize=vectorize), _exported(text))
 
 
-def _engine(text: str, level: int, *, slp: bool, vectorize: bool) -> Any:
-    """Optimise a module and give it to an engine, which makes the code when it is finalized."""
+def _exported(text: str) -> list[str]:
+    """Return the names of the functions that a module defines for others."""
+    return _DEFINITION.findall(text)
+
+
+def _object_file(text: str, level: int, *, slp: bool, vectorize: bool) -> bytes:
+    """Optimise a module and translate it."""
     host = machine()
     llvm = host.llvm
-    module = llvm.parse_assembly(text)
+    context = llvm.create_context()  # the global one would keep every constant of every program
+    module = llvm.parse_assembly(text, context=context)
     options = host.options(level)
     if level:
         tuning = llvm.create_pipeline_tuning_options(speed_level=level)
@@ -128,8 +153,16 @@ def _engine(text: str, level: int, *, slp: bool, vectorize: bool) -> Any:
         tuning.loop_unrolling = vectorize
         tuning.loop_interleaving = vectorize
         builder = llvm.create_pass_builder(options, tuning)
-        builder.getModulePassManager().run(module, builder)
-    return llvm.create_mcjit_compiler(module, options)
+        passes = builder.getModulePassManager()
+        passes.run(module, builder)
+        # `passes.close` finds the wrong base class's method and frees nothing: 90 KB each time
+        llvm.newpassmanagers.NewPassManager._dispose(passes)  # noqa: SLF001
+        passes.detach()
+        builder.close()
+    content = bytes(options.emit_object(module))
+    module.close()
+    context.close()
+    return content
 
 
 def kept_code(name: str) -> MachineCode | None:
@@ -138,21 +171,16 @@ def kept_code(name: str) -> MachineCode | None:
     content = disk_cache.read(file)
     if content is None or not content.startswith(_mark(file)):  # LLVM aborts the process on anything else
         return None
-    host = machine()
-    llvm = host.llvm
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), host.options(0))
-    engine.add_object_file(llvm.ObjectFileRef.from_data(content[len(_mark(file)) :]))
-    engine.finalize_object()
-    return MachineCode(engine)
+    exported, _, code = content[len(_mark(file)) :].partition(b"\n")
+    return machine().link(code, exported.decode("ascii").split())
 
 
 def compile_and_keep(text: str, name: str, *, level: int, vectorize: bool) -> MachineCode:
     """Compile as `compile_text` does; later processes find the code under `name`."""
-    engine = _engine(text, level, slp=False, vectorize=vectorize)
-    file = _file_of(name)
-    engine.set_object_cache(lambda _, content: disk_cache.write(file, _mark(file) + content))
-    engine.finalize_object()
-    return MachineCode(engine)
+    content = _object_file(text, level, slp=False, vectorize=vectorize)
+    exported, file = _exported(text), _file_of(name)
+    disk_cache.write(file, _mark(file) + " ".join(exported).encode("ascii") + b"\n" + content)
+    return machine().link(content, exported)
 
 
 def _mark(file: str) -> bytes:
@@ -163,5 +191,5 @@ def _file_of(name: str) -> str:
     import llvmlite
 
     host = machine()
-    made_for = f"{llvmlite.__version__} {host.triple} {host.cpu} {host.features}"
+    made_for = f"{_FORMAT} {llvmlite.__version__} {host.triple} {host.cpu} {host.features}"
     return f"code-{name}-{blake2b(made_for.encode(), digest_size=8).hexdigest()}.o"

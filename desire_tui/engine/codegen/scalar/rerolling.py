@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.functions import C_FUNCTIONS
 from desire_tui.engine.codegen.scalar.templates import NotPlainError, shape
 from desire_tui.engine.lowered.statements import Deriv, Set
+from desire_tui.engine.recently_used import RecentlyUsed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -26,9 +27,10 @@ _RUN_LEAST = 16
 _INEXACT = frozenset((*C_FUNCTIONS, "sinc", "sigmoid"))
 
 _Shape = tuple[tuple[object, ...], list[int | float]]
-_shapes: dict[int, tuple[Value, _Shape | None]] = {}
+_SHAPES_ROOM = 5_000
+"""Shapes of earlier programs' values: some 1 KB each."""
+_shapes: RecentlyUsed[int, tuple[Value, _Shape | None]] = RecentlyUsed(_SHAPES_ROOM)
 """By the value's id, which stays taken: lowering gives the same value for the same text again."""
-_SHAPES_MOST = 20_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,16 +142,20 @@ def roll(actions: Iterable[Action], width: int) -> list[Action | Rolled]:
     return done
 
 
+def age() -> None:
+    """Between two programs: forget shapes of values that no program of late had."""
+    _shapes.age()
+
+
 def _plain(action: Action) -> _Shape | None:
     """Return shape and leaves of the value of a statement that may be rolled up."""
     if type(action) is not Deriv and type(action) is not Set:
         return None
     value = action.value
-    known = _shapes.get(id(value))
+    known = _shapes[id(value)]
     if known is None:
-        if len(_shapes) >= _SHAPES_MOST:
-            _shapes.clear()
-        known = _shapes[id(value)] = value, _shape(value)
+        known = value, _shape(value)
+        _shapes.keep(id(value), known)
     return known[1]
 
 

@@ -13,6 +13,7 @@ from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import IrText, literal
 from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.random_sequence import DRAWS
+from desire_tui.engine.recently_used import RecentlyUsed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,9 +21,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.cells import Cells
     from desire_tui.engine.lowered.expressions import Value
 
-_templates: dict[tuple[object, ...], tuple[str, frozenset[str], str]] = {}
+_TEMPLATES_ROOM = 500
+_templates: RecentlyUsed[tuple[object, ...], tuple[str, frozenset[str], str]] = RecentlyUsed(_TEMPLATES_ROOM)
 """Shape → lines with places for leaves and a prefix, what they need declared, the result."""
-_SHAPES_MOST = 5000
 _NODES_MOST = 200
 """Larger ones are mostly FUNCTIONs of FUNCTIONs, whose shared arguments the ordinary writer writes once."""
 
@@ -74,7 +75,7 @@ def write(text: IrText, cells: Cells, node: Value) -> str | None:
     names = [load(leaf) if type(leaf) is int else literal(leaf) for leaf in leaves]
     if len(key) == 1:
         return names[0]
-    template = _templates.get(tuple(key))
+    template = _templates[tuple(key)]
     if template is None:
         template = _make_template(tuple(key), node)
     lines, declarations, result = template
@@ -103,10 +104,14 @@ def _make_template(key: tuple[object, ...], node: Value) -> tuple[str, frozenset
     result = write_shape(lanes, node, iter([f"?{number}?" for number in range(1, count + 1)]))
     lines = "\n".join(text.lines).replace("{", "{{").replace("}", "}}")
     lines = _with_placeholders(lines, count)
-    if len(_templates) > _SHAPES_MOST:
-        _templates.clear()
-    template = _templates[key] = (lines, frozenset(text.declarations), _with_placeholders(result, count))
+    template = (lines, frozenset(text.declarations), _with_placeholders(result, count))
+    _templates.keep(key, template)
     return template
+
+
+def age() -> None:
+    """Between two programs: forget templates that no program of late used."""
+    _templates.age()
 
 
 def _with_placeholders(lines: str, count: int) -> str:

@@ -11,13 +11,7 @@ from importlib.resources import files
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from desire_tui.engine.codegen.jit.compiler import (
-    MachineCode,
-    compile_and_keep,
-    compile_text,
-    kept_code,
-    machine,
-)
+from desire_tui.engine.codegen.jit.compiler import compile_and_keep, compile_text, kept_code, machine
 from desire_tui.engine.codegen.plain_python.kinds import Signature, of_declaration, of_function
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
@@ -42,6 +36,8 @@ from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
     from types import ModuleType
+
+    from desire_tui.engine.codegen.jit.linker import MachineCode
 
 _CALLED = (
     "CVode", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
@@ -144,9 +140,9 @@ class SolverRoutines:
         if self._connected:
             return
         cvode = libraries().cvode
-        llvm = machine().llvm
+        host = machine()
         for name in _CALLED:
-            llvm.add_symbol(name, address(cvode, name))
+            host.add_symbol(name, address(cvode, name))
         self._connected = True
 
 

@@ -1,0 +1,82 @@
+"""Puts object code into memory where functions can be called, and takes it out again when nobody needs it.
+
+All code of a linker shares one engine of LLVM's, which costs 0.8 MB; a piece by itself takes some 40 KB. What
+LLVM keeps of a piece that was taken out goes with its linker: it takes so many pieces, then the next begins.
+"""
+
+from __future__ import annotations
+
+import sys
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_PIECES_MOST = 200
+_OUTSIDE = "outside"
+_OVERHEAD = 40_000
+_linkers: set[Linker] = set()
+"""Those with code in use, and the present one: LLVM wants the engine to live longer than its code."""
+
+
+class MachineCode:
+    """Compiled functions; their memory is freed with this object."""
+
+    def __init__(self, linker: Linker, library: Any, size: int) -> None:
+        self._linker = linker
+        self._library = library
+        self.size = size
+        """In bytes, about."""
+
+    def address(self, name: str) -> int:
+        """Return a function's address."""
+        return int(self._library[name])
+
+    def __del__(self) -> None:
+        """Free the memory."""
+        if not sys.is_finalizing():
+            self._library.close()
+            self._linker.dropped(self)
+
+
+class Linker:
+    """One engine of LLVM's. `symbols` are the functions of this process that code may call, by name."""
+
+    def __init__(self, llvm: Any, target_machine: Any, symbols: dict[str, int]) -> None:
+        self._llvm = llvm
+        self._engine = llvm.create_lljit_compiler(target_machine)
+        self._numbers = count()
+        self._living: set[int] = set()
+        self.is_full = False
+        outside = llvm.JITLibraryBuilder().add_current_process()
+        for name, address in symbols.items():
+            outside.import_symbol(name, address).export_symbol(name)
+        self._outside = outside.link(self._engine, _OUTSIDE)
+        _linkers.add(self)
+
+    def link(self, content: bytes, exported: Iterable[str]) -> MachineCode:
+        """Return the functions of an object file; those named in `exported` have addresses."""
+        number = next(self._numbers)
+        builder = self._llvm.JITLibraryBuilder().add_object_img(content).add_jit_library(_OUTSIDE)
+        for name in exported:
+            builder.export_symbol(name)
+        code = MachineCode(self, builder.link(self._engine, f"code{number}"), len(content) + _OVERHEAD)
+        self._living.add(id(code))
+        if number >= _PIECES_MOST:
+            self.close()
+        return code
+
+    def close(self) -> None:
+        """Take no more code."""
+        self.is_full = True
+        self._drop_if_empty()
+
+    def dropped(self, code: MachineCode) -> None:
+        """Note that some code is gone."""
+        self._living.discard(id(code))
+        self._drop_if_empty()
+
+    def _drop_if_empty(self) -> None:
+        if self.is_full and not self._living:
+            _linkers.discard(self)
