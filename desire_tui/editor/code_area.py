@@ -105,7 +105,7 @@ class CodeArea(ProgramView):
         self.completion.focus_lost(self)
 
     def _new_line(self) -> None:
-        row, column = self.cursor_location
+        row, column = min(self.selection)
         line = self.document.get_line(row)
         if self.selection.is_empty and column == len(line) and indent.closes(line):
             blanks = indent.closing_indent(self.document.lines, row)
@@ -128,9 +128,10 @@ class CodeArea(ProgramView):
         """Replace whole rows as one undoable edit; the rows stay selected if there were several."""
         end = len(self.document.get_line(bottom))
         row, column = self.cursor_location
-        self.history.checkpoint()
-        self.replace("\n".join(lines), (top, 0), (bottom, end), maintain_selection_offset=False)
-        self.history.checkpoint()
+        if lines != self.document.lines[top : bottom + 1]:  # else what can be redone is kept
+            self.history.checkpoint()
+            self.replace("\n".join(lines), (top, 0), (bottom, end), maintain_selection_offset=False)
+            self.history.checkpoint()
         if top != bottom:
             self.selection = Selection((top, 0), (top + len(lines) - 1, len(lines[-1])))
         else:

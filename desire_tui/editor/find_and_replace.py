@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from desire_tui.editor.program_lines import follow
 from desire_tui.editor.text_search import SearchRequest, Unsearchable, span
 
 if TYPE_CHECKING:
@@ -88,8 +87,10 @@ class Finder:
 
     def _follow(self, top: Location, bottom: Location, end: Location) -> None:
         assert self._within is not None
+        assert self._document is not None
         start, last = self._within
-        self._within = follow(start, top, bottom, end), follow(last, top, bottom, end)
+        followed = self._document.followed
+        self._within = followed(start, top, bottom, end), followed(last, top, bottom, end)
 
     @property
     def place(self) -> str:

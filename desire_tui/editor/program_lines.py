@@ -44,13 +44,13 @@ class ProgramLines(Document):
             follower((top, left), (bottom, right), place)
         return EditResult(place, replaced)
 
-
-def follow(at: Location, top: Location, bottom: Location, end: Location) -> Location:
-    """Return where a place of a text is after what stood from `top` to `bottom` was replaced up to `end`."""
-    if at <= top:
-        return at
-    if at < bottom:
-        return min(at, end)
-    if at[0] > bottom[0]:
-        return at[0] + end[0] - bottom[0], at[1]
-    return end[0], end[1] + at[1] - bottom[1]
+    def followed(self, at: Location, top: Location, bottom: Location, end: Location) -> Location:
+        """Return where a place is now that what stood from `top` to `bottom` was replaced up to `end`."""
+        if at <= top:
+            return at
+        if at < bottom:
+            row, column = min(at, end)
+            return row, min(column, len(self._lines[row]))  # its line may have become shorter
+        if at[0] > bottom[0]:
+            return at[0] + end[0] - bottom[0], at[1]
+        return end[0], end[1] + at[1] - bottom[1]

@@ -19,7 +19,7 @@ from textual.widgets.text_area import Selection
 
 from desire_tui.editor import indent
 from desire_tui.editor.line_marks import Marks
-from desire_tui.editor.program_lines import ProgramLines, follow
+from desire_tui.editor.program_lines import ProgramLines
 from desire_tui.editor.text_rendering import RenderedText
 from desire_tui.editor.unwrapped_lines import UnwrappedDocument
 from desire_tui.engine.visible_text import visible
@@ -124,11 +124,15 @@ class ProgramView(RenderedText):
 
     @contextmanager
     def _changing(self, *, takes_back: bool = False) -> Iterator[None]:
+        rows = self.document.line_count
         self._is_changing, self.marks.takes_back = True, takes_back
         try:
             yield
         finally:
             self._is_changing = self.marks.takes_back = False
+        self._refresh_size()
+        if rows != self.document.line_count:
+            self.scroll_cursor_visible()
         for view in self.views:
             if view is not self:
                 view.follow_text()
@@ -139,7 +143,7 @@ class ProgramView(RenderedText):
         if self._is_changing:
             return
         rows_above = end[0] - bottom[0] if bottom[0] < self.scroll_offset.y else 0
-        moved = Selection(*(follow(place, top, bottom, end) for place in self.selection))
+        moved = Selection(*(self.document.followed(place, top, bottom, end) for place in self.selection))
         self.set_reactive(TextArea.selection, moved)  # without scrolling to it
         self._rows_moved += rows_above
 
@@ -172,6 +176,8 @@ class ProgramView(RenderedText):
         return super().scroll_cursor_visible(animate=animate)
 
     def _refresh_size(self) -> None:
+        if self._is_changing:
+            return  # TextArea's undo comes here while the cursor stands where the text no longer is
         width = -(-(self._width_most + self.gutter_width + 1) // WIDTH_STEP) * WIDTH_STEP
         size = Size(width, self.document.line_count)
         if size == self.virtual_size:

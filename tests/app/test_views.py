@@ -11,7 +11,7 @@ from textual.widgets import TextArea
 
 from desire_tui.editor.brackets import partner
 from desire_tui.editor.line_marks import Marks
-from desire_tui.editor.program_lines import ProgramLines, follow
+from desire_tui.editor.program_lines import ProgramLines
 from desire_tui.editor.tab_strip import TabStrip
 
 from .conftest import OSCILLATOR, desktop
@@ -75,7 +75,7 @@ def test_a_place_stays_before_the_same_text(edits, row, column):
 
     def moved(top, bottom, end):
         nonlocal place
-        place = follow(place, top, bottom, end)
+        place = lines.followed(place, top, bottom, end)
 
     lines.followers.append(moved)
     for edit in edits:
