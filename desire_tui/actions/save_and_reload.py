@@ -9,6 +9,7 @@ from desire_tui.common.dialogs import Choice
 from desire_tui.common.paths import exists, full
 from desire_tui.editor.buffer import Buffer, NotText
 from desire_tui.engine.atomic_file import replace_text
+from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -40,14 +41,19 @@ class SaveAndReload(Controller):
             if not exists(path):
                 return True  # it vanished: writing it again loses nothing
             choice = await self.app.push_screen_wait(
-                Choice("Changed on disk", sentence, ("Overwrite", "Read it", "Cancel"))
+                Choice("Changed on disk", sentence, ("Overwrite", "Read it", "Cancel"), safe="Cancel")
             )
             if choice == "Read it":
                 self.read_again(area)
             return choice == "Overwrite"
         if not own and exists(path):
             choice = await self.app.push_screen_wait(
-                Choice("File exists", f"{path} exists. Overwrite it?", ("Overwrite", "Cancel"))
+                Choice(
+                    "File exists",
+                    f"{visible_line(str(path))} exists. Overwrite it?",
+                    ("Overwrite", "Cancel"),
+                    safe="Cancel",
+                )
             )
             return choice == "Overwrite"
         return True

@@ -9,6 +9,7 @@ from textual import events
 from textual.app import App
 
 from desire_tui.common import config, paths
+from desire_tui.common.dialogs import Choice
 from desire_tui.common.reach import Reach
 from desire_tui.desktop.completer import Completer
 from desire_tui.desktop.engine_thread import EngineThread
@@ -67,6 +68,8 @@ class AppBase(App[None]):
         """Deal with an event; keys in the order in which they were typed. Alt with a letter types nothing."""
         if isinstance(event, events.Key) and event.key.startswith("alt+"):
             event.character = None
+        if isinstance(event, events.Key) and isinstance(self.screen, Choice) and not self.screen.takes(event):
+            return
         if isinstance(event, events.Key) and not event.is_forwarded and not event.is_printable:
             await self.key_ordering.carry_out(event, super().on_event)
         else:

@@ -11,6 +11,7 @@ from desire_tui.common.dialogs import Choice
 from desire_tui.common.paths import examples_folder
 from desire_tui.editor import recovery
 from desire_tui.editor.buffer import Buffer
+from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
     from desire_tui.app import DesireApp
@@ -63,13 +64,14 @@ async def _offer_recovery(app: DesireApp) -> None:
             code=None,
         )
     for leftover in found:
-        names = ", ".join(tab.label for tab in leftover.tabs)
+        names = ", ".join(visible_line(tab.label) for tab in leftover.tabs)
         choice = await app.push_screen_wait(
             Choice(
                 "Unsaved work found",
                 f"Desire ended without saving {names}.",
                 ("Restore", "Later", "Discard"),
                 unasked=True,
+                safe="Later",
             )
         )
         if choice == "Restore":

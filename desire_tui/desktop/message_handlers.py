@@ -61,8 +61,10 @@ class MessageHandlers(Controller):
         def answered(choice: str | None) -> None:
             message.answer.give(choice == "Allow")
 
-        sentence = f"The program wants to {message.request.sentence}."
-        self.app.push_screen(Choice("Permission", sentence, ("Allow", "Refuse"), unasked=True), answered)
+        sentence = f"The program wants to {message.request.sentence}"
+        self.app.push_screen(
+            Choice("Permission", sentence, ("Allow", "Refuse"), unasked=True, safe="Refuse"), answered
+        )
 
     @handle.register
     def _accepted(self, message: engine_messages.ProgramAccepted) -> None:

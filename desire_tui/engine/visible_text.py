@@ -36,6 +36,11 @@ def visible_line(text: str) -> str:
     return text if text.isprintable() and text.isascii() else _HIDDEN_IN_LINE.sub(_sign, text)
 
 
+def visible_whole(text: str) -> str:
+    """Return text of several lines whose ends are marked, so that none passes for what stands around it."""
+    return visible(text).replace("\n", "␊\n")
+
+
 def for_stream(text: str, stream: IO[str]) -> str:
     """Return what to write to a stream: a terminal gets visible text, files and pipes the text itself."""
     return visible(text) if stream.isatty() else text

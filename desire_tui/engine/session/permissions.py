@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.visible_text import visible_whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,7 +28,7 @@ class PermissionRequest:
     def sentence(self) -> str:
         """Plain words for a dialog."""
         verbs = {"shell": "run the shell command", "read": "read the file", "write": "write the file"}
-        return f"{verbs[self.wish]} {self.what}"
+        return f"{verbs[self.wish]}\n\n{visible_whole(self.what)}"
 
 
 @dataclass
