@@ -21,7 +21,7 @@ write '{EVIL}'
 note '{EVIL}'
 write misspelt; '{EVIL}'
 """
-FORBIDDEN = ("\x1b]0;", "\x1b]52", "\x07", "\x9b", "\x9c", "\u202e", "\u200b")
+FORBIDDEN = ("\x1b]0;", "\x1b]52", "PWNED\x07", "=\x07", "\x9b", "\x9c", "\u202e", "\u200b")
 
 
 def assert_harmless(screen: Terminal) -> None:
