@@ -59,5 +59,5 @@ async def test_the_cursor_stands_where_its_character_is_drawn(program):
         strip = area.render_line(0)
         assert "␛␇��ab" in strip.text
         area.move_cursor((0, 4))
-        await desk.press("down")
+        area.action_cursor_down()
         assert area.cursor_location == (1, 4)
