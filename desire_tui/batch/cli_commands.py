@@ -10,7 +10,7 @@ from desire_tui.batch.console import Console
 from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.batch.progress import Progress
 from desire_tui.batch.runner import Runner, RunOptions
-from desire_tui.engine.diagnostics import DesireError, render_all
+from desire_tui.engine.diagnostics import DesireError, internal_error, render_all
 from desire_tui.engine.files import decoded, read_source
 from desire_tui.engine.interpreter import interruptible
 from desire_tui.engine.session import process_groups
@@ -79,9 +79,17 @@ def run_file(
         console.end_line()
         report(runner.problems)
         status = _EXIT[runner.status]
+        known = len(runner.problems)
         outputs.write(runner.session, runner.result)
+        report(runner.problems[known:])
+        status = _EXIT[runner.status]
     except DesireError as error:
         report(error.diagnostics)
+        status = FAILED
+    except (OSError, KeyboardInterrupt):
+        raise
+    except Exception as error:  # noqa: BLE001 - a fault of ours is a message too
+        report([internal_error("results were written", error)])
         status = FAILED
     if runner.session.stopped_at is not None and not quiet and runner.status == "stopped":
         place = runner.session.stopped_at

@@ -9,9 +9,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from math import inf
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.diagnostics import DesireError, Diagnostic, internal_error
 from desire_tui.engine.session.permissions import Permissions
 from desire_tui.engine.session.process_groups import end_all
 from desire_tui.engine.session.session import Session
@@ -88,6 +88,7 @@ class Runner:
                 if monotonic() > limit and thread.is_alive():
                     self._end(thread, "time-limit", seconds=self._options.timeout)
                     break
+
         if self._crash is not None:
             raise self._crash
 
@@ -129,8 +130,15 @@ class Runner:
             self.problems.extend(error.diagnostics)
             ended = any(d.code == _USER_ENDED for d in error.diagnostics)
             self.status = "limit" if ended or self.status == "limit" else "failed"
-        except BaseException as error:  # noqa: BLE001 - raised again on the main thread
+        except Exception as error:  # noqa: BLE001 - a fault of ours is a result too
+            self.failed("the program ran", error)
+        except BaseException as error:  # noqa: BLE001 - Ctrl-C while modules are loaded: raised on the main thread
             self._crash = error
+
+    def failed(self, what: str, error: BaseException) -> None:
+        """Note a fault of ours as a problem."""
+        self.problems.append(internal_error(what, error))
+        self.status = "failed"
 
     def _check_settings(self) -> None:
         """DesireError 409: settings of names that the program does not have."""
@@ -146,14 +154,22 @@ class Runner:
             raise DesireError(*problems)
 
     def result(self) -> Result:
-        """Return everything the program produced so far."""
+        """Return everything the program produced so far; without the data if they cannot be gathered."""
         from desire_tui.engine.outputs import results
 
         session = self.session
+        try:
+            produced: dict[str, Any] = {
+                "runs": tuple(results.run_data(r) for r in list(session.runs)),
+                "plots": results.plot_points(session.graphs),
+                "quantities": results.final_quantities(session.values),
+                "timings": results.timings(session.parse_seconds, list(session.runs)),
+            }
+        except Exception as error:  # noqa: BLE001 - what the program said must not be lost for it
+            self.failed("results were gathered", error)
+            produced = {}
         return results.Result(
             desire=__version__, program=self._source.name, status=self.status,
             problems=tuple(results.problem_data(p) for p in [*self._listener.warnings, *self.problems]),
-            console=self._listener.console, runs=tuple(results.run_data(r) for r in list(session.runs)),
-            plots=results.plot_points(session.graphs), quantities=results.final_quantities(session.values),
-            timings=results.timings(session.parse_seconds, list(session.runs)),
+            console=self._listener.console, **produced,
         )  # fmt: skip

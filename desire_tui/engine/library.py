@@ -86,6 +86,11 @@ def rounded(x: float) -> float:
     return math.copysign(whole + math.copysign(1.0, x) if abs(x - whole) >= 0.5 else whole, x)
 
 
+def shifted_by(k: float, size: int) -> int:
+    """Return by how many places `x{k}` shifts `size` elements: k rounded; all are gone at `size`."""
+    return int(rounded(max(-float(size), min(float(size), k))))
+
+
 def _trnc(x: float) -> float:
     return math.copysign(int(x), x) if abs(x) < 4503599627370496.0 else x
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
 from desire_tui.engine.codegen.native_model import NativeModel
 from desire_tui.engine.codegen.scalar import rerolling, templates
+from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.integration.rules import rule_numbered
 
@@ -54,6 +55,15 @@ class NativeBackend:
         self._models.clear()
         rerolling.age()
         templates.age()
+
+    def problems(self) -> tuple[Diagnostic, ...]:
+        """Return what kept fast code from being made since somebody asked; quick code runs instead."""
+        return tuple(
+            Diagnostic(
+                "fast-code-missing", facts={"reason": f"{type(fault).__name__}: {fault}"}, severity="warning"
+            )
+            for fault in self._compiler.improver.faults()
+        )
 
     def _make(self, segment: Segment, rule: int, values: Values) -> Model:
         code, improver = self._compiler.code, self._compiler.improver

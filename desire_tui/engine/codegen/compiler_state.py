@@ -58,6 +58,12 @@ class CompilerState:
 
     def _warm_up(self) -> None:
         """Load LLVM; later compile every rule's loop, so that the next program need not."""
+        try:
+            self._load()
+        except Exception:  # noqa: BLE001 - the engine meets the same fault when it compiles, and reports it there
+            return
+
+    def _load(self) -> None:
         machine()
         if self._ending.wait(_SETTLED_SECONDS):
             return

@@ -6,8 +6,8 @@ own error number; `render` draws the line with carets under the span.
 
 from __future__ import annotations
 
-from desire_tui.engine.diagnostics.diagnostic import DesireError, Diagnostic, Severity
+from desire_tui.engine.diagnostics.diagnostic import DesireError, Diagnostic, Severity, internal_error
 from desire_tui.engine.diagnostics.render import render, render_all
 from desire_tui.engine.diagnostics.spelling import closest
 
-__all__ = ["DesireError", "Diagnostic", "Severity", "closest", "render", "render_all"]
+__all__ = ["DesireError", "Diagnostic", "Severity", "closest", "internal_error", "render", "render_all"]

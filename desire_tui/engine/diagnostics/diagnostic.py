@@ -77,6 +77,12 @@ class DesireError(Exception):
         return "; ".join(f"error {d.code}: {d.message}" for d in self.diagnostics)
 
 
+def internal_error(what: str, error: BaseException) -> Diagnostic:
+    """Return the problem that a fault of this program is to its user."""
+    reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return Diagnostic("internal-error", facts={"what": what, "reason": reason.splitlines()[0]})
+
+
 def _counted(sentence: str) -> str:
     """Return the sentence with `1 state(s)` as `1 state`, `2 state(s)` as `2 states`."""
     if "(s)" not in sentence:

@@ -20,7 +20,7 @@ from desire_tui.engine.interpreter.elementwise import (
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.interruptible import run_interruptibly
 from desire_tui.engine.left_chains import OPERATORS, chain
-from desire_tui.engine.library import LIBRARY, integer_power, power
+from desire_tui.engine.library import LIBRARY, integer_power, power, shifted_by
 from desire_tui.engine.nodes.expressions import (
     Binary,
     Call,
@@ -112,7 +112,7 @@ class ArrayExpressions:
         view, by, size = self._context.numbers(quantity), self._context.real(node.by), quantity.size
 
         def evaluate() -> NDArray[np.float64]:
-            k = round(max(-size, min(size, by())))
+            k = shifted_by(by(), size)
             result = np.zeros(size)
             result[max(0, -k) : size - max(0, k)] = view[max(0, k) : size + min(0, k)]
             return result

@@ -6,6 +6,7 @@ import math
 import time
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.breakpoints import falling_facts
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
@@ -16,6 +17,7 @@ from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     import ast
+    from collections.abc import Callable
 
     from desire_tui.engine.interpreter.scalar_translator import ScalarTranslator
     from desire_tui.engine.interpreter.user_functions import UserFunctions
@@ -84,7 +86,28 @@ class CallTranslator:
                 raise ScriptFault("table2-shape", node, name=f.name, rows=x.size, columns=y.size)
         cells = self.build.values.cells
         views = [py.load(self.build.share("a", cells[q.slot : q.slot + q.slots])) for q in arrays]
-        return at(py.call(self._shared(entry), *args, *views), node)
+        function = self.build.share("f", self._checked(entry, node, arrays))
+        return at(py.call(function, *args, *views), node)
+
+    def _checked(self, entry: LibraryFunction, node: Call, arrays: list[Quantity]) -> Callable[..., complex]:
+        """Return the table function that refuses breakpoints which fall."""
+        data, function = self.build.values.data, entry.value
+        assert function is not None
+        of_one = len(arrays) == 1
+        points = [
+            (argument, q.name, data[q.slot : q.slot + (q.size // 2 if of_one else q.size)])
+            for q, argument in zip(arrays, node.args[-len(arrays) :], strict=True)
+        ]
+        points = points if of_one else points[1:]
+
+        def look_up(*numbers: object) -> complex:
+            for argument, name, numbers_of_it in points:
+                facts = falling_facts(name, numbers_of_it)
+                if facts is not None:
+                    raise ScriptFault("table-falling", argument, **facts)
+            return function(*numbers)
+
+        return look_up
 
     def _array(self, node: Expr) -> Quantity:
         if not isinstance(node, Name):

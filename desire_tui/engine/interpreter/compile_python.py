@@ -9,6 +9,7 @@ from desire_tui.engine.interpreter.exception_mapping import Origins, ScriptFault
 from desire_tui.engine.interpreter.random import Noise
 from desire_tui.engine.library import integer_power, power, rounded
 from desire_tui.engine.values import SCALAR_SLOTS
+from desire_tui.engine.whole_numbers import WHOLE_MOST
 
 if TYPE_CHECKING:
     import ast
@@ -17,9 +18,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
     from desire_tui.engine.values import Values
-
-WHOLE_LIMIT = 9007199254740992.0
-"""INTEGER values stay within ±2^53, where doubles hold every whole number."""
 
 
 class PythonCompiler:
@@ -74,7 +72,7 @@ def helpers(values: Values) -> dict[str, Any]:
         raise ScriptFault("undefined-variable", name=name)
 
     def to_integer(value: float) -> float:
-        if not -WHOLE_LIMIT <= value <= WHOLE_LIMIT:
+        if not -WHOLE_MOST <= value <= WHOLE_MOST:
             raise ScriptFault("integer-overflow", value=f"{value:g}")
         return rounded(value)
 

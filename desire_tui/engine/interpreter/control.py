@@ -9,7 +9,6 @@ from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.interpreter.run_count import ROUNDING
-from desire_tui.engine.library import rounded
 from desire_tui.engine.nodes.control import For, GoTo, If, Until, While
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.values import Kind
@@ -88,6 +87,7 @@ def for_loop(context: StatementContext, node: For) -> Operation:
     # k, count, first value, step, slot; shared with `next`
     loop = context.code.loops.setdefault(context.place, [0, 0, 0.0, 1.0, 0])
     after, body, cells = _behind(context), context.next, context.values.cells
+    to_integer = context.machine.build.names["to_integer"]
 
     def operation() -> int:
         a, b = first(), last()
@@ -99,7 +99,7 @@ def for_loop(context: StatementContext, node: For) -> Operation:
             return after
         slot = slot_of()
         loop[:] = 0, count, a, s, slot
-        cells[slot] = rounded(a) if kind is Kind.INTEGER else a
+        cells[slot] = to_integer(a) if kind is Kind.INTEGER else a
         return body
 
     return operation
@@ -121,6 +121,7 @@ def next_pass(context: StatementContext) -> Operation:
         context.host.interrupted,
     )
     whole = kind is Kind.INTEGER
+    to_integer = context.machine.build.names["to_integer"]
 
     def operation() -> int:
         k = loop[0] + 1
@@ -130,7 +131,7 @@ def next_pass(context: StatementContext) -> Operation:
             raise Interrupted
         loop[0] = k
         value = loop[2] + k * loop[3]
-        cells[int(loop[4])] = rounded(value) if whole else value
+        cells[int(loop[4])] = to_integer(value) if whole else value
         return body
 
     return operation

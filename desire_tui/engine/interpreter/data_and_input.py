@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.interpreter.assignment import storer
-from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
 from desire_tui.engine.interpreter.entries import Entries
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.statement_context import StatementContext
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.values import Kind, Quantity
+from desire_tui.engine.whole_numbers import WHOLE_MOST
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -125,6 +125,6 @@ def _misfit(name: str, kind: Kind, value: complex) -> Diagnostic | None:
     """Return what keeps a target of this kind from taking a value: errors 84 and 20."""
     if kind is not Kind.COMPLEX and value.imag != 0.0:
         return Diagnostic("complex-to-real", facts={"name": name})
-    if kind is Kind.INTEGER and abs(value.real) > WHOLE_LIMIT:
+    if kind is Kind.INTEGER and abs(value.real) > WHOLE_MOST:
         return Diagnostic("integer-overflow", facts={"value": f"{value.real:g}"})
     return None

@@ -14,6 +14,8 @@ from desire_tui.engine.random_sequence import seeded
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.host import Host
     from desire_tui.engine.interpreter.statement_context import StatementContext
@@ -83,7 +85,8 @@ def display(context: StatementContext, node: Display) -> Operation:
     host = context.host
     if context.code.is_command and node.mode == "2":
         raise ScriptFault("not-a-command", node, word="display 2")
-    args = [context.real(arg) for arg in node.args]
+    number = context.truncated if node.mode in {"C", "N"} else context.real
+    args: list[Callable[[], float]] = [number(arg) for arg in node.args]
     return context.then(lambda: host.display(node.mode, [arg() for arg in args]))
 
 
@@ -93,14 +96,14 @@ def plot(context: StatementContext, node: Plot) -> Operation:
     first, kind = context.value(node.args[0])
     is_complex = kind is Kind.COMPLEX
     rest = [context.real(arg) for arg in node.args[1:]]
-    colors = rest if is_complex else rest[1:]
+    colors = [context.truncated(arg) for arg in node.args[1 if is_complex else 2 :]]
     if len(colors) > 1 or not (rest or is_complex):
         raise ScriptFault("plot-arguments", node)
 
     def action() -> None:
         z = first()
         y = z.imag if is_complex else rest[0]()
-        host.plot(z.real, y, int(colors[0]()) if colors else None)
+        host.plot(z.real, y, colors[0]() if colors else None)
 
     return context.then(action)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.values import Kind
+from desire_tui.engine.whole_numbers import WHOLE_MOST
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -21,7 +22,7 @@ def scalar_text(value: complex, kind: Kind) -> str:
     if kind is Kind.COMPLEX:
         return f"{_g(value.real)} + j*( {_g(value.imag)})"
     number = value.real
-    if kind is Kind.INTEGER and abs(number) < 1e300:
+    if kind is Kind.INTEGER and abs(number) <= WHOLE_MOST:  # beyond, the last digits would be invented
         return f"{number:.0f}"
     return _g(number)
 

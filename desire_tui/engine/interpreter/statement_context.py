@@ -6,7 +6,6 @@ import ast
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.interpreter import python_ast as py
-from desire_tui.engine.interpreter.compile_python import WHOLE_LIMIT
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.expression_translation import scalar_quantity
 from desire_tui.engine.interpreter.name_resolution import Reference
@@ -15,6 +14,7 @@ from desire_tui.engine.interpreter.subscripts import element_slot
 from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.nodes.signs import literal
 from desire_tui.engine.values import SCALAR_SLOTS, Kind
+from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -94,9 +94,10 @@ class StatementContext:
 
         def evaluate() -> int:
             number = value()
-            if not abs(number) < WHOLE_LIMIT:
+            truncated = whole(number)
+            if truncated is None:
                 raise ScriptFault("integer-overflow", node, value=f"{number:g}")
-            return int(number)
+            return truncated
 
         return evaluate
 

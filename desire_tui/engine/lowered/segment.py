@@ -72,13 +72,24 @@ class Jacobian:
     entries: tuple[JacobianEntry, ...]
 
 
+@node
+class Breakpoints:
+    """Breakpoints of a table function that the script fills: `count` numbers of the array `name`."""
+
+    name: str
+    slot: int
+    count: int
+    where: Where
+
+
 @dataclass(frozen=True)
 class Segment:
     """Everything a back end needs. `requests` holds at most one display request and one `type`.
 
     `scalars` lists the slots of scalars that the segment sets; `counters` says how many history positions
     it has. `exhausted` lists the tests among `body` that end the run where a CLEARN has no template left.
-    `row_chosen` is the place of a `P#` whose row the script must choose (iRow at least 1).
+    `row_chosen` is the place of a `P#` whose row the script must choose (iRow at least 1). `breakpoints` must
+    not fall when a run begins.
     """
 
     label: str | None
@@ -94,6 +105,7 @@ class Segment:
     scalars: tuple[int, ...] = ()
     exhausted: tuple[Terminate, ...] = ()
     row_chosen: Where | None = None
+    breakpoints: tuple[Breakpoints, ...] = ()
     names: dict[int, str] = field(default_factory=dict)
 
     @property

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowered.expressions import Op, Table1, Table2
+from desire_tui.engine.lowered.segment import Breakpoints
 from desire_tui.engine.lowered.walk import operands
 from desire_tui.engine.lowering.lowering_context import (
     BAD,
@@ -123,6 +124,7 @@ def table1(context: LoweringContext, node: Call, extent: Extent) -> Value:
     size = size_of(table)
     if size != UNKNOWN and (size % 2 or size < 2):
         return context.report("table-size", node.args[1], name=table.name, size=size)
+    context.breakpoints.append(Breakpoints(table.name, table.slot, size // 2, context.where(node.args[1])))
     return Table1(x, table.slot, size // 2)
 
 
@@ -135,4 +137,8 @@ def table2(context: LoweringContext, node: Call, extent: Extent) -> Value:
         return BAD
     if len(f.shape) != 2 or not (agree(f.shape[0], size_of(xs)) and agree(f.shape[1], size_of(ys))):
         return context.report("table2-size", node, f=f.name, x=xs.name, y=ys.name)
+    for points, argument in ((xs, node.args[3]), (ys, node.args[4])):
+        context.breakpoints.append(
+            Breakpoints(points.name, points.slot, size_of(points), context.where(argument))
+        )
     return Table2(x, y, f.slot, f.shape[0], f.shape[1], xs.slot, ys.slot)

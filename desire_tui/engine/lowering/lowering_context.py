@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.segment import Breakpoints
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.nodes.declarations import Function
@@ -113,6 +114,7 @@ class LoweringContext(ABC):
         """Names that the expression being lowered has read; "" for what is more than reading a name."""
         self.row_chosen: Where | None = None
         """Where a row `P#` is read first, if the segment leaves iRow to the script."""
+        self.breakpoints: list[Breakpoints] = []
         self.computed_first: list[Action] = []
         """What the present statement computes first: the pieces of its long chains (`long_chains`)."""
         self.redefines_library = not functions.keys().isdisjoint(LIBRARY)

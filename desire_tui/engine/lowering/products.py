@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.left_chains import PIECE, is_long
-from desire_tui.engine.library import rounded
+from desire_tui.engine.library import shifted_by
 from desire_tui.engine.lowered.expressions import MatVec, Op, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowering.lowering_context import BAD
 from desire_tui.engine.lowering.operators import OPERATIONS
@@ -93,7 +93,7 @@ def operand(context: LoweringContext, node: Expr, extent: Extent) -> Value:
         if len(extent) != 1:
             return context.report("shift-in-matrix", node)
         by = constant(context, node.by)
-        shift = int(rounded(by)) if by is not None else 0
+        shift = shifted_by(by, max(count, 1)) if by is not None else 0
         note_read(context, node, quantity.slot, count, shift)
         return ShiftedVec(quantity.slot, count, shift)
     note_read(context, node, quantity.slot, count, 0)

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never, get_args
 
+from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment, StateRange
+from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.lowering import arrays, learning, lowering_cache, requests, statements, targets
 from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
@@ -44,6 +46,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.lowered.segment import Breakpoints
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.lowering.lowering_context import FunctionText, LoweringContext
     from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.lowering.submodels import Line
@@ -92,6 +96,7 @@ def lower_segment(
         stash=tuple(builder.stash), recover=tuple(builder.recover), jacobian=jacobian,
         counters=builder.counters, scalars=_scalars(context), names=builder.names,
         exhausted=tuple(builder.exhausted), row_chosen=context.row_chosen,
+        breakpoints=_filled_by_script(context.breakpoints, body),
     )  # fmt: skip
     return segment, context.problems
 
@@ -223,6 +228,18 @@ def _ready_from_start(builder: SegmentBuilder, lines: Sequence[Line]) -> None:
             context.enter(frame)
             for item in node.items:
                 targets.mark_held(context, item)
+
+
+def _filled_by_script(found: list[Breakpoints], body: tuple[Action, ...]) -> tuple[Breakpoints, ...]:
+    """Return the breakpoints that the segment itself does not set."""
+    if not found:
+        return ()
+    written = [interval for action in walk_actions(body) for interval in writes(action)]
+    return tuple(
+        points
+        for points in found
+        if not any(slot < points.slot + points.count and points.slot < slot + n for slot, n in written)
+    )
 
 
 def _scalars(context: LoweringContext) -> tuple[int, ...]:

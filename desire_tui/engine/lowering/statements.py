@@ -20,6 +20,7 @@ from desire_tui.engine.lowering.scope import UNKNOWN, size_of
 from desire_tui.engine.lowering.subscripts import constant
 from desire_tui.engine.lowering.targets import mark_held, mark_set, scalar_slot
 from desire_tui.engine.nodes.expressions import Element, Name
+from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowering.builder import SegmentBuilder
@@ -116,11 +117,10 @@ def sample(builder: SegmentBuilder, node: Sample) -> None:
     builder.once_only["SAMPLE"] = context.span(node)
     every = constant(context, node.every)
     # 13.98 counts as 13, but a whole number computed with a rounding error counts as itself
-    whole = 1 if every is None else int(every * (1 + 1e-9)) if abs(every) < 1e15 else 0
-    if whole < 1:
+    count = 1 if every is None else whole(every * (1 + 1e-9), 1)
+    if count is None:
         context.report("sample-below-one", node.every, value=f"{every:g}")
-        whole = 1
-    builder.open("sample", context.where(node), every=whole)
+    builder.open("sample", context.where(node), every=count or 1)
 
 
 def store(builder: SegmentBuilder, node: Store) -> None:

@@ -27,6 +27,7 @@ from desire_tui.engine.nodes.expressions import (
     Unary,
 )
 from desire_tui.engine.values import Kind
+from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowering.lowering_context import LoweringContext
@@ -49,10 +50,10 @@ def truncated(context: LoweringContext, node: Expr) -> int | None:
     value = constant(context, node)
     if value is None:
         return None
-    if not abs(value) < 1e15:
+    number = whole(value)
+    if number is None:
         context.report("constant-not-computable", node)
-        return None
-    return int(value)
+    return number
 
 
 def element(context: LoweringContext, node: Element) -> tuple[int | None, str]:

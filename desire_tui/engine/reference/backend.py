@@ -9,6 +9,7 @@ from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.reference.model import ReferenceModel
 
 if TYPE_CHECKING:
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.values import Values
@@ -29,3 +30,7 @@ class ReferenceBackend:
 
     def forget(self) -> None:
         """Do nothing: no model is kept."""
+
+    def problems(self) -> tuple[Diagnostic, ...]:
+        """Return nothing: nothing goes on in the background."""
+        return ()

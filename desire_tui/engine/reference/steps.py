@@ -36,7 +36,7 @@ def fixed_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> Ende
     """Move the states by one step of DT: t = t_base + k·dt_base as long as DT does not change."""
     cells, states = model.cells, model.states
     if tableau.rule.dt_may_change and cells[DT] != memory.dt_base:
-        if not cells[DT] > 0.0:
+        if not cells[T] + cells[DT] > cells[T]:
             memory.phase = Phase.ENDED
             return Ended.STALLED
         memory.t_base, memory.dt_base, memory.k = cells[T], cells[DT], 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.run_memory import Ended, RunMemory
     from desire_tui.engine.values import Values
@@ -29,4 +30,8 @@ class Backend(Protocol):
 
     def forget(self) -> None:
         """Drop all models: their segments will not come again."""
+        ...
+
+    def problems(self) -> tuple[Diagnostic, ...]:
+        """Return what went wrong in the background since somebody asked."""
         ...

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isfinite
+from math import isfinite, ulp
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -23,6 +23,7 @@ from desire_tui.engine.values import (
     TMAX,
     T,
 )  # fmt: skip
+from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.rules import Rule
@@ -32,6 +33,10 @@ if TYPE_CHECKING:
 
 POINTS_DEFAULT = 251
 _ROUNDING_NN = 1e-6
+_RESOLVED = 2.0
+"""Distances of neighbouring numbers near t that a step takes at least."""
+_COUNTED_MOST = 10**12
+"""NN and MM: no run lives to see more, and products of the two stay within 64 bits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,17 +101,18 @@ class Defaults:
             raise _error("tmax-not-positive", value=t_max)
         comint = t_max / (nn - 1)
         dt = self._step(rule, comint)
+        if not dt >= _RESOLVED * ulp(t0):
+            raise _error("time-unresolved", t=t0, dt=dt, gap=ulp(t0))
         step_rule = rule.kind == "variable"
         least = self._steps.least(dt) if step_rule else 0.0
         error_max = self._tolerance(rule)
-        every = self._own(MM)
         return RunPlan(
             rule=rule.number, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
             dt_max=self._largest_step(rule, comint),
             dt_min=self._or_default(DTMIN, least / 16, supply=step_rule),
             error_max=error_max,
             error_min=self._or_default(ERMIN, error_max / 100, supply=step_rule),
-            every=max(int(every), 1) if every is not None and isfinite(every) else 1,
+            every=max(self._counted("MM", self._own(MM) or 1.0), 1),
             checked=self._checked(segment.order) if step_rule else 0,
             scale=cells[SCALE],
         )  # fmt: skip
@@ -130,10 +136,10 @@ class Defaults:
 
     def _points(self) -> int:
         nn = self._own(NN)
-        if nn is not None and not isfinite(nn):
-            raise _error("nn-not-a-number", value=nn)
-        if nn is not None and int(nn + _ROUNDING_NN) > 1:
-            return int(nn + _ROUNDING_NN)  # TMAX/DT + 1 may be a little less than whole
+        if nn is not None:
+            given = self._counted("NN", nn + _ROUNDING_NN)  # TMAX/DT + 1 may be a little less than whole
+            if given > 1:
+                return given
         points = POINTS_DEFAULT
         t_max, dt = self._own(TMAX), self._own(DT)
         if dt is not None and dt == self._steps.at_end:
@@ -176,10 +182,18 @@ class Defaults:
         return self._or_default(ERMAX, 0.001, supply=rule.kind == "variable")
 
     def _checked(self, order: int) -> int:
-        checked = self._own(CHECKN) or 0.0
-        if not (isfinite(checked) and 0 <= int(checked) <= order):
-            raise _error("checkn-out-of-range", value=checked, order=order)
-        return int(checked)
+        value = self._own(CHECKN) or 0.0
+        checked = whole(value, 0, order)
+        if checked is None:
+            raise _error("checkn-out-of-range", value=value, order=order)
+        return checked
+
+    def _counted(self, name: str, value: float) -> int:
+        """Return a setting that counts something, truncated; error 87 for what cannot be counted to."""
+        count = whole(value, -_COUNTED_MOST, _COUNTED_MOST)
+        if count is None:
+            raise _error("setting-uncountable", name=name, value=value, most=float(_COUNTED_MOST))
+        return count
 
     def _or_default(self, slot: int, default: float, *, supply: bool) -> float:
         own = self._own(slot)

@@ -36,6 +36,7 @@ from desire_tui.engine.lowered.statements import (
 from desire_tui.engine.lowered.walk import simple_actions, walk_values
 from desire_tui.engine.runtime.plan import ROUNDING
 from desire_tui.engine.values import DT
+from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -128,10 +129,13 @@ def _lags(
         tau = _time(known, values)
         if not (math.isfinite(tau) and tau >= 0.0):
             raise _error("delay-negative", segment, line, tau=tau)
-        lag = math.floor(tau / (plan.dt if per_step else plan.comint) + ROUNDING)
-        if lag > line.count:
-            name = segment.names.get(line.buffer_slot, "buffer")
-            raise _error("delay-too-long", segment, line, tau=tau, needed=lag, buffer=name, count=line.count)
+        records = tau / (plan.dt if per_step else plan.comint) + ROUNDING
+        lag = whole(records, 0, line.count)
+        if lag is None:
+            name, needed = segment.names.get(line.buffer_slot, "buffer"), f"{records // 1:.15g}"
+            raise _error(
+                "delay-too-long", segment, line, tau=tau, needed=needed, buffer=name, count=line.count
+            )
         found[line.counter] = lag
     return found
 

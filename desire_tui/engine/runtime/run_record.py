@@ -54,6 +54,11 @@ class RunRecord:
     pictures: list[tuple[NDArray[np.float64], ...]] = field(default_factory=list)
     """What SHOW kept: at each sample one copy of each shown array, in the order of the SHOW statements."""
 
+    def __post_init__(self) -> None:
+        """Give the rows their width: a run that fails at once has none, but columns."""
+        if not len(self.rows):
+            self.rows = np.zeros((0, 1 + len(self.columns)))
+
     @property
     def t(self) -> NDArray[np.float64]:
         """Sample times so far."""

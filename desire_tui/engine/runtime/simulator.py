@@ -15,6 +15,7 @@ from desire_tui.engine.runtime.heartbeat import Heartbeat
 from desire_tui.engine.runtime.history import RunHistory
 from desire_tui.engine.runtime.run_faults import exhausted, fault
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
+from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
@@ -81,13 +82,14 @@ class Simulator:
         self, model: Model, segment: Segment, plan: RunPlan, record: RunRecord, observer: Observer
     ) -> bool:
         """Run to the end; False if the user ended it. DesireError: a fault; the record then says `failed`."""
-        self._began = perf_counter()
-        positions = self.history.begin(segment)
+        check_tables(segment, self._values)
         lag = np.zeros(max(segment.counters, 1), dtype=np.int64)
         for counter, records in self._delays.lags(segment, plan, self._values).items():
             lag[counter] = records
-        memory = self._set_up(segment, plan, positions, lag)
         record.rows = _rows(plan, record)
+        self._began = perf_counter()
+        positions = self.history.begin(segment)
+        memory = self._set_up(segment, plan, positions, lag)
         memory.rows = record.rows.ctypes.data
         self.memory = memory
         self._control.attach(memory)

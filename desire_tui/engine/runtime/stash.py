@@ -37,16 +37,28 @@ def read_stash(path: Path, wanted: tuple[SampleColumn, ...], segment: Segment) -
     facts: dict[str, object] = {"path": path, "wanted": len(wanted)}
     if not path.exists():
         raise DesireError(Diagnostic("stash-missing", where, facts, segment.source))
-    try:
-        found = np.load(path, allow_pickle=False)
-    except (OSError, ValueError, EOFError):
-        raise DesireError(Diagnostic("stash-unreadable", where, facts, segment.source)) from None
-    if found.ndim != 2 or found.dtype != np.float64:
+    found = _histories(path)
+    if found is None:
         raise DesireError(Diagnostic("stash-unreadable", where, facts, segment.source))
     if found.shape[1] < len(wanted):
         facts["found"] = found.shape[1]
         raise DesireError(Diagnostic("stash-narrow", where, facts, segment.source))
-    return np.asarray(found, dtype=np.float64)
+    return found
+
+
+def _histories(path: Path) -> NDArray[np.float64] | None:
+    """Return a file's samples × variables; None for a file that is anything else, whatever it says it is."""
+    try:
+        with path.open("rb") as file:
+            if np.lib.format.read_magic(file) != (1, 0):
+                return None
+            shape, by_columns, kind = np.lib.format.read_array_header_1_0(file)
+            numbers = np.frombuffer(file.read(), dtype=np.float64)
+            if kind != np.float64 or len(shape) != 2 or min(shape, default=0) < 1:
+                return None
+            return numbers.reshape(shape, order="F" if by_columns else "C")
+    except Exception:  # noqa: BLE001 - a header may hold anything, and be refused by anything
+        return None
 
 
 def with_recovery(segment: Segment, samples: int, values: Values) -> tuple[Segment, tuple[int, ...]]:

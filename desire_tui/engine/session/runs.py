@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.diagnostics import DesireError, internal_error
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
@@ -99,9 +99,16 @@ class Runs:
             record.ended = "failed"
             record.message = record.message or error.diagnostics[0].message
             raise error.placed(placed.span(), workspace.source_of(placed)) from None
+        except Exception as error:
+            record.ended = "failed"
+            record.message = internal_error("the run went on", error).message
+            raise
         finally:
             workspace.notebook.run_ended(record, workspace.overrides)
             self._listener.run_ended(record)
+        problems = workspace.segments.backend.problems()
+        if problems:
+            self._listener.problems(problems)
         if not finished:
             raise Interrupted
         if segment.stash and not star:

@@ -41,13 +41,14 @@ class Improver:
         self._something = threading.Condition()
         self._thread: threading.Thread | None = None
         self._urgent = 0
+        self._faults: list[Exception] = []
         self._over = False
 
     def add(self, work: Improvable) -> None:
         """Take up some work."""
         with self._something:
             self._new.append(weakref.ref(work))
-            if self._thread is None:
+            if self._thread is None or not (self._thread.is_alive() or self._over):
                 self._thread = threading.Thread(target=self._run, name="desire fast code", daemon=True)
                 self._thread.start()
             self._something.notify()
@@ -59,6 +60,12 @@ class Improver:
             under_way = under_way or any(reference() is work for reference in self._new)
         if not (work.improved or under_way):
             self.add(work)
+
+    def faults(self) -> list[Exception]:
+        """Return what went wrong since somebody asked: work that ended with an exception stays as it was."""
+        with self._something:
+            found, self._faults = self._faults, []
+        return found
 
     @contextmanager
     def held(self) -> Iterator[None]:
@@ -98,7 +105,13 @@ class Improver:
                     del self._begun[:-_BEGUN_MOST]  # programs edited away
                     del work
                 reference, steps = self._begun[-1]
-            if next(steps, self) is self:
+            try:
+                over = next(steps, self) is self
+            except Exception as error:  # noqa: BLE001 - one model's fault must not keep fast code from the others
+                over = True
+                with self._something:
+                    self._faults.append(error)
+            if over:
                 with self._something:
                     self._begun.remove((reference, steps))
             del reference, steps

@@ -37,7 +37,21 @@ MESSAGES: dict[str, Wording] = {
     "dtmax-not-positive": Wording(
         87, "DTMAX = {value:g} is no limit for steps", "set DTMAX above 0, or leave it out: it then is COMINT"
     ),
-    "nn-not-a-number": Wording(87, "NN = {value:g} is no number of samples", "set NN to 2 or more"),
+    "setting-uncountable": Wording(
+        87, "{name} = {value:g} is not a number of samples", "numbers of samples end at {most:g}"
+    ),
+    "time-unresolved": Wording(
+        87,
+        "t = {t:g} is too large for steps of {dt:.3g}: numbers near it are {gap:.3g} apart",
+        "start at a smaller t, or make DT larger",
+        "Numbers have 16 digits. A step that moves t by less than the last of them gives wrong times.",
+    ),
+    "table-falling": Wording(
+        44,
+        "breakpoint {place} of '{name}' is {value:g}, after {before:g}",
+        "breakpoints must not fall from one to the next",
+        "`func1` takes breakpoints from the first half of its table, values from the second.",
+    ),
     "ermax-missing": Wording(
         87,
         "rule {rule} needs an error bound, but ERMAX is not set",

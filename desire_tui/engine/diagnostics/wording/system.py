@@ -9,6 +9,16 @@ MESSAGES: dict[str, Wording] = {
     "memory-exhausted": Wording(
         40, "the machine's memory is full", "smaller arrays, fewer samples (NN, MM), or fewer runs"
     ),
+    "internal-error": Wording(
+        474,
+        "internal error while {what}: {reason}",
+        "a fault of this program, not of yours: please report it, with the program that shows it",
+    ),
+    "fast-code-missing": Wording(
+        474,
+        "internal error while fast code was made: {reason}",
+        "the numbers are right, runs take longer; please report it, with the program that shows it",
+    ),
     "no-program": Wording(215, "there is no program to run", "type one into an editor tab, or load one"),
     "no-dynamic-segment": Wording(
         215, "there is no DYNAMIC program segment", "add a line DYNAMIC and a model below it"
