@@ -25,7 +25,7 @@ from desire_tui.actions.view_actions import ViewActions
 from desire_tui.common import config, paths, themes
 from desire_tui.common.key_names import key_names
 from desire_tui.common.reach import Reach
-from desire_tui.desktop import alt_keys, visible_screen
+from desire_tui.desktop import alt_keys, fault_barrier, visible_screen
 from desire_tui.desktop.app_base import AppBase
 from desire_tui.desktop.command_line import CommandLine
 from desire_tui.desktop.engine_messages import CheckFinished, EngineFault, EngineMessage
@@ -35,6 +35,7 @@ from desire_tui.desktop.live_mode import LiveMode
 from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.message_handlers import MessageHandlers
 from desire_tui.desktop.tour import Tour
+from desire_tui.editor import recovery
 from desire_tui.editor.checkpoints import Checkpoints
 from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.editor.editor_pane import EditorPane
@@ -52,7 +53,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from textual.binding import BindingType
+    from textual.dom import DOMNode
     from textual.screen import Screen
+    from textual.widget import Widget
 
     from desire_tui.actions import Controller
     from desire_tui.engine.diagnostics import Diagnostic
@@ -101,6 +104,10 @@ class DesireApp(AppBase):
         self.checker = LiveChecker(
             partial(self._check, quick=True), self._checked, self._check_fault, self._check
         )
+        fault_barrier.install()
+        self.faults = fault_barrier.FaultBarrier(self.checkpoints.checkpoint, self.log_fault)
+        self.is_shown = False
+        """Whether the desktop stands; before, a fault ends it."""
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.stylesheet.set_variables(self.get_css_variables())
@@ -141,6 +148,7 @@ class DesireApp(AppBase):
     def _show(self) -> None:
         """Draw the desktop for the first time, now that everything stands in its place."""
         self.main_screen.release()
+        self.is_shown = True
         self.main_screen.set_timer(ENGINE_AFTER_S, self.engine.start)
 
     def engine_ready(self) -> None:
@@ -211,9 +219,33 @@ class DesireApp(AppBase):
             self.file_actions.save_and_reload.notice_changes()
 
     def _handle_exception(self, error: Exception) -> None:
-        """Keep the work before Textual takes the screen down."""
+        """Go on after a fault of ours; end where that is not possible."""
+        if self.is_headless and self._exception is None:  # what runs the desktop without a terminal is told
+            self._exception = error
+            self._exception_event.set()
+        if not self.faults.survived(error) or not self.is_shown:
+            self.end_badly(error)
+
+    def end_badly(self, error: Exception) -> None:
+        """End the desktop; why, and where the work is, stands on the normal screen."""
+        from rich.text import Text
+
         self.checkpoints.checkpoint()  # says nothing, unlike the app's own
-        super()._handle_exception(error)
+        kept = recovery.recovery_file()
+        sentences = [f"Desire ended: {type(error).__name__}: {error}"]
+        if (log := self.write_fault("".join(traceback.format_exception(error)))) is not None:
+            sentences.append(f"Details are in {log}.")
+        if kept.exists():
+            sentences.append(f"Unsaved work is kept in {kept}; the next start offers it.")
+        self._exit_renderables.append(Text("\n".join(sentences)))
+        self._return_code = 1
+        self._close_messages_no_wait()
+
+    def _register(self, parent: DOMNode, *widgets: Widget, **options: Any) -> list[Widget]:
+        """Let no widget that cannot be drawn keep the others from being drawn."""
+        for widget in widgets:
+            self.faults.guard(widget)
+        return super()._register(parent, *widgets, **options)
 
     # --------------------------------------------------------------------------------------------- actions
 
@@ -255,7 +287,14 @@ class DesireApp(AppBase):
 
     def in_background(self, job: Callable[[], None]) -> None:
         """Do something slow that is not the engine's, such as drawing a picture."""
-        threading.Thread(target=job, daemon=True, name="desire-picture").start()
+
+        def watched() -> None:
+            try:
+                job()
+            except Exception as error:  # noqa: BLE001 - the last line: threads have nobody else to tell
+                self._check_fault(error)
+
+        threading.Thread(target=watched, daemon=True, name="desire-picture").start()
 
     # ------------------------------------------------------------------------------ what panes ask for
 

@@ -47,7 +47,7 @@ def open_desktop(files: tuple[str, ...], *, allow_shell: bool = False, allow_wri
     end_all()
     interruptible = sys.modules.get("desire_tui.engine.interpreter.interruptible")
     if interruptible is not None:
-        interruptible.leave_at_once(0)
+        interruptible.leave_at_once(status)
     sys.exit(status)
 
 

@@ -232,15 +232,20 @@ class AppBase(App[None]):
 
     def log_fault(self, summary: str, details: str) -> None:
         """Keep a fault of ours in a file and say so; the session goes on."""
+        path = self.write_fault(details)
+        where = f"; details in {path}" if path is not None else ""
+        self.report_error(f"internal error (not yours): {summary}{where}", code=None)
+
+    def write_fault(self, details: str) -> Path | None:
+        """Write a fault up; returns where, None if the folder cannot be written."""
         path = paths.state_folder() / "faults.log"
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            with path.open("a", encoding="utf-8") as file:
+            with path.open("a", encoding="utf-8", errors="backslashreplace") as file:
                 file.write(details + "\n")
-            where = f"; details in {path}"
         except OSError:
-            where = ""
-        self.report_error(f"a fault of this program, not of yours: {summary}{where}", code=None)
+            return None
+        return path
 
     def show_hint(self) -> None:
         """Say in the status row what a paused or waiting program expects."""

@@ -38,7 +38,7 @@ class MessageHandlers(Controller):
 
     @handle.register
     def _missing(self, message: engine_messages.EngineMissing) -> None:
-        raise message.error
+        self.app.end_badly(message.error)
 
     @handle.register
     def _text(self, message: engine_messages.ConsoleText) -> None:
@@ -208,6 +208,7 @@ class MessageHandlers(Controller):
     @handle.register
     def _fault(self, message: engine_messages.EngineFault) -> None:
         self.flush()
+        self.app.checkpoint()
         self.app.log_fault(message.summary, message.details)
 
     def flush(self) -> None:

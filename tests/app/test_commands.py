@@ -77,7 +77,7 @@ async def test_every_action_can_be_done_at_any_time(program, part: str):
             if not round_:
                 await desk.do("run.start")
                 await desk.idle()
-        assert "fault of this program" not in desk.output
+        assert "internal error" not in desk.output
 
 
 async def test_keys_do_what_the_table_says(program):

@@ -43,7 +43,7 @@ async def settle(desk: Desktop) -> None:
         await desk.until(lambda screen=screen: desk.app.screen is not screen)
     await desk.idle()
     assert desk.app.is_running
-    assert "fault of this program" not in desk.output
+    assert "internal error" not in desk.output
 
 
 async def by_key(desk: Desktop, command: Command) -> None:
