@@ -138,8 +138,8 @@ class DesireApp(AppBase):
         await open_first(self)
         for sentence in (*self.config_errors, *self._theme_errors()):
             self.report_error(sentence, code=None)
-        self.main_screen.set_interval(self.settings.checkpoint_seconds, self.checkpoint)
-        for number in (signal.SIGTERM, signal.SIGHUP):
+        self.main_screen.set_interval(self.settings.checkpoint_seconds, self.checkpoint_soon)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if threading.current_thread() is threading.main_thread():
                 asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
         self.theme_changed_signal.subscribe(self.main_screen, lambda _: self.follow_theme())
@@ -180,7 +180,7 @@ class DesireApp(AppBase):
         return [f"{paths.config_file()}: no theme '{wanted}'; there are: {', '.join(self.available_themes)}"]
 
     def _ended_from_outside(self) -> None:
-        """SIGTERM or a lost connection: keep the work in the recovery file, restore the terminal."""
+        """End at a signal or a lost connection: the work is kept, the terminal restored."""
         self.checkpoint()
         self._stop_engine()
         self.exit()
@@ -202,12 +202,25 @@ class DesireApp(AppBase):
     def checkpoint(self) -> None:
         """Write unsaved work to the recovery file, as soon as there can be any."""
         if not self.checkpoints.checkpoint():
-            folder = paths.state_folder()
-            self.notify(
-                f"Unsaved work cannot be kept safe: {folder} cannot be written.",
-                severity="warning",
-                markup=False,
-            )
+            self._not_kept()
+
+    def checkpoint_soon(self) -> None:
+        """Write unsaved work while the user types on."""
+        self.checkpoints.begin(lambda: self.on_screen(self._not_kept))
+
+    def on_exit_app(self) -> None:
+        """Keep the work when a served page goes away."""
+        if not self._exit:
+            self.checkpoint()
+            self._stop_engine()
+
+    def _not_kept(self) -> None:
+        folder = paths.state_folder()
+        self.notify(
+            f"Unsaved work cannot be kept safe: {folder} cannot be written.",
+            severity="warning",
+            markup=False,
+        )
 
     def on_app_blur(self) -> None:
         """Keep the work safe when the window loses the focus."""
@@ -230,6 +243,8 @@ class DesireApp(AppBase):
         """End the desktop; why, and where the work is, stands on the normal screen."""
         from rich.text import Text
 
+        if self._return_code == 1:
+            return  # it is ending
         self.checkpoints.checkpoint()  # says nothing, unlike the app's own
         kept = recovery.recovery_file()
         sentences = [f"Desire ended: {type(error).__name__}: {error}"]
@@ -252,6 +267,8 @@ class DesireApp(AppBase):
     def call(self, command_id: str, argument: str = "") -> Any:
         """Begin an action of the command table; one that asks the user something is a coroutine to await."""
         part, _, name = command_id.partition(".")
+        if part == "run":
+            self.checkpoint_soon()  # a program can end the process
         return getattr(self._controllers[part], name)(argument)
 
     def do(self, command_id: str, argument: str = "") -> None:

@@ -28,7 +28,7 @@ class Config:
     """Letters after which completions are offered by themselves; 0: only on demand."""
     restore_session: bool = True
     """Open the tabs of the last session when no file is named."""
-    checkpoint_seconds: int = 30
+    checkpoint_seconds: int = 1
     """How often unsaved work is written to the recovery file, 1 … 600."""
     keys: dict[str, str] = field(default_factory=dict)
     """Action → keys."""

@@ -5,7 +5,9 @@ Checkpoints while the app runs, the session file at the end, recovery at the sta
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from desire_tui.editor import recovery
@@ -13,8 +15,13 @@ from desire_tui.editor.buffer import Buffer, NotText
 from desire_tui.editor.recovery import Leftover, SavedTab
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.editor.code_area import CodeArea
     from desire_tui.editor.editor_pane import EditorPane
+
+REST, REST_MOST_S = 10, 4.0
+"""Texts of many MB are written less often: so many times as long as it took passes until the next time."""
 
 
 class Checkpoints:
@@ -24,14 +31,41 @@ class Checkpoints:
         self._editor = editor
         self._last: list[SavedTab] = []
         self.failed = False
+        self._writing = threading.Lock()
+        self._begin_at = 0.0
 
     def checkpoint(self) -> bool:
         """Write unsaved work if it changed. Returns False the first time the folder cannot be written."""
-        dirty = [self._saved(area) for area in self._editor.areas if area.is_dirty]
+        dirty = self._dirty()
+        with self._writing:
+            return self._write(dirty)
+
+    def begin(self, failed: Callable[[], object]) -> None:
+        """Do the same in a thread, where it holds up no key; never for more than a tenth of the time."""
+        dirty = self._dirty()
+        if dirty == self._last or monotonic() < self._begin_at or not self._writing.acquire(blocking=False):
+            return
+
+        def write() -> None:
+            start = monotonic()
+            try:
+                is_kept = self._write(dirty)
+            finally:
+                self._begin_at = monotonic() + min(REST * (monotonic() - start), REST_MOST_S)
+                self._writing.release()
+            if not is_kept:
+                failed()
+
+        threading.Thread(target=write, daemon=True, name="desire-checkpoint").start()
+
+    def _dirty(self) -> list[SavedTab]:
+        return [self._saved(area) for area in self._editor.areas if area.is_dirty]
+
+    def _write(self, dirty: list[SavedTab]) -> bool:
         if dirty == self._last:
             return True
-        self._last = dirty
         if recovery.store(recovery.recovery_file(), dirty):
+            self._last = dirty
             return True
         first, self.failed = not self.failed, True
         return not first
@@ -49,7 +83,8 @@ class Checkpoints:
         """End well: remember which files were open, remove the recovery file."""
         tabs = [self._saved(area, text=False) for area in self._editor.areas if area.buffer.path]
         recovery.store(recovery.session_file(), tabs)
-        recovery.recovery_file().unlink(missing_ok=True)
+        with self._writing:
+            recovery.recovery_file().unlink(missing_ok=True)
 
     async def adopt(self, leftover: Leftover) -> int:
         """Open the tabs of a session that ended badly; returns how many."""

@@ -1,6 +1,7 @@
 """Nothing typed is lost.
 
-Unsaved work goes to a recovery file every half minute and when the window loses the focus.
+Unsaved work goes to a recovery file every second, before a run, at a signal and when the window loses
+the focus.
 
 `recovery-<pid>.json` is written to a temporary file and renamed. A file whose process is gone was left by
 a crash, a

@@ -209,7 +209,7 @@ def assert_restored(raw: bytes) -> None:
         assert raw.rfind(off) > raw.rfind(on) >= 0, off
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_restores_the_terminal_and_keeps_the_work(
     terminal: Callable[..., Terminal], tmp_path: Path, number: signal.Signals
 ):
@@ -239,7 +239,6 @@ def test_a_kill_loses_at_most_a_checkpoint(
     terminal: Callable[..., Terminal], tmp_path: Path, number: signal.Signals
 ):
     (tmp_path / "config" / "desire-tui").mkdir(parents=True)
-    (tmp_path / "config" / "desire-tui" / "config.toml").write_text("checkpoint_seconds = 1\n")
     (tmp_path / "kept.src").write_text("")
     screen = terminal("kept.src", shell=("sh", "-c", '"$@"; read line', "sh"))
     screen.until(lambda: "kept.src" in screen.text and "F5" in screen.text)
