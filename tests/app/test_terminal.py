@@ -85,7 +85,7 @@ class Terminal:
 
     def read_question(self) -> None:
         """Take the time a person takes to read: answers typed before are not taken for answers."""
-        end = time.monotonic() + 1
+        end = time.monotonic() + 3
         while time.monotonic() < end:
             self.read()
 
