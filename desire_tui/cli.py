@@ -87,7 +87,9 @@ def _output_options(command: _Command) -> _Command:
     "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="S", help="End after S seconds."
 )
 @click.option("--allow-shell", is_flag=True, help="Let the program run shell commands.")
-@click.option("--allow-write", is_flag=True, help="Let the program use files outside its folder.")
+@click.option(
+    "--allow-write", is_flag=True, help="Let the program use any files, not only data in its folder."
+)
 @click.option("--backend", type=click.Choice(["native", "reference"]), default="native", show_default=True,
               help="Compiled code, or NumPy.")  # fmt: skip
 def run(file: str, **options: Any) -> None:

@@ -6,8 +6,13 @@
 from __future__ import annotations
 
 import os
+import tempfile
 
 from hypothesis import settings
+
+os.environ["XDG_STATE_HOME"] = tempfile.mkdtemp(
+    prefix="desire-tests-"
+)  # the user's own record is not for tests
 
 settings.register_profile("repeatable", deadline=None, derandomize=True, database=None)
 settings.register_profile("search", deadline=None, max_examples=1000)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -71,7 +72,7 @@ def run_file(
 
     echo = answers is not None or not sys.stdin.isatty()
     listener = HeadlessListener(console.write, lines, show_problems, echo=echo)
-    runner = Runner(source, options, listener)
+    runner = Runner(source, replace(options, has_folder=source.path is not None), listener)
     if sys.stderr.isatty() and not quiet:
         console.progress = Progress(runner.session, sys.stderr)
     try:

@@ -44,6 +44,8 @@ class RunOptions:
     folder: Path | None = None
     allow_shell: bool = False
     allow_write: bool = False
+    has_folder: bool = True
+    """False: the program came through a pipe."""
 
 
 def _leave(number: int, _: object) -> None:
@@ -58,7 +60,9 @@ class Runner:
 
     def __init__(self, source: Source, options: RunOptions, listener: HeadlessListener) -> None:
         self._source, self._options, self._listener = source, options, listener
-        permissions = Permissions(shell=options.allow_shell, files=options.allow_write)
+        permissions = Permissions(
+            shell=options.allow_shell, files=options.allow_write, has_folder=options.has_folder
+        )
         self.session = Session(
             listener, backend=options.backend, folder=options.folder, permissions=permissions
         )

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.commands import BY_ID, COMMANDS, binding_ids
 from desire_tui.common.paths import config_file
 from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.user_folders import ignored_variables
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,19 +48,19 @@ ABOUT = {
 def load(path: Path | None = None) -> tuple[Config, list[str]]:
     """Read the configuration; returns it with a sentence for each thing wrong in it."""
     path = path or config_file()
-    settings, wrong = Config(), []
+    settings, wrong = Config(), ignored_variables()
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
-        return settings, []
+        return settings, wrong
     except (OSError, UnicodeDecodeError) as error:
-        return settings, [_unreadable(path, error)]
+        return settings, [*wrong, _unreadable(path, error)]
     import tomllib  # most people have no such file, and open the desktop 10 ms sooner
 
     try:
         stored = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        return settings, [_unreadable(path, error)]
+        return settings, [*wrong, _unreadable(path, error)]
     known = {entry.name: entry for entry in fields(Config)}
     for key, value in stored.items():
         if key not in known:

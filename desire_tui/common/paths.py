@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
-import platformdirs
-
-APP = "desire-tui"
-STATE_VARIABLE = "DESIRE_STATE"
-"""Environment variable by which `desire serve` keeps the owner's unsaved work and history from visitors."""
+from desire_tui.engine import user_folders
 
 
 def config_file() -> Path:
     """Path of the user's configuration; it need not exist."""
-    return Path(platformdirs.user_config_dir(APP, appauthor=False)) / "config.toml"
+    return Path(user_folders.folder("config")) / "config.toml"
 
 
 def state_folder() -> Path:
     """Folder for history, session and recovery files; it need not exist."""
-    apart = os.environ.get(STATE_VARIABLE)
-    return Path(apart) if apart else Path(platformdirs.user_state_dir(APP, appauthor=False))
+    return Path(user_folders.folder("state"))
 
 
 def examples_folder() -> Path:

@@ -17,6 +17,7 @@ from desire_tui.desktop.key_ordering import KeyOrdering
 from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.screen_listener import ScreenListener
 from desire_tui.engine.session.status import State
+from desire_tui.engine.user_folders import make_private
 from desire_tui.panes.command_history import CommandHistory
 from desire_tui.panes.problems_pane import ProgramProblems
 
@@ -240,8 +241,9 @@ class AppBase(App[None]):
         """Write a fault up; returns where, None if the folder cannot be written."""
         path = paths.state_folder() / "faults.log"
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
+            make_private(str(path.parent))
             with path.open("a", encoding="utf-8", errors="backslashreplace") as file:
+                path.chmod(0o600)
                 file.write(details + "\n")
         except OSError:
             return None

@@ -6,6 +6,7 @@ import contextlib
 from typing import TYPE_CHECKING
 
 from desire_tui.common.paths import state_folder
+from desire_tui.engine.user_folders import make_private
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,7 +39,7 @@ class Tour:
     def begin(self) -> None:
         """Start the tour, and remember that."""
         with contextlib.suppress(OSError):  # a state folder that cannot be written: the tour comes again
-            _mark().parent.mkdir(parents=True, exist_ok=True)
+            make_private(str(_mark().parent))
             _mark().touch()
         self._next = list(NEXT)
         self._app.command.console.add(WELCOME, "notice")

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from desire_tui.common.paths import state_folder
-from desire_tui.engine.atomic_file import replace_text
+from desire_tui.engine.user_folders import write_private
 
 VERSION = 1
 
@@ -58,7 +58,8 @@ def store(path: Path, tabs: list[SavedTab]) -> bool:
     """Write tabs; without any, remove the file. False if the folder cannot be written."""
     try:
         if tabs:
-            replace_text(path, json.dumps({"version": VERSION, "tabs": [asdict(tab) for tab in tabs]}))
+            text = json.dumps({"version": VERSION, "tabs": [asdict(tab) for tab in tabs]})
+            write_private(str(path), text.encode())
         else:
             path.unlink(missing_ok=True)
     except OSError:

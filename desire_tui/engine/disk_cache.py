@@ -1,15 +1,14 @@
 """Files that only save time: read if they are whole, written if that is possible, never required."""
 
-# ruff: noqa: PTH111, PTH118, PTH123 - pathlib would add 5 ms to every start
+# ruff: noqa: PTH118, PTH123 - pathlib would add 5 ms to every start
 
 from __future__ import annotations
 
 import os
-import sys
 from contextlib import suppress
 from zlib import crc32
 
-from desire_tui.engine.atomic_file import replacing
+from desire_tui.engine import user_folders
 
 
 def read(name: str) -> bytes | None:
@@ -27,20 +26,17 @@ def write(name: str, content: bytes) -> None:
 
     Not forced to the disk: that takes time, and `read` finds out what a power failure damaged.
     """
-    with suppress(OSError), replacing(_path(name), "wb", make_folder=True, sync=False) as file:
-        file.write(_check(content) + content)
+    with suppress(OSError):
+        user_folders.write_private(_path(name), _check(content) + content, sync=False)
+
+
+def holds_only_ours() -> bool:
+    """Whether nobody else can put files there: what is read may be run."""
+    return user_folders.is_ours_alone(user_folders.folder("cache"))
 
 
 def _path(name: str) -> str:
-    if sys.platform == "linux":  # the same folder as platformdirs names, without its 5 ms
-        folder = os.path.join(
-            os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "desire-tui"
-        )
-    else:
-        from platformdirs import user_cache_dir
-
-        folder = user_cache_dir("desire-tui")
-    return os.path.join(folder, name)
+    return os.path.join(user_folders.folder("cache"), name)
 
 
 def _check(content: bytes) -> bytes:

@@ -38,10 +38,11 @@ class CommandHistory:
         self.lines.append(line)
         del self.lines[:-KEPT_MAX]
         if self._path is not None:
-            from desire_tui.engine.atomic_file import replace_text
+            from desire_tui.engine.user_folders import write_private
 
             with contextlib.suppress(OSError):
-                replace_text(self._path, json.dumps(self.lines, ensure_ascii=False, indent=0))
+                text = json.dumps(self.lines, ensure_ascii=False, indent=0)
+                write_private(str(self._path), text.encode(errors="replace"))
 
     def previous(self, typed: str) -> str | None:
         """Return the line before, None if there is none."""

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import desire_tui
-from desire_tui.common.paths import STATE_VARIABLE, state_folder
+from desire_tui.common.paths import state_folder
+from desire_tui.engine.user_folders import STATE_VARIABLE
 
 DRIVER = "desire_tui.desktop.served_driver:ServedWebDriver"
 _ENDING_S = 5.0

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.session import notebook as notebook_module
 from desire_tui.engine.session import notebook_markdown
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.permissions import Permissions
@@ -252,18 +253,25 @@ def test_a_notebook_that_cannot_be_written_is_refused(tmp_path, name):
     session.execute("write 1")  # nothing is left half on
 
 
+@pytest.fixture
+def full_disk(monkeypatch):
+    """Return a function from whose call on the disk is full."""
+    return lambda: monkeypatch.setattr(
+        notebook_module, "open_for_program", lambda *_: Path("/dev/full").open("a")
+    )
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_a_disk_that_is_full_from_the_start(tmp_path):
-    (tmp_path / "book.md").symlink_to("/dev/full")
+def test_a_disk_that_is_full_from_the_start(tmp_path, full_disk):
+    full_disk()
     with pytest.raises(DesireError) as caught:
         Book(tmp_path)
     assert "No space left" in caught.value.diagnostics[0].message
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_a_disk_that_fills_up_costs_the_notebook_not_the_run(notebook):
-    notebook.path.unlink()
-    notebook.path.symlink_to("/dev/full")
+def test_a_disk_that_fills_up_costs_the_notebook_not_the_run(notebook, full_disk):
+    full_disk()
     notebook.zz(DECAY)
     assert notebook.session.runs[-1].ended == "tmax"
     assert [w.key for w in notebook.listener.warnings] == ["notebook-lost"]

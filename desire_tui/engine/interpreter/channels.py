@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.program_files import open_for_program
 
 if TYPE_CHECKING:
     from desire_tui.engine.interpreter.host import Host
@@ -45,9 +46,9 @@ class Channels:
         if not path.suffix:
             path = path.with_name(path.name + _DEFAULT_ENDING)
         path = self._host.permit(path, "read" if mode == "input" else "write")
-        how = "r" if mode == "input" else "a" if number in _APPENDING else "w"
+        how: Literal["r", "w", "a"] = "r" if mode == "input" else "a" if number in _APPENDING else "w"
         try:
-            file = path.open(how, encoding="utf-8", errors="replace")
+            file = open_for_program(path, how)
         except FileNotFoundError:
             key = "data-file-not-found" if mode == "input" else "cannot-connect"
             raise _problem(key, file=path, reason="its folder does not exist") from None

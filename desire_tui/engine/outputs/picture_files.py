@@ -13,14 +13,20 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.outputs.formats import PictureFormat
+
+
+def picture_format(path: Path) -> PictureFormat:
+    """Return the kind of picture that a name stands for. DesireError 34: none."""
+    known = next((known for known in PICTURES if known.ending == path.suffix.lower()), None)
+    if known is None:
+        raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
+    return known
 
 
 def write_picture(graph: Graph, path: Path) -> None:
     """Write a graph. DesireError 34: an ending that is no picture's; 106: the file cannot be written."""
-    known = next((known for known in PICTURES if known.ending == path.suffix.lower()), None)
-    if known is None:
-        raise DesireError(Diagnostic("picture-kind", facts={"path": path}))
-    content = known.content(graph)
+    content = picture_format(path).content(graph)
     write_bytes(path, lambda file: file.write(content))
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import write_bytes
 from desire_tui.engine.lowered.statements import GetHistory
+from desire_tui.engine.program_files import open_for_program
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -49,7 +50,7 @@ def read_stash(path: Path, wanted: tuple[SampleColumn, ...], segment: Segment) -
 def _histories(path: Path) -> NDArray[np.float64] | None:
     """Return a file's samples × variables; None for a file that is anything else, whatever it says it is."""
     try:
-        with path.open("rb") as file:
+        with open_for_program(path, "rb") as file:
             if np.lib.format.read_magic(file) != (1, 0):
                 return None
             shape, by_columns, kind = np.lib.format.read_array_header_1_0(file)

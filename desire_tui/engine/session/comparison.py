@@ -132,7 +132,7 @@ def run_again(
         why = "has differential equations" if segment.order else "has no differential equations"
         raise DesireError(Diagnostic("compare-not-integrated", facts={"what": f"rule {rule}", "why": why}))
     if segment.recover:
-        segment = workspace.segments.recovering(segment, workspace.stash_path)
+        segment = workspace.segments.recovering(segment, workspace.stash_path("read", lambda _: False))
     if recorded is not None:  # stashed variables are columns and nothing else
         segment = replace(segment, stash=(*segment.stash, SampleColumn(*recorded, _anywhere(segment))))
     for slot, value in ((DT, change.dt), (ERMAX, change.error_max)):

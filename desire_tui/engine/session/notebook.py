@@ -5,6 +5,7 @@ A session goes on without it: when it cannot be written any more it is switched 
 
 from __future__ import annotations
 
+import os
 from contextlib import contextmanager
 from datetime import datetime
 from threading import RLock
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import writing
+from desire_tui.engine.program_files import open_for_program
 from desire_tui.engine.session import notebook_markdown
 
 if TYPE_CHECKING:
@@ -206,7 +208,7 @@ class Notebook:
         while True:
             self._pictures += 1
             picture = path.with_name(f"{path.stem}-{self._pictures}.png")
-            if not picture.exists():
+            if not os.path.lexists(picture):
                 return picture
 
     def _flush(self) -> None:
@@ -249,7 +251,7 @@ class Notebook:
 
     def _put(self, text: str) -> None:
         assert self.path is not None
-        with self.path.open("a", encoding="utf-8", errors="replace") as file:
+        with open_for_program(self.path, "a") as file:
             file.write(text)
 
     def _lost(self, reason: object) -> None:

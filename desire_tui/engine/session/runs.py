@@ -15,6 +15,7 @@ from desire_tui.engine.session.checkpoint import NUMBERS_MOST, Checkpoint
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from pathlib import Path
 
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.graph.pages import GraphPages
@@ -74,7 +75,9 @@ class Runs:
         except DesireError as error:
             raise error.placed(placed.span(), workspace.source_of(placed)) from None
         if segment.recover:
-            segment = workspace.segments.recovering(segment, workspace.stash_path)
+            path = workspace.stash_path("read", self._listener.permit)
+            segment = workspace.segments.recovering(segment, path)
+        stash = workspace.stash_path("write", self._listener.permit) if segment.stash and not star else None
         start = self._checkpoint()
         plan = self.simulator.defaults.plan(segment, rule, workspace.source_of(placed), placed.span())
         model = workspace.segments.model(segment, plan.rule)
@@ -111,8 +114,8 @@ class Runs:
             self._listener.problems(problems)
         if not finished:
             raise Interrupted
-        if segment.stash and not star:
-            self._stash(segment, record)
+        if stash is not None:
+            self._stash(stash, segment, record)
 
     def _checkpoint(self) -> Checkpoint | None:
         values = self._values
@@ -135,9 +138,10 @@ class Runs:
             exact = wrong_elements(segment, self._values)
         return found if exact is None else exact
 
-    def _stash(self, segment: Segment, record: RunRecord) -> None:
+    @staticmethod
+    def _stash(path: Path, segment: Segment, record: RunRecord) -> None:
         first = 1 + len(record.columns) - len(segment.stash)
-        write_stash(self._workspace.stash_path, record.rows[: record.count, first:])
+        write_stash(path, record.rows[: record.count, first:])
 
     def _keep(self, record: RunRecord) -> None:
         if self.kept:

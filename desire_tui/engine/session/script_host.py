@@ -133,7 +133,7 @@ class ScriptHost:
         """Run a shell command, its output to the console; Ctrl-C ends it."""
         from desire_tui.engine.session.shell_command import run_shell
 
-        self._workspace.permissions.shell_command(command, self._listener.permit)
+        self._workspace.permissions.shell_command(command, self._workspace.asker, self._listener.permit)
         run_shell(command, self._workspace.folder, self.write, lambda: self._activity.ending)
 
     def permit(self, path: Path, mode: Literal["read", "write"]) -> Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -13,8 +14,6 @@ from desire_tui.engine.session.report import run_report
 from desire_tui.engine.session.status import State
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.nodes.statements import Statement
@@ -122,8 +121,7 @@ class SessionCommands:
             case "compare":
                 self._compare(argument)
             case "snapshot":
-                path = programs.snapshot(self._file(argument or "graph.png"))
-                write(f"{path}\n")
+                self._snapshot(argument or "graph.png")
             case "notebook":
                 self._notebook(argument)
             case "help" if not self._listener.command(word, argument):
@@ -188,7 +186,14 @@ class SessionCommands:
         state = f"on: {notebook.path}" if notebook.is_on else "off"
         self._listener.console_text(f"notebook {state}\n")
 
-    def _file(self, name: str) -> Path:
-        from pathlib import Path
+    def _snapshot(self, name: str) -> None:
+        from desire_tui.engine.outputs.picture_files import picture_format
 
+        if self._graphs.current is None:
+            raise DesireError(Diagnostic("no-graph"))
+        picture_format(Path(name))  # before anybody is asked about the file
+        path = self._programs.snapshot(self._file(name))
+        self._listener.console_text(f"{path}\n")
+
+    def _file(self, name: str) -> Path:
         return self._workspace.permit(Path(name), "write", self._listener.permit)

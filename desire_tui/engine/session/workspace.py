@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.session.compiled_segments import CompiledSegments
+from desire_tui.engine.session.permissions import Asker
 from desire_tui.engine.source import Source
 from desire_tui.engine.values import Values
 
@@ -57,17 +58,22 @@ class Workspace:
         path = self.source.path
         if path is not None:
             return path.expanduser().resolve().parent
-        return self._folder if self._folder is not None else Path.cwd()
+        return (self._folder if self._folder is not None else Path.cwd()).expanduser().resolve()
 
     def permit(self, path: Path, mode: Literal["read", "write"], ask: Ask) -> Path:
         """Return the resolved path if the program may open it; DesireError 451."""
-        return self.permissions.file(path, mode, self.folder, ask)
+        return self.permissions.file(path, mode, self.asker, ask)
 
     @property
-    def stash_path(self) -> Path:
-        """Where `stash` writes and `recover` reads: beside the program, `NAME.stash.npy`."""
+    def asker(self) -> Asker:
+        """The active program, as permissions know it."""
         path = self.source.path
-        return self.folder / f"{path.stem if path is not None else 'untitled'}.stash.npy"
+        return Asker(self.folder, path.expanduser().resolve() if path is not None else None)
+
+    def stash_path(self, mode: Literal["read", "write"], ask: Ask) -> Path:
+        """Where `stash` writes and `recover` reads: beside the program, `NAME.stash.npy`. DesireError 451."""
+        path = self.source.path
+        return self.permit(Path(f"{path.stem if path is not None else 'untitled'}.stash.npy"), mode, ask)
 
     def runnable(self) -> tuple[Program, Structure]:
         """Return the program and its structure. DesireError 215: there is none; or all its problems."""

@@ -168,7 +168,7 @@ def _object_file(text: str, level: int, *, slp: bool, vectorize: bool) -> bytes:
 def kept_code(name: str) -> MachineCode | None:
     """Return code that `compile_and_keep` stored for a processor like this one; None if there is none."""
     file = _file_of(name)
-    content = disk_cache.read(file)
+    content = disk_cache.read(file) if disk_cache.holds_only_ours() else None  # native code is run unseen
     if content is None or not content.startswith(_mark(file)):  # LLVM aborts the process on anything else
         return None
     exported, _, code = content[len(_mark(file)) :].partition(b"\n")

@@ -81,7 +81,7 @@ MESSAGES: dict[str, Wording] = {
     "shell-failed": Wording(452, "the shell command `{command}` ended with status {status}"),
     "file-refused": Wording(
         451,
-        "the program wants to {mode} {path}, outside its folder {folder}, which is not allowed",
+        "the program wants to {mode} {path}, {reason}: that is not allowed",
         "if you trust it: desire run --allow-write (for reading, too)",
     ),
     "time-limit": Wording(490, "stopped after {seconds:g} second(s), the limit given"),

@@ -1,0 +1,70 @@
+"""Opens files for programs: ordinary files only, and no link is followed on the way.
+
+The path was judged before (`session/permissions`); what stands there when it is opened must still be that.
+"""
+
+from __future__ import annotations
+
+import os
+from errno import EINVAL, EISDIR, ELOOP
+from stat import S_ISBLK, S_ISCHR, S_ISDIR, S_ISFIFO, S_ISLNK, S_ISREG, S_ISSOCK
+from typing import IO, TYPE_CHECKING, Any, Literal, overload
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+_FLAGS = {
+    "r": os.O_RDONLY,
+    "rb": os.O_RDONLY,
+    "w": os.O_WRONLY | os.O_CREAT,  # emptied once it is known what it is
+    "a": os.O_WRONLY | os.O_CREAT | os.O_APPEND,
+}
+_KINDS = (
+    (S_ISLNK, "a link in a circle"),
+    (S_ISFIFO, "a named pipe"),
+    (S_ISCHR, "a device"),
+    (S_ISBLK, "a device"),
+    (S_ISSOCK, "a socket"),
+)
+
+
+@overload
+def open_for_program(path: Path, mode: Literal["r", "w", "a"]) -> IO[str]: ...
+@overload
+def open_for_program(path: Path, mode: Literal["rb"]) -> IO[bytes]: ...
+def open_for_program(path: Path, mode: Literal["r", "w", "a", "rb"]) -> IO[Any]:
+    """Open a file by its resolved path; text is UTF-8. OSError, also for all that is no ordinary file.
+
+    Never waits: a named pipe without a writer would hold the engine for ever.
+    """
+    number = os.open(path, _FLAGS[mode] | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC, 0o666)
+    try:
+        _check(number, path)
+        if mode == "w":
+            os.ftruncate(number, 0)
+        if mode == "rb":
+            return os.fdopen(number, mode)
+        return os.fdopen(number, mode, encoding="utf-8", errors="replace")
+    except BaseException:
+        os.close(number)
+        raise
+
+
+def _check(number: int, path: Path) -> None:
+    """OSError: what was opened is no ordinary file, or another than the path names."""
+    status = os.fstat(number)
+    if S_ISDIR(status.st_mode):
+        raise IsADirectoryError(EISDIR, os.strerror(EISDIR))
+    if not S_ISREG(status.st_mode):
+        raise OSError(EINVAL, "it is no ordinary file")
+    if os.path.realpath(path) != str(path) or not os.path.samestat(status, os.lstat(path)):
+        raise OSError(ELOOP, "a link stands in its way")
+
+
+def irregular_kind(path: Path) -> str | None:
+    """Return what stands at a resolved path in the words of a message; None: a file, a folder, or nothing."""
+    try:
+        mode = path.lstat().st_mode
+    except OSError:
+        return None  # whoever opens it reports that
+    return next((kind for test, kind in _KINDS if test(mode)), None)
