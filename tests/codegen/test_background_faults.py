@@ -44,8 +44,11 @@ def test_the_thread_outlives_a_fault():
 def test_a_dead_thread_is_followed_by_another():
     improver = Improver()
     try:
-        improver.add(Work(SystemExit()))  # ends a thread without a word
+        last = Work(SystemExit())  # ends a thread without a word
+        improver.add(last)
+        assert last.done.wait(10)
         improver._thread.join(10)
+        assert not improver._thread.is_alive()
         good = Work()
         improver.add(good)
         assert good.done.wait(10)
