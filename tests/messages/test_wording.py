@@ -36,6 +36,8 @@ ELSEWHERE = {
     "go-after-edit": "tests/runtime/test_run_control.py::test_go_after_an_edit_is_refused",
     "notebook-lost": "tests/session/test_notebook.py::test_a_disk_that_fills_up_costs_the_notebook_not_the_run",
     "notebook-vanished": "tests/session/test_notebook.py::test_a_file_that_vanishes_begins_anew_and_says_so",
+    "internal-error": "tests/batch/test_internal_faults.py::test_in_python",
+    "fast-code-missing": "tests/codegen/test_background_faults.py::test_the_user_is_told_once",
     "time-limit": "tests/batch/test_headless.py::test_timeout_is_status_3",
     "set-unknown": "tests/batch/test_headless.py::test_a_setting_the_program_has_no_use_for",
     "set-array": "tests/batch/test_headless.py::test_a_setting_the_program_has_no_use_for",

@@ -56,7 +56,7 @@ CODEGEN = (
     _loop('return lanes.compare("oge", self.storage.load(T), lanes.sub(end, slack))',
           'return lanes.compare("oge", self.storage.load(T), end)', *program("dynamic/end_within_rounding")),
     _loop("self.storage.keep_first_stage()", "pass", "tests/codegen/test_run_loop.py"),
-    _loop('driver.put("t_base", driver.storage.load(T))', "pass", "tests/numerics"),
+    _loop('driver.put("t_base", here)', "pass", "tests/numerics"),
     _loop('limit = lanes.sub(self.driver.get("t_next"), slack)', 'limit = self.driver.get("t_next")', *program("dynamic/end_within_rounding")),
     _loop('driver.put("cut", "0")', "pass", *program("dynamic/cut_and_rejected_step")),
     _loop("lanes.compare('olt', dt, least)", "lanes.compare('ogt', dt, least)", *program("dynamic/least_step")),

@@ -106,8 +106,8 @@ LOWERING = (
         "tests/lowering/test_lowering.py",
     ),
     _fault(
-        "int(every * (1 + 1e-9))",
-        "int(every)",
+        "whole(every * (1 + 1e-9), 1)",
+        "whole(every, 1)",
         *program("dynamic/sample_fraction"),
         "tests/lowering/test_lowering.py",
     ),

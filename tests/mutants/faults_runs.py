@@ -34,8 +34,8 @@ RUNS = (
     _runtime("if dt is not None and dt == self._steps.left:", "if False:", *program("dynamic/dt_left_by_rule", "dynamic/dt_between_runs")),
     # delays
     _runtime("yield from _lines(action.body, before.copy())", "yield from _lines(action.body, before)", *program("dynamic/delay_time_under_if")),
-    _runtime("if lag > line.count:", "if lag >= line.count:", *program("dynamic/delay_of_a_whole_buffer")),
-    _runtime("plan.comint) + ROUNDING)", "plan.comint))", *program("dynamic/delay_time_under_if")),
+    _runtime("whole(records, 0, line.count)", "whole(records, 0, line.count - 1)", *program("dynamic/delay_of_a_whole_buffer")),
+    _runtime("plan.comint) + ROUNDING", "plan.comint)", *program("dynamic/delay_time_under_if")),
     # runs and what connects them
     _runtime("record.pictures[::2]", "record.pictures[1::2]", "tests/runtime/test_pictures.py"),
     _runtime("positions.points -= 1", "pass", *program("dynamic/last_of_thinned")),

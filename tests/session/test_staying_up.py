@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import threading
 
-from desire_tui.engine.codegen.compiler_state import shared_state
+from desire_tui.engine.codegen.compiler_state import CompilerState
 from desire_tui.engine.codegen.jit.compiler import compile_text, module_text
 from desire_tui.engine.lowered.segment import Segment
 from desire_tui.engine.recently_used import RecentlyUsed
@@ -66,9 +66,10 @@ def test_compiling_leaves_nothing_behind():
 def test_code_is_bounded_in_bytes(monkeypatch):
     from desire_tui.engine.codegen.jit import cache
 
-    code = shared_state().code
+    state = CompilerState()
+    code = state.code
     monkeypatch.setattr(cache, "_BYTES_MOST", 500_000)
-    session = Session()
+    session = Session(compiler=state)
     for number in range(30):
         session.erun(Source(small(number)))
         assert code.bytes <= 500_000
