@@ -40,7 +40,7 @@ def open_for_program(path: Path, mode: Literal["r", "w", "a", "rb"]) -> IO[Any]:
     number = os.open(path, _FLAGS[mode] | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC, 0o666)
     try:
         _check(number, path)
-        if mode == "w":
+        if mode == "w" and str(path) != os.devnull:
             os.ftruncate(number, 0)
         if mode == "rb":
             return os.fdopen(number, mode)

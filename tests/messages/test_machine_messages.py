@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import SimpleNamespace
+from typing import IO
 
 import pytest
 
@@ -59,9 +60,10 @@ def test_memory_that_ends_in_the_middle(monkeypatch) -> None:
 @pytest.mark.parametrize("last", ["disconnect 2", "TMAX = 1 | drun\nDYNAMIC\nd/dt x = 1"])
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_a_channel_whose_disk_is_full(tmp_path, last, monkeypatch) -> None:
-    monkeypatch.setattr(
-        channels, "open_for_program", lambda *_: Path("/dev/full").open("w", encoding="utf-8")
-    )
+    def full(*_: object) -> IO[str]:
+        return Path("/dev/full").open("w", encoding="utf-8")
+
+    monkeypatch.setattr(channels, "open_for_program", full)
     session = Session(Listener(), folder=tmp_path, permissions=Permissions(files=True))
     problem = problem_of(session, "connect 'full' as output 2", "write ##2, 1", last)
     assert problem.key == "cannot-write"
