@@ -146,24 +146,34 @@ def _assigned_in_segments(program: Program, structure: Structure) -> dict[str | 
     for submodel in structure.submodels.values():
         names: set[str] = set()
         for placed in submodel.body:
-            names.update(_assigned_in_segment(placed.node))
+            _add_assigned(placed.node, names)
         bodies |= names.difference(submodel.dummies)
     found: dict[str | None, set[str]] = {}
     for segment in program.segments:
         names = found.setdefault(segment.label, set())
+        invokes = False
         for placed in segment.body:
-            names.update(_assigned_in_segment(placed.node))
-            if invocation(placed.node) is not None:
-                names |= bodies
+            invokes |= _add_assigned(placed.node, names)
+        if invokes:
+            names |= bodies
     return found
 
 
-def _assigned_in_segment(node: Statement) -> tuple[str, ...]:
-    """Names that a segment's statement could give a value; a submodel may assign its arguments."""
+def _add_assigned(node: Statement, names: set[str]) -> bool:
+    """Add the names that a segment's statement could give a value; report whether it invokes a submodel.
+
+    A submodel may assign its arguments.
+    """
+    targets = assigned(node).targets
+    if targets:
+        for target in targets:
+            names.add(target.name)
+        return False
     invoked = invocation(node)
-    if invoked is not None:
-        return tuple(argument.name for argument in invoked[1] if isinstance(argument, Name))
-    return tuple(target.name for target in assigned(node).targets)
+    if invoked is None:
+        return False
+    names.update(argument.name for argument in invoked[1] if isinstance(argument, Name))
+    return True
 
 
 def _constants(script: Iterable[Placed]) -> dict[str, float]:

@@ -96,7 +96,8 @@ def dummies(node: Procedure | Function | Submodel) -> tuple[str, ...]:
 
 def invocation(node: Statement) -> tuple[str, tuple[Expr, ...]] | None:
     """Return name and arguments of the submodel that a segment's statement invokes: `invoke s(a)`, `s(a)`."""
-    match node:
-        case Invoke(name, args) | Bare(Call(name, args)):
-            return name, args
+    if isinstance(node, Invoke):
+        return node.name, node.args
+    if isinstance(node, Bare) and isinstance(node.value, Call):
+        return node.value.name, node.value.args
     return None
