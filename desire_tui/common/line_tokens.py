@@ -5,7 +5,10 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 ANY_TEXT = frozenset({"STRING", "RAW"})
 """Kinds of tokens that hold text of any sort: strings, and what stands behind `help`, `keep` …."""
@@ -102,6 +105,21 @@ def word_at(line: str, column: int) -> str:
         start -= 1
     found = _WORD_AROUND.match(line, start)
     return found[0] if found is not None else ""
+
+
+def joined_word_at(lines: Sequence[str], row: int, column: int) -> str:
+    """Return the word at a place of a text; a whole one, though `_` may join it from several rows."""
+    from desire_tui.engine.syntax.statement_rows import before, whole
+
+    rows_above = before(lines, row)
+    text = whole(lines, row - rows_above.count("\n"))
+    at = len(rows_above) + column
+    for statement in tokens_of(text).statements:
+        for token in statement:
+            joined = "\n" in text[token.start : token.end] and token.is_word
+            if (joined or token.kind == "NAME") and token.start <= at <= token.end:
+                return token.text
+    return word_at(lines[row], column)
 
 
 def listed_names(line: str) -> list[str]:

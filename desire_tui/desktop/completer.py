@@ -205,7 +205,9 @@ def _here(target: Target) -> tuple[str, int]:
     if isinstance(target, Prompt):
         return target.value, target.cursor_position
     row, column = target.cursor_location
-    return target.document.get_line(row), column
+    line = target.document.get_line(row)
+    begun = row > 0 and line[:1].isalnum() and target.document.get_line(row - 1).rstrip().endswith("_")
+    return ("", 0) if begun and line[:column].isalnum() else (line, column)  # a word of two rows: no offers
 
 
 def _word_start(target: Target) -> tuple[int, int]:

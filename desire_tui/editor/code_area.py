@@ -8,7 +8,7 @@ from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets.text_area import Selection
 
-from desire_tui.common.line_tokens import word_at
+from desire_tui.common.line_tokens import joined_word_at
 from desire_tui.editor import indent
 from desire_tui.editor.program_view import ProgramView
 
@@ -107,7 +107,9 @@ class CodeArea(ProgramView):
     def _new_line(self) -> None:
         row, column = min(self.selection)
         line = self.document.get_line(row)
-        if self.selection.is_empty and column == len(line) and indent.closes(line):
+        rows_above = self._coloured.before(row)
+        at_end = self.selection.is_empty and column == len(line)
+        if at_end and not rows_above and indent.closes(line):
             blanks = indent.closing_indent(self.document.lines, row)
             old = line[: len(line) - len(line.lstrip())]
             if blanks is not None and len(blanks) < len(old):
@@ -115,7 +117,7 @@ class CodeArea(ProgramView):
                 line = self.document.get_line(row)
                 column = len(line)
                 self.move_cursor((row, column))
-        blanks = indent.indent_after(line[:column]) if column else ""
+        blanks = indent.indent_after(line[:column], rows_above) if column else ""
         self._replace_via_keyboard("\n" + blanks, *self.selection)
 
     def _selected_rows(self) -> tuple[int, int]:
@@ -187,4 +189,4 @@ class CodeArea(ProgramView):
     def word_at_cursor(self) -> str:
         """Return the name or word the cursor is on or just behind, or an empty text."""
         row, column = self.cursor_location
-        return word_at(self.document.get_line(row), column)
+        return joined_word_at(self.document.lines, row, column)

@@ -30,9 +30,15 @@ class Offer:
 
 
 def around(lines: Sequence[str], row: int) -> list[str]:
-    """Return the lines around a row, as many as are searched for names."""
+    """Return the lines around a row, as many as are searched for names; rows joined by `_` as one."""
     top, bottom = max(0, row - LINES_SEARCHED), row + LINES_SEARCHED
-    return [line[:LINE_SEARCHED] for line in lines[top:bottom]]
+    found: list[str] = []
+    joins = False
+    for line in lines[top:bottom]:
+        begun = found.pop() if joins else ""
+        joins = len(begun) < LINE_SEARCHED and "--" not in line and line.rstrip().endswith("_")
+        found.append(f"{begun}{line.rstrip()[:-1] if joins else line}"[:LINE_SEARCHED])
+    return found
 
 
 def offers(

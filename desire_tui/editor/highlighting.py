@@ -51,7 +51,7 @@ class LineHighlights(dict[int, "list[Range]"]):
         if not self.are_on() or not isinstance(self.document, ProgramLines):
             return ""
         try:
-            from desire_tui.engine.syntax.highlighting import before
+            from desire_tui.engine.syntax.statement_rows import before
 
             return before(self.document.lines, row)
         except Exception:  # noqa: BLE001 - colours are an ornament, as below

@@ -13,6 +13,7 @@ OPENING = frozenset({"for", "while", "repeat", "PROCEDURE", "SUBMODEL"})
 CLOSING = frozenset({"next", "until", "end", "end if", "end while", "proceed"})
 """First words of statements; `else` closes a block and opens another."""
 COMMENT = re.compile(r"^(\s*)--\s?")
+JOINED = re.compile(r"(.?)_[ \t\r]*\Z")
 
 
 def _first_words(line: str) -> list[str]:
@@ -36,17 +37,30 @@ def closes(line: str) -> bool:
     return bool(words) and (words[0] in CLOSING or words[0] == "else")
 
 
-def indent_after(line: str) -> str:
-    """Return the blanks that a line after this one starts with."""
-    blanks = line[: len(line) - len(line.lstrip())]
-    return blanks + " " * WIDTH if opens(line) else blanks
+def indent_after(line: str, rows_above: str = "") -> str:
+    """Return the blanks that a line after this one starts with.
+
+    `rows_above` are the rows of a statement that goes on in this line. Behind a `_` within a word or a
+    string there are none: they would become part of it.
+    """
+    joined = JOINED.search(line)
+    if joined is not None and not tokens_of(rows_above + line).comments:
+        return _blanks(line) if joined[1] in (" ", "") else ""
+    text = rows_above + line
+    return _blanks(text) + " " * WIDTH if opens(text) else _blanks(text)
+
+
+def _blanks(line: str) -> str:
+    return line[: len(line) - len(line.lstrip(" \t"))]
 
 
 def closing_indent(lines: list[str], row: int) -> str | None:
     """Return the blanks of the line that opens the block which line `row` closes; None if there is none."""
+    from desire_tui.engine.syntax.statement_rows import whole
+
     depth = 0
     for at in range(row - 1, -1, -1):
-        line = lines[at]
+        line = whole(lines, at)
         words = _first_words(line)
         if CLOSING.intersection(words[1:]):
             continue
@@ -56,7 +70,7 @@ def closing_indent(lines: list[str], row: int) -> str | None:
             depth += 1
         elif opens(line):
             if depth == 0:
-                return line[: len(line) - len(line.lstrip())]
+                return _blanks(line)
             depth -= 1
     return None
 

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _LONE_RETURN = re.compile(r"\r(?!\n)")
+_JOINT = r"(?:_[ \t\r]*\n)?"
+"""What may stand between any two characters: `_` joins rows."""
+_WORD = re.compile(rf"(?:{_JOINT}\S)+")
 
 
 class Span(NamedTuple):
@@ -66,8 +69,14 @@ class Source:
 
     def name_within(self, span: Span, name: str) -> Span:
         """Place of a name's first occurrence inside a statement; the statement's where it is not found."""
-        found = re.compile(rf"(?<![\w$]){re.escape(name)}(?![\w$])").search(self.text, span.start, span.end)
+        letters = _JOINT.join(map(re.escape, name))
+        found = re.compile(rf"(?<![\w$]){letters}(?![\w$])").search(self.text, span.start, span.end)
         return Span(*found.span()) if found else span
+
+    def word(self, at: int) -> str:
+        """Return the word that begins at an offset, up to the next blank."""
+        found = _WORD.match(self.text, at)
+        return re.sub(r"_[ \t\r]*\n", "", found[0]) if found else ""
 
     def line(self, row: int) -> str:
         """Text of a row (from 1) without its line end; empty for a row that does not exist."""

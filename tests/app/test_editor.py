@@ -14,7 +14,7 @@ from desire_tui.actions.file_actions import numbered
 from desire_tui.common.dialogs import Choice
 from desire_tui.common.line_tokens import word_before
 from desire_tui.editor import indent
-from desire_tui.editor.completion import offers
+from desire_tui.editor.completion import OWN_NAME, around, offers
 from desire_tui.editor.highlighting import LineHighlights
 
 from .conftest import OSCILLATOR, desktop
@@ -52,9 +52,33 @@ def test_indent_after(line: str, blanks: int):
 
 
 @pytest.mark.parametrize(
+    ("line", "above", "blanks"),
+    [
+        ("  x = al_", "", 0),
+        ("  x = a + _", "", 2),
+        ("  y = 1 -- note_", "", 2),
+        ("3", "  for i = 1 to _\n", 4),
+        ("xt", "  ne_\n", 2),
+        ("  then'", "  write 'if x _\n", 2),
+    ],
+)
+def test_indent_after_rows_that_are_joined(line: str, above: str, blanks: int):
+    assert indent.indent_after(line, above) == " " * blanks
+
+
+def test_words_of_joined_rows_are_offered_whole():
+    lines = ["alpha = 1 | be_", "ta = 2", "x = 3 -- gam_", "ma = 1"]
+    assert [offer.word for offer in offers("be", around(lines, 0), {})] == ["beta"]
+    assert [offer.word for offer in offers("gamm", around(lines, 0), {})] == []
+    assert [offer.word for offer in offers("m", around(lines, 0), {}) if offer.about == OWN_NAME] == ["ma"]
+
+
+@pytest.mark.parametrize(
     ("text", "blanks"),
     [
         ("  for i = 1 to 3\n    x = i\n    next", 2),
+        ("  for i = 1 to 3\n    for k = 1 to 2\n  ne_\nxt\n    next", 2),
+        ("  fo_\nr i = 1 to 3\n    x = i\n    next", 2),
         ("for i = 1 to 3\n  if i > 1 then\n    x = i\n  else x = 2\n    proceed", 2),
         ("  while x\n    next[1] = 2\n    write 'for'\n    -- for ever\n    end while", 2),
         ("if x then\n  write '| next'\n  proceed", 0),

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.common.line_tokens import brackets_in, first_word, listed_names, word_at, words_in
+from desire_tui.common.line_tokens import (
+    brackets_in,
+    first_word,
+    joined_word_at,
+    listed_names,
+    word_at,
+    words_in,
+)
 
 
 @pytest.mark.parametrize(
@@ -34,6 +41,13 @@ def test_words(line: str, words: list[str]):
 )  # fmt: skip
 def test_the_word_under_the_cursor(line: str, column: int, word: str):
     assert word_at(line, column) == word
+
+
+def test_the_word_under_the_cursor_may_go_over_rows():
+    lines = ["x = al_", "pha + be_", "  ta", "y = 'al_", "pha'"]
+    at = [(0, 4), (0, 6), (1, 0), (1, 2), (1, 6), (2, 3), (4, 1)]
+    found = [joined_word_at(lines, row, column) for row, column in at]
+    assert found == ["alpha", "alpha", "alpha", "alpha", "be", "ta", "pha"]
 
 
 @pytest.mark.parametrize(

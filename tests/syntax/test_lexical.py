@@ -7,8 +7,9 @@ import pytest
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.expressions import Binary, Name, Number, Text
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax.highlighting import before, highlight
+from desire_tui.engine.syntax.highlighting import highlight
 from desire_tui.engine.syntax.parse import parse, parse_command
+from desire_tui.engine.syntax.statement_rows import before
 from tests.syntax.format.statements import format_statement
 
 JOINED = {

@@ -141,7 +141,7 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
             return learning.learn(builder, node)
     if isinstance(node, ScriptOnlyStatement | Bare | Invoke):  # calls of submodels have been expanded
         context = builder.context
-        word = context.source.text[slice(*context.span(node))].split(" ")[0]
+        word = context.source.word(context.span(node).start)
         context.report("illegal-in-dynamic", node, word=word)
         return None
     assert_never(node)

@@ -172,7 +172,7 @@ class BlockSurvey:
         if self.broken or (isinstance(opener.node, If) and opener.node.condition is None):
             return
         key = "unclosed-definition" if block.closer == "end" else "unclosed-block"
-        word = self.source.text[opener.at : opener.at + 30].split()[0]
+        word = self.source.word(opener.at)
         self.report(key, opener, word=word, closer=block.closer)
 
     def _if(self, place: int, placed: Placed, node: If) -> None:

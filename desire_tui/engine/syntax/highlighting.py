@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache, lru_cache
-from typing import TYPE_CHECKING, Literal
+from functools import cache
+from typing import Literal
 
-from desire_tui.engine.syntax.parse import numbered, would_spoil
+from desire_tui.engine.syntax.parse import numbered
 from desire_tui.engine.syntax.statement_tokens import LETTER, MATFUN, NAME, NUMBER, OCTAL, RAW, STRING
 from desire_tui.engine.syntax.tokens import scan
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-ROWS_SEARCHED = 100
-"""Longer statements are coloured as if they began anew."""
 Class = Literal["keyword", "function", "system", "string", "comment", "number", "operator", "name"]
 
 _CLASSES: dict[str, Class] = {
@@ -43,48 +38,6 @@ def highlight(text_line: str) -> list[tuple[int, int, Class]]:
             found.append((base + chunk.starts[i], base + chunk.ends[i], _class(chunk.texts, kinds, i, kind)))
     found.sort()
     return found
-
-
-def before(lines: Sequence[str], row: int) -> str:
-    """Return the rows of a statement that goes on in this row, each with its line feed; else an empty text.
-
-    With it in front `highlight` shows what the row holds: no statement begins there.
-    """
-    top, start = row, row
-    while top > 0 and row - top < ROWS_SEARCHED:
-        top -= 1
-        if _goes_on(lines[top]):
-            start = top
-        elif not lines[top].lstrip().startswith("--"):  # a comment may stand between
-            break
-    if start == row:
-        return ""
-    if (
-        row == start + 1
-        and not lines[start].rstrip().endswith("_")
-        and _spoils(tuple(lines[start : _end(lines, row)]))
-    ):
-        return ""
-    return "".join(f"{line}\n" for line in lines[start:row])
-
-
-def _end(lines: Sequence[str], row: int) -> int:
-    """Return the row behind the statement that goes on in `row`."""
-    most = min(len(lines), row + ROWS_SEARCHED)
-    ends = (
-        at for at in range(row, most) if not _goes_on(lines[at]) and not lines[at].lstrip().startswith("--")
-    )
-    return next(ends, most - 1) + 1
-
-
-@lru_cache(maxsize=4096)
-def _goes_on(line: str) -> bool:
-    return line != "" and scan(line[numbered(line) :]).continues
-
-
-@lru_cache(maxsize=256)
-def _spoils(rows: tuple[str, ...]) -> bool:
-    return would_spoil(list(rows))
 
 
 def _class(texts: list[str], kinds: list[str], i: int, kind: str) -> Class:

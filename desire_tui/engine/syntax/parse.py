@@ -22,7 +22,7 @@ from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
 from desire_tui.engine.syntax.shapes import statement
 from desire_tui.engine.syntax.statement_tokens import TokenFault, shown
-from desire_tui.engine.syntax.tokens import scan
+from desire_tui.engine.syntax.tokens import CONTINUES, scan
 from desire_tui.engine.syntax.words import keyword_like
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
     Item = tuple[Statement | TokenFault, int]
-    Entry = tuple[tuple[Item, ...], bool]
+    Entry = tuple[tuple[Item, ...], str]
 
 ROOM = 1_000_000
 """Characters of lines of earlier programs that are cached; their nodes take ten times as many bytes."""
@@ -199,15 +199,12 @@ def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, 
         entry = known(line) or _parse_line(line)
         if entry[1] and i < count:
             parts = [line]
-            length = len(line)
-            while i < count:
+            more = entry[1]
+            while more and i < count:
                 parts.append(rows[i])
-                length += len(rows[i]) + 1
                 next_at += len(rows[i]) + 1
+                more = goes_on(rows[i], more)
                 i += 1
-                last = rows[i - 1]
-                if not (known(last) or _parse_line(last))[1] and not last.lstrip().startswith("--"):
-                    break
             whole = known("\n".join(parts)) or _parse_line("\n".join(parts))
             if _swallowed(line, whole, parts):
                 i -= (
@@ -219,6 +216,18 @@ def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, 
         if entry[0] or number is not None:
             yield entry, at, number, range(first, i)
         at = next_at
+
+
+def goes_on(row: str, before: str = "") -> str:
+    """Return what makes a row go on in the next one, if anything (`LogicalLine.continues`).
+
+    `before` is what made the row above go on in this one.
+    """
+    if before and before not in CONTINUES:
+        return scan(before + row).continues  # the row begins inside a string
+    if before and row.lstrip().startswith("--"):
+        return before  # a comment may stand between
+    return (_lines[row] or _parse_line(row))[1]
 
 
 def _parse_line(line: str) -> Entry:

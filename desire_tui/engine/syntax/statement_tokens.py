@@ -53,11 +53,14 @@ class StatementTokens:
 
 
 class LogicalLine:
-    """A logical line: its statements, its comments' places, and whether it goes on in the next line."""
+    """A logical line: its statements, its comments' places, and what makes it go on in the next line.
+
+    `continues` is an operator, `_`, or the quote of a string that `_` carries over; empty if nothing does.
+    """
 
     __slots__ = ("chunks", "comments", "continues")
 
     def __init__(
-        self, chunks: list[StatementTokens], comments: list[tuple[int, int]], *, continues: bool
+        self, chunks: list[StatementTokens], comments: list[tuple[int, int]], *, continues: str
     ) -> None:
         self.chunks, self.comments, self.continues = chunks, comments, continues

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 
 from desire_tui.engine.syntax.heads import add_head
+from desire_tui.engine.syntax.joined_rows import joints
 from desire_tui.engine.syntax.literals import add_odd, too_large
 from desire_tui.engine.syntax.statement_tokens import (
     MATFUN,
@@ -32,12 +33,13 @@ DEPTH_MAX = 100
 INFINITE_MIN = len("1e309")
 """Shorter numbers are finite."""
 
-_CONTINUES = frozenset("+*/^=-")
+CONTINUES = frozenset("+*/^=-_")
+"""What a row ends with that goes on in the next one."""
 _OPEN = frozenset(OPENERS.values())
 
 _TOKEN = re.compile(
-    r"""(?:[ \t\r\n\f\v]|_[ \t\r]*(?:\n|\Z))*(?:
-      ([A-Za-z](?:[A-Za-z0-9$]|_(?![ \t\r]*(?:\n|\Z)))*)              # 1 name or keyword
+    r"""(?:[ \t\r\n\f\v]|_[ \t\r]*\Z)*(?:
+      ([A-Za-z](?:[A-Za-z0-9$]|_(?![ \t\r]*\Z))*)                     # 1 name or keyword
     | ((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![0-9A-Za-z.$_]))  # 2 number
     | (--[^\n]*|—[^\n]*)                                             # 3 comment
     | (<=|>=|<>|\#\#|%%|[-+*/^=<>()\[\]{},;%\#])                       # 4 operator or bracket
@@ -57,12 +59,16 @@ _OPERAND_FOLLOWS = re.compile(r"[ \t]*[A-Za-z0-9.(&]")
 
 def scan(text: str) -> LogicalLine:
     """Split a line (continuation lines included) into the tokens of its statements. Never raises."""
+    written = text
     if not text.isascii():
         text = normalised(text)
+    if "\n" in text and "_" in text and (joined := joints(text)) is not None:
+        return joined.replace_offsets(scan(joined.text))
     chunks: list[StatementTokens] = []
     comments: list[tuple[int, int]] = []
     match = _TOKEN.match
     pos, words, in_if, depth, base = 0, None, False, 0, 0
+    open_string = ""
     chunk: StatementTokens | None = None
     # The open chunk's lists in local names: this is the hot loop of a cold start, and calls would double it.
     kinds: list[str]
@@ -71,7 +77,7 @@ def scan(text: str) -> LogicalLine:
     ends: list[int]
     if len(text) > LINE_MAX:
         chunks.append(StatementTokens(0, fault=TokenFault("line-too-long", 0, 1, {"limit": LINE_MAX})))
-        return LogicalLine(chunks, comments, continues=False)
+        return LogicalLine(chunks, comments, continues="")
     while True:
         found = match(text, pos)
         assert found is not None
@@ -141,8 +147,12 @@ def scan(text: str) -> LogicalLine:
             chunk.add(MATFUN if len(lexeme) > 1 else "$", lexeme, start, pos)
         else:
             pos = add_odd(chunk, group, lexeme, start)
+            open_string = written[start] if group == 9 and pos == len(text) else ""
     code_from = comments[-1][1] if comments else 0
-    continues = bool(chunk and _wants_more(chunk)) or text[code_from:].rstrip().endswith("_")
+    if text[code_from:].rstrip().endswith("_"):
+        continues = open_string or "_"
+    else:
+        continues = kinds[-1] if chunk and _wants_more(chunk) else ""
     return LogicalLine(chunks, comments, continues=continues)
 
 
@@ -164,4 +174,4 @@ def _is_over(chunk: StatementTokens) -> bool:
 
 def _wants_more(chunk: StatementTokens) -> bool:
     kinds = chunk.kinds
-    return bool(kinds) and kinds[-1] in _CONTINUES
+    return bool(kinds) and kinds[-1] in CONTINUES

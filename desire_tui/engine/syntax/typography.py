@@ -20,7 +20,7 @@ def normalised(text: str) -> str:
             comment = char != "\n"
             out.append(char)
         elif closing:
-            ends = char in closing or char == "\n"
+            ends = char in closing or (char == "\n" and not _is_joined(out))
             out.append(plain if ends else char)
             if ends:
                 closing = ""
@@ -34,3 +34,9 @@ def normalised(text: str) -> str:
                 comment = True
             out.append(plain)
     return "".join(out)
+
+
+def _is_joined(before: list[str]) -> bool:
+    """Whether a row goes on in the next one: it ends in `_`."""
+    last = next((char for char in reversed(before) if char not in " \t\r"), "")
+    return last == "_"
