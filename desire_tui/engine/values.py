@@ -34,6 +34,7 @@ SYSTEM_VARIABLES = (
 (
     T, TMAX, DT, NN, SCALE, DTMAX, DTMIN, ERMAX, ERMIN, ERRMAX, CHECKN, MM, IROW, PI,
 ) = range(len(SYSTEM_VARIABLES))  # fmt: skip
+SYSTEM_SLOTS = len(SYSTEM_VARIABLES)
 
 SCALAR_SLOTS = 1 << 22
 """Slots below this one hold scalars: 32 MiB of address space, touched as needed."""
@@ -195,6 +196,10 @@ class Values:
         """Whether it has a value: arrays always, scalars once assigned."""
         slot = quantity.slot
         return slot >= SCALAR_SLOTS or bool(quantity.shape) or bool(self.defined[slot])
+
+    def is_readable(self, quantity: Quantity) -> bool:
+        """Whether an expression may read it: settings that nobody set read as 0."""
+        return quantity.slot < SYSTEM_SLOTS or self.is_defined(quantity)
 
     @property
     def numbers_used(self) -> int:

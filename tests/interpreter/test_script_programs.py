@@ -34,7 +34,7 @@ def test_for_loop_of_squares_leaves_the_last_value():
         ("for x = 0 to 1 step 0.1", 11, 1.0),
         ("for x = 1 to 2.2 step 0.2", 7, 2.2),
         ("for x = 5 to 1 step -2", 3, 1.0),
-        ("for x = 1 to 0", 0, 7.0),
+        ("for x = 1 to 0", 0, 1.0),
         ("for x = 2 to 2", 1, 2.0),
         ("for x = 0.5 to 3", 3, 2.5),
     ],

@@ -79,7 +79,13 @@ class Names(dict[str, object]):
             self[column.name] = run.values(column.name)
         t = run.t
         self.update(
-            t=t, scale=run.scale, ended=run.ended, count=len(t), steps=run.steps, rejected=run.rejected
+            t=t,
+            scale=run.scale,
+            ended=run.ended,
+            count=len(t),
+            points=len(t),
+            steps=run.steps,
+            rejected=run.rejected,
         )
         self.update(calls=run.derivative_calls, jacobians=run.jacobian_calls)
         self.update(least=run.dt_least, most=run.dt_most)

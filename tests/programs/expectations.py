@@ -5,7 +5,7 @@
                                            steps, rejected, calls, jacobians count, least and most are steps
     --? x = 1.19 +- 1e-6                   absolute tolerance; `+- 1e-6 rel` relative; `<` and `>` need none
     --? with ERMAX = 1e-8 | NN = 11: …     the same, checked on another run with these values overridden
-    --? runs = 18        --? points = 100  how many runs were made, points plotted
+    --? runs = 18        --? points = 100  how many runs were made, points plotted (of a run: its samples)
     --? prints 'one\\ttwo'                  the console shows this text (\\t, \\n as in Python)
     --? console                            the console shows exactly the `--| …` lines that follow
     --? error 200 at 12                    the program fails with this error (at this row)

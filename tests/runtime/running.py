@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
+
+if TYPE_CHECKING:
+    from desire_tui.engine.diagnostics import Diagnostic
 
 BACKEND = "reference"
 """Set by the fixture: every test here runs on both back ends."""
@@ -17,6 +22,7 @@ class Kept(Listener):
     def __init__(self, answers=()):
         self.text = ""
         self.events: list[tuple] = []
+        self.problems_shown: list[Diagnostic] = []
         self.answers = iter(answers)
         self.at_run_start = None
 
@@ -42,6 +48,7 @@ class Kept(Listener):
         self.events.append(("stopped", place.source.position(place.placed.at).row))
 
     def problems(self, diagnostics):
+        self.problems_shown += diagnostics
         self.events.append(("problems", [d.key for d in diagnostics]))
 
     def graph_changed(self, graph):

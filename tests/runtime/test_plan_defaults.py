@@ -87,11 +87,28 @@ def test_initial_t_defaults_to_zero_with_derivatives():
     assert only_run("TMAX = 1 | drun\n" + MODEL).t0 == 0.0
 
 
-@pytest.mark.parametrize("rule", range(9, 17))
-def test_stiff_rules_want_an_error_bound(rule):
-    (problem,) = failure(f"TMAX = 1 | irule {rule} | drun\n{MODEL}")
-    assert problem.code == 87
-    assert "ERMAX" in problem.message
+@pytest.mark.parametrize("rule", [4, 7, 8])
+@pytest.mark.parametrize(
+    ("name", "taken"), [("DT", 0.05), ("DTMAX", 0.1), ("DTMIN", 0.05 / 16), ("ERMAX", 0.001), ("ERMIN", 1e-5)]
+)
+@pytest.mark.parametrize("number", ["0", "-2"])
+def test_a_setting_that_cannot_be_is_replaced_with_one_warning(rule, name, taken, number):
+    text = f"irule {rule} | TMAX = 1 | NN = 11 | {name} = {number}\nwrite {name}\ndrunr | drunr\n{MODEL}"
+    session, kept = ran(text)
+    if name != "DT":  # DT is what the rule made of it
+        assert value(session, name) == pytest.approx(taken)
+    assert session.runs[0].dt == 0.05
+    (problem,) = kept.problems_shown
+    assert (problem.key, problem.severity) == ("setting-not-positive", "warning")
+    assert name in problem.message
+    assert problem.facts["taken"] == pytest.approx(taken)
+
+
+@pytest.mark.parametrize("rule", [1, 2, 3, 5])
+def test_rules_that_look_at_no_error_leave_its_bounds_alone(rule):
+    session, kept = ran(f"irule {rule} | TMAX = 1 | ERMAX = 0 | DTMIN = -1\ndrun\n{MODEL}")
+    assert (value(session, "ERMAX"), value(session, "DTMIN")) == (0, -1)
+    assert kept.problems_shown == []
 
 
 def test_variable_step_defaults_can_be_read_afterwards():

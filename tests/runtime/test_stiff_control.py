@@ -212,7 +212,7 @@ x = x - 0.8
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize(
     ("dt", "code"),
-    [("0", 87), ("-0.001", 87), ("0.5", 110), ("1.0E+30", 110)],
+    [("0.5", 110), ("1.0E+30", 110)],
 )
 def test_a_first_step_that_is_none(rule, dt, code):
     text = MODEL.format(rule=rule).replace("DT = 0.001", f"DT = {dt}")
@@ -240,11 +240,24 @@ dispt x
 
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("ermax", [None, "0", "-1"])
-def test_ermax_must_be_a_positive_number(rule, ermax):
+def test_without_a_positive_error_bound_a_thousandth_is_taken(rule, ermax):
     setting = "" if ermax is None else f"ERMAX = {ermax} |"
-    (problem,) = failure(MODEL.format(rule=rule).replace("ERMAX = 1E-6 |", setting))
-    assert problem.code == 87
+    text = MODEL.format(rule=rule).replace("ERMAX = 1E-6 |", setting).replace("drun", "drun | drun")
+    session, kept = ran(text)
+    assert value(session, "ERMAX") == 0.001
+    assert session.runs[-1].error_max == 0.001
+    (problem,) = kept.problems_shown
+    assert (problem.code, problem.severity) == (87, "warning")
     assert "ERMAX" in problem.message
+    assert problem.span is not None
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("dt", ["0", "-0.001"])
+def test_a_first_step_that_is_none_is_half_an_interval(rule, dt):
+    session, kept = ran(MODEL.format(rule=rule).replace("DT = 0.001", f"DT = {dt}"))
+    assert session.runs[-1].dt == 0.025
+    assert [p.key for p in kept.problems_shown] == ["setting-not-positive"]
 
 
 @pytest.mark.parametrize("name", ["DT", "ERMAX", "TMAX", "DTMAX"])

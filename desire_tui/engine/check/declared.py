@@ -11,14 +11,14 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowering.constant_values import evaluate
-from desire_tui.engine.lowering.scope import SYSTEM_SLOTS, UNKNOWN, StaticScope
+from desire_tui.engine.lowering.scope import UNKNOWN, StaticScope
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.commands import Drun, Simple
 from desire_tui.engine.nodes.control import GoTo, Procedure
 from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.names import assigned, dummies, invocation
-from desire_tui.engine.values import Kind, Quantity
+from desire_tui.engine.values import SYSTEM_SLOTS, Kind, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

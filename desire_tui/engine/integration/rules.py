@@ -45,11 +45,6 @@ class Rule:
         return self.kind in ("variable", "multistep")
 
     @property
-    def needs_error_max(self) -> bool:
-        """Whether ERMAX must be set: there is no default (error 124)."""
-        return self.kind == "multistep"
-
-    @property
     def reads_jacobian(self) -> bool:
         """Whether it reads the program's JACOBIAN segment."""
         return self.corrector == "jacobian"

@@ -78,7 +78,10 @@ def go_to(context: StatementContext, node: GoTo) -> Operation:
 
 
 def for_loop(context: StatementContext, node: For) -> Operation:
-    """`for v = a to b step s`: bounds are evaluated once; error 48 for a loop variable that is not real."""
+    """`for v = a to b step s`: bounds are evaluated once; error 48 for a loop variable that is not real.
+
+    A loop that makes no turn leaves its variable at the start value.
+    """
     first, last = context.real(node.first), context.real(node.last)
     by = context.real(node.by) if node.by is not None else None
     slot_of, kind = context.slot(node.variable)
@@ -95,12 +98,10 @@ def for_loop(context: StatementContext, node: For) -> Operation:
         if s == 0.0:
             raise ScriptFault("step-is-zero", node.by)
         count = floor((b - a) / s + ROUNDING) + 1
-        if count < 1:
-            return after
         slot = slot_of()
         loop[:] = 0, count, a, s, slot
         cells[slot] = to_integer(a) if kind is Kind.INTEGER else a
-        return body
+        return body if count > 0 else after
 
     return operation
 

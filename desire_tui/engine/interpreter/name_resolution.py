@@ -63,7 +63,7 @@ class NameScope:
         if meaning is not None:
             return meaning
         quantity = self.values.find(name)
-        return quantity if quantity is not None and self.values.is_defined(quantity) else None
+        return quantity if quantity is not None and self.values.is_readable(quantity) else None
 
     def read(self, node: Name | Element) -> Meaning:
         """Return what a name that is read stands for; error 200 if nothing."""

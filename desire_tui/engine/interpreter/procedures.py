@@ -12,7 +12,7 @@ from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.name_resolution import Meaning, Reference
 from desire_tui.engine.nodes.expressions import Element, Name
-from desire_tui.engine.values import SCALAR_SLOTS, Kind, Quantity
+from desire_tui.engine.values import SCALAR_SLOTS, SYSTEM_SLOTS, Kind, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -114,7 +114,7 @@ def _fill_again(outer: Box) -> Callable[[Box], None]:
 
 def _fill_scalar(slot: int, defined: bytearray) -> Callable[[Box], None]:
     def fill(box: Box) -> None:
-        box[:] = slot, 1 if slot >= SCALAR_SLOTS else defined[slot]
+        box[:] = slot, 1 if slot < SYSTEM_SLOTS or slot >= SCALAR_SLOTS else defined[slot]
 
     return fill
 

@@ -87,8 +87,8 @@ class Segment:
     """Everything a back end needs. `requests` holds at most one display request and one `type`.
 
     `scalars` lists the slots of scalars that the segment sets; `counters` says how many history positions
-    it has. `exhausted` lists the tests among `body` that end the run where a CLEARN has no template left.
-    `row_chosen` is the place of a `P#` whose row the script must choose (iRow at least 1). `breakpoints` must
+    it has. `faults` lists the compiler's own tests among `body`, which end the run with an error.
+    `row_chosen` is the place of a `P#` whose row the script must choose (iRow above 0). `breakpoints` must
     not fall when a run begins.
     """
 
@@ -103,7 +103,7 @@ class Segment:
     jacobian: Jacobian | None = None
     counters: int = 0
     scalars: tuple[int, ...] = ()
-    exhausted: tuple[Terminate, ...] = ()
+    faults: tuple[Terminate, ...] = ()
     row_chosen: Where | None = None
     breakpoints: tuple[Breakpoints, ...] = ()
     names: dict[int, str] = field(default_factory=dict)

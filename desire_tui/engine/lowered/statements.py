@@ -158,11 +158,15 @@ class UpdateTrackHold:
 
 @node
 class Terminate:
-    """`term e`: tested where STEP is on; `number` counts the segment's term statements from 0."""
+    """`term e`: tested where STEP is on; `number` counts the segment's term statements from 0.
+
+    `fault`: the compiler's own test, which ends the run with this message where its value is above 0.
+    """
 
     value: Value
     number: int
     where: Where
+    fault: str | None = None
 
 
 @node

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import TYPE_CHECKING, Literal
 
-from desire_tui.engine.lowered.expressions import Load, Vec
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Vec
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec, Terminate
+from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
@@ -52,7 +53,8 @@ class SegmentBuilder:
     of a display and a type request. By states (slot, count): `derivative_paths` the guards around each of
     their `d/dt` lines, `_held` the numbers that keep a derivative whose guard is shut. `_derivative_arrays`:
     by a whole array's slot and size the stretches of it that have a `d/dt` (slot, count, guards, name).
-    `exhausted`: tests whether a CLEARN has run out of templates. `names`: scalars by slot, for messages.
+    `faults`: the compiler's own tests, which end the run with an error. `names`: scalars by slot, for
+    messages.
     """
 
     context: LoweringContext
@@ -70,7 +72,8 @@ class SegmentBuilder:
     once_only: dict[str, Span] = field(default_factory=dict)
     derivative_paths: dict[tuple[int, int], list[Path]] = field(default_factory=dict)
     names: dict[int, str] = field(default_factory=dict)
-    exhausted: list[Terminate] = field(default_factory=list)
+    faults: list[Terminate] = field(default_factory=list)
+    _exhausted: list[Terminate] = field(default_factory=list)
     _derivative_arrays: dict[tuple[int, int], list[tuple[int, int, Path, str]]] = field(default_factory=dict)
     _held: dict[tuple[int, int], tuple[int, Where]] = field(default_factory=dict)
 
@@ -80,8 +83,15 @@ class SegmentBuilder:
         return self.counters - 1
 
     def watch(self, slot: int, where: Where) -> None:
-        """End the run with error 232 when this number is 1."""
-        self.exhausted.append(Terminate(Load(slot), 0, where))
+        """End the run with error 232 when this number is 1; that is tested at every step, like a `term`."""
+        self._exhausted.append(Terminate(Load(slot), 0, where, "no-template-left"))
+
+    def watch_row(self, where: Where) -> None:
+        """End the run with error 124 where iRow chooses no row: 1 - swtch(iRow) > 0."""
+        chosen = Op("swtch", (Load(IROW),))
+        test = Terminate(Op("sub", (Const(1.0), chosen)), 0, where, "row-not-chosen")
+        self.body.append(test)
+        self.faults.append(test)
 
     # ------------------------------------------------------------------------------------------ guards
 
@@ -121,15 +131,13 @@ class SegmentBuilder:
         return True
 
     def finish(self) -> tuple[Action, ...]:
-        """Close what is open and return the body; derivatives held under guards come last.
-
-        Whether a CLEARN has run out of templates is tested at every step, like a `term`.
-        """
+        """Close what is open and return the body; derivatives held under guards come last."""
         while self.guards:
             self._close()
-        for term, watched in enumerate(self.exhausted, self.terms):
+        self.body += self._exhausted
+        self.faults += self._exhausted
+        for term, watched in enumerate(self.faults, self.terms):
             watched.number = term  # type: ignore[misc]  # frozen for the type checker only
-        self.body += self.exhausted
         for (slot, count), (held, where) in self._held.items():
             number = self.states.number(slot)
             if number is not None:

@@ -114,6 +114,8 @@ class LoweringContext(ABC):
         """Names that the expression being lowered has read; "" for what is more than reading a name."""
         self.row_chosen: Where | None = None
         """Where a row `P#` is read first, if the segment leaves iRow to the script."""
+        self.row_read: Where | None = None
+        """Where the present statement reads a row `P#` that the segment itself chooses."""
         self.breakpoints: list[Breakpoints] = []
         self.computed_first: list[Action] = []
         """What the present statement computes first: the pieces of its long chains (`long_chains`)."""

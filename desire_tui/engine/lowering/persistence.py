@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.statements import Set, SetDot, SetMat, SetVec
-from desire_tui.engine.lowering.scope import SYSTEM_SLOTS
 from desire_tui.engine.passes.intervals import Intervals
+from desire_tui.engine.values import SYSTEM_SLOTS
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Load

@@ -211,7 +211,9 @@ def _row(context: LoweringContext, node: RowOfNode, quantity: Quantity, extent: 
     if not agree(quantity.shape[1], extent[0]):
         return nonconformable(context, node, f"{quantity.name}#", quantity.shape[1:], extent)
     note_read(context, node, quantity.slot, size_of(quantity), None)
-    if context.row_chosen is None and "iRow" not in context.assigned:
+    if "iRow" in context.assigned:
+        context.row_read = context.where(node)
+    elif context.row_chosen is None:
         context.row_chosen = context.where(node)
     return PatternRow(quantity.slot, quantity.shape[0], quantity.shape[1])
 

@@ -9,13 +9,12 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING, Protocol
 
-from desire_tui.engine.values import SYSTEM_VARIABLES, Quantity, Values
+from desire_tui.engine.values import SYSTEM_SLOTS, SYSTEM_VARIABLES, Quantity, Values
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
 UNKNOWN = -1
-SYSTEM_SLOTS = len(SYSTEM_VARIABLES)
 
 
 def agree(a: int, b: int) -> bool:
@@ -62,7 +61,7 @@ class LiveScope:
 
     def is_defined(self, quantity: Quantity) -> bool:
         """Whether the script (or an earlier run) gave it a value; states start at 0."""
-        return quantity.is_state or quantity.slot < SYSTEM_SLOTS or self.values.is_defined(quantity)
+        return quantity.is_state or self.values.is_readable(quantity)
 
     def scalar(self, name: str, *, is_state: bool = False) -> Quantity:
         """Return the scalar of that name, made if new."""

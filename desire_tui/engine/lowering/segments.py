@@ -84,6 +84,9 @@ def lower_segment(
         except RecursionError:
             context.enter(frame)
             context.report("expression-too-deep", node, limit=LEVELS_MOST)
+        if context.row_read is not None:
+            builder.watch_row(context.row_read)
+            context.row_read = None
         if context.computed_first:
             outer[place:place] = context.computed_first
             context.computed_first.clear()
@@ -95,7 +98,7 @@ def lower_segment(
         requests=tuple(builder.requests), pictures=tuple(builder.pictures),
         stash=tuple(builder.stash), recover=tuple(builder.recover), jacobian=jacobian,
         counters=builder.counters, scalars=_scalars(context), names=builder.names,
-        exhausted=tuple(builder.exhausted), row_chosen=context.row_chosen,
+        faults=tuple(builder.faults), row_chosen=context.row_chosen,
         breakpoints=_filled_by_script(context.breakpoints, body),
     )  # fmt: skip
     return segment, context.problems

@@ -231,5 +231,5 @@ def _shifted(x: Array, by: int) -> Array:
 
 def _row(matrix: Array, cells: memoryview[float]) -> Array:
     row = cells[IROW]
-    number = (int(row) - 1) % len(matrix) if abs(row) < 1e15 else 0
+    number = int(row - 1.0) % len(matrix) if abs(row) < 1e15 else 0
     return np.asarray(matrix[number])

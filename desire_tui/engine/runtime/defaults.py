@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isfinite, ulp
+from math import inf, isfinite, isnan, ulp
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 POINTS_DEFAULT = 251
+ERMAX_DEFAULT = 0.001
 _ROUNDING_NN = 1e-6
 _RESOLVED = 2.0
 """Distances of neighbouring numbers near t that a step takes at least."""
@@ -52,8 +53,8 @@ class StepHistory:
         return dt if self.requested is None else min(dt, self.requested)
 
 
-SavedDefaults = tuple[dict[int, float], StepHistory]
-"""Defaults by their slots, and what became of DT."""
+SavedDefaults = tuple[dict[int, float], StepHistory, frozenset[str]]
+"""Defaults by their slots, what became of DT, and the settings that were warned of."""
 
 
 class Defaults:
@@ -69,21 +70,31 @@ class Defaults:
         self._supplied: dict[int, float] = {}
         self._steps = StepHistory()
         self._generation = values.generation
+        self._warnings: list[Diagnostic] = []
+        self._warned: set[str] = set()
 
     def plan(self, segment: Segment, rule: int, source: Source, at: Span | None) -> RunPlan:
         """Return the plan of a run of `segment` under `irule`. Errors 86, 87, 93, 110, 124."""
-        if segment.row_chosen is not None and not self._values.cells[IROW] >= 1.0:
+        if segment.row_chosen is not None and not self._values.cells[IROW] > 0.0:
             facts = {"value": self._values.cells[IROW]}
             raise DesireError(Diagnostic("row-not-chosen", segment.row_chosen.span, facts, segment.source))
         if self._values.generation != self._generation:
             self._supplied.clear()
             self._steps = StepHistory()
+            self._warned.clear()
             self._generation = self._values.generation
+        self._warnings.clear()
         try:
-            return self._plan(segment, rule_numbered(rule) if segment.order else RULES[DUMMY])
+            plan = self._plan(segment, rule_numbered(rule) if segment.order else RULES[DUMMY])
         except DesireError as error:
             placed = [Diagnostic(d.key, at, d.facts, source) for d in error.diagnostics]
             raise DesireError(*placed) from None
+        self._warnings = [replace(d, span=at, source=source) for d in self._warnings]
+        return plan
+
+    def warnings(self) -> tuple[Diagnostic, ...]:
+        """Return what the last plan took in place of settings that cannot be; each once in a program."""
+        return tuple(self._warnings)
 
     def _plan(self, segment: Segment, rule: Rule) -> RunPlan:
         cells = self._values.cells
@@ -108,10 +119,10 @@ class Defaults:
         error_max = self._tolerance(rule)
         return RunPlan(
             rule=rule.number, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
-            dt_max=self._largest_step(rule, comint),
-            dt_min=self._or_default(DTMIN, least / 16, supply=step_rule),
+            dt_max=self._or_default("DTMAX", DTMAX, comint, counts=rule.controls_error),
+            dt_min=self._or_default("DTMIN", DTMIN, least / 16, counts=step_rule),
             error_max=error_max,
-            error_min=self._or_default(ERMIN, error_max / 100, supply=step_rule),
+            error_min=self._or_default("ERMIN", ERMIN, error_max / 100, counts=step_rule),
             every=max(self._counted("MM", self._own(MM) or 1.0), 1),
             checked=self._checked(segment.order) if step_rule else 0,
             scale=cells[SCALE],
@@ -119,12 +130,12 @@ class Defaults:
 
     def saved(self) -> SavedDefaults:
         """Return what is a default now, for `restore`."""
-        return self._supplied.copy(), self._steps
+        return self._supplied.copy(), self._steps, frozenset(self._warned)
 
     def restore(self, saved: SavedDefaults) -> None:
         """Take up what was a default when `saved` was called; the values have been put back too."""
-        supplied, self._steps = saved
-        self._supplied = supplied.copy()
+        supplied, self._steps, warned = saved
+        self._supplied, self._warned = supplied.copy(), set(warned)
 
     def follow(self) -> None:
         """Note, after a run or reset, that the DT which it left is not the program's own setting."""
@@ -155,8 +166,11 @@ class Defaults:
         dt = self._own(DT)
         if dt is None:
             return self._supply(DT, comint / 2)
-        if not (isfinite(dt) and dt > 0.0):
-            raise _error("dt-not-positive", value=dt)
+        if not isfinite(dt):
+            raise _error("setting-not-finite", name="DT", value=dt)
+        if dt <= 0.0:
+            self._warn("setting-not-positive", "DT", value=dt, taken=comint / 2)
+            return self._supply(DT, comint / 2)
         is_left = dt == self._steps.at_end
         if dt > comint * (1 + ROUNDING):
             if not is_left:
@@ -167,19 +181,13 @@ class Defaults:
         self._steps = StepHistory(requested=requested, at_start=dt, at_end=dt if is_left else None)
         return dt
 
-    def _largest_step(self, rule: Rule, comint: float) -> float:
-        own = self._own(DTMAX)
-        if own is not None and rule.controls_error and not own >= 0.0:
-            raise _error("dtmax-not-positive", value=own)
-        return self._or_default(DTMAX, comint, supply=rule.kind == "variable")
-
     def _tolerance(self, rule: Rule) -> float:
         own = self._own(ERMAX)
-        if own is None and rule.needs_error_max:
-            raise _error("ermax-missing", rule=rule.number)
-        if own is not None and rule.controls_error and not (isfinite(own) and own > 0.0):
-            raise _error("ermax-not-positive", value=own)
-        return self._or_default(ERMAX, 0.001, supply=rule.kind == "variable")
+        if own == inf and rule.controls_error:
+            raise _error("setting-not-finite", name="ERMAX", value=own)
+        if own is None and rule.kind == "multistep":
+            self._warn("ermax-missing", "ERMAX", rule=rule.number, taken=ERMAX_DEFAULT)
+        return self._or_default("ERMAX", ERMAX, ERMAX_DEFAULT, counts=rule.controls_error)
 
     def _checked(self, order: int) -> int:
         value = self._own(CHECKN) or 0.0
@@ -195,11 +203,23 @@ class Defaults:
             raise _error("setting-uncountable", name=name, value=value, most=float(_COUNTED_MOST))
         return count
 
-    def _or_default(self, slot: int, default: float, *, supply: bool) -> float:
+    def _or_default(self, name: str, slot: int, default: float, *, counts: bool) -> float:
+        """Return a setting of the step's control; where the rule `counts` on it, only if it is above 0."""
         own = self._own(slot)
+        if not counts:
+            return default if own is None else own
         if own is not None:
-            return own
-        return self._supply(slot, default) if supply else default
+            if isnan(own):
+                raise _error("setting-not-finite", name=name, value=own)
+            if own > 0.0:
+                return own
+            self._warn("setting-not-positive", name, value=own, taken=default)
+        return self._supply(slot, default)
+
+    def _warn(self, key: str, name: str, **facts: object) -> None:
+        if name not in self._warned:
+            self._warned.add(name)
+            self._warnings.append(Diagnostic(key, facts={"name": name, **facts}, severity="warning"))
 
     def _own(self, slot: int) -> float | None:
         """Return what the program itself set, None where it set nothing."""

@@ -14,7 +14,7 @@ from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.statements import Assignment, Deriv, DerivVec
 from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.runtime.run_memory import Ended
-from desire_tui.engine.values import DT, ERRMAX, T
+from desire_tui.engine.values import DT, ERRMAX, IROW, T
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,18 +71,19 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
     return _placed("not-finite", {"name": name, "what": _what(value), "t": t}, segment, where)
 
 
-def exhausted(
+def watched_fault(
     ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, values: Values
 ) -> DesireError | None:
-    """Return error 232 for a run that ended because a CLEARN had no template left, else None."""
+    """Return the error of a run that one of the compiler's own tests ended (232, 124), else None."""
     if ended is not Ended.TERM:
         return None
-    for watched in segment.exhausted:
+    for watched in segment.faults:
         if watched.number == memory.which:
-            assert isinstance(watched.value, Load)
-            values.cells[watched.value.slot] = 0.0  # the next run begins without it
+            assert watched.fault is not None
+            if isinstance(watched.value, Load):
+                values.cells[watched.value.slot] = 0.0  # the next run begins without it
             t = values.cells[T] - (plan.comint if plan.rule == DUMMY else 0.0)  # rule 0 has moved t on
-            return _placed("no-template-left", {"t": t}, segment, watched.where)
+            return _placed(watched.fault, {"t": t, "value": values.cells[IROW]}, segment, watched.where)
     return None
 
 

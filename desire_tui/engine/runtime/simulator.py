@@ -13,7 +13,7 @@ from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.runtime.heartbeat import Heartbeat
 from desire_tui.engine.runtime.history import RunHistory
-from desire_tui.engine.runtime.run_faults import exhausted, fault
+from desire_tui.engine.runtime.run_faults import fault, watched_fault
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
 from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.values import DT, T
@@ -104,12 +104,12 @@ class Simulator:
             self._settle(plan, memory, positions, record, sampled=ended in {Ended.TMAX, Ended.TERM})
             record.seconds = perf_counter() - self._began
             self._began = 0.0
-        full = exhausted(ended, segment, plan, memory, self._values)
-        if ended in _WORDS and full is None:
+        own = watched_fault(ended, segment, plan, memory, self._values)
+        if ended in _WORDS and own is None:
             record.ended = _WORDS[ended]
             return ended is not Ended.STOPPED
         record.ended = "failed"
-        error = full or fault(ended, segment, plan, memory, self._values)
+        error = own or fault(ended, segment, plan, memory, self._values)
         record.message = error.diagnostics[0].message
         raise error
 

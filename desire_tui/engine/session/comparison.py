@@ -139,6 +139,9 @@ def run_again(
         if value is not None:
             workspace.values.assign(slot, value)
     plan = runs.simulator.defaults.plan(segment, rule, workspace.source, None)
+    replaced = runs.simulator.defaults.warnings()
+    if replaced:  # a comparison is of what was asked for, or of nothing
+        raise DesireError(*(replace(problem, severity="error") for problem in replaced))
     if spacing is not None:
         steps = ceil(plan.t_max / spacing * (1 - 1e-9))
         plan = replace(

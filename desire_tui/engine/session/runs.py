@@ -80,6 +80,9 @@ class Runs:
         stash = workspace.stash_path("write", self._listener.permit) if segment.stash and not star else None
         start = self._checkpoint()
         plan = self.simulator.defaults.plan(segment, rule, workspace.source_of(placed), placed.span())
+        replaced = self.simulator.defaults.warnings()
+        if replaced:
+            self._listener.problems(replaced)
         model = workspace.segments.model(segment, plan.rule)
         self._advise(model, segment)
         self.start, self.run_of = start, (program.source.text, self._values.generation)

@@ -99,13 +99,13 @@ class ArrayOperands(ScalarStatements):
         return result
 
     def _pattern_row(self, node: PatternRow) -> str:
-        """Return the address of row ((trnc(iRow) - 1) mod rows); beyond all reason, the first one."""
+        """Return the address of row (trnc(iRow - 1) mod rows); beyond all reason, the first one."""
         op = self.text.op
         number = self.cells.load(IROW)
         sane = self.lanes.compare("olt", self.lanes.intrinsic("fabs", number), self.lanes.const(1e15))
         safe = self.lanes.choose(sane, number, self.lanes.const(1.0))
-        zero_based = op(f"add i64 {op(f'fptosi double {safe} to i64')}, -1")
-        rest = op(f"srem i64 {zero_based}, {node.rows}")
+        zero_based = self.lanes.sub(safe, self.lanes.const(1.0))
+        rest = op(f"srem i64 {op(f'fptosi double {zero_based} to i64')}, {node.rows}")
         lifted = op(f"add i64 {rest}, {node.rows}")
         row = op(f"select i1 {op(f'icmp slt i64 {rest}, 0')}, i64 {lifted}, i64 {rest}")
         return op(f"getelementptr double, ptr {self.at(node.slot)}, i64 {op(f'mul i64 {row}, {node.cols}')}")

@@ -29,13 +29,16 @@ MESSAGES: dict[str, Wording] = {
     "tmax-not-positive": Wording(
         87, "TMAX = {value:g}, but a run must last some time", "set TMAX to a number above 0", _TMAX_PAGE
     ),
-    "dt-not-positive": Wording(
+    "setting-not-positive": Wording(
         87,
-        "DT = {value:g}, but a step must go forward",
-        "set DT above 0, or leave it out: it then is half of COMINT",
+        "{name} = {value:g} is not above 0, so that a run takes {taken:g}",
+        "set {name} above 0, or leave it out",
+        "A warning: the run goes on with what holds where the setting was never made. Settings never made"
+        " read as 0, so that `DT = TMAX/(NN - 1)` in front of `NN = …` gives such a DT. A step that becomes 0"
+        " or less *while a run goes on* is an error.",
     ),
-    "dtmax-not-positive": Wording(
-        87, "DTMAX = {value:g} is no limit for steps", "set DTMAX above 0, or leave it out: it then is COMINT"
+    "setting-not-finite": Wording(
+        87, "{name} = {value:g} is no number for a run", "set {name} above 0, or leave it out"
     ),
     "setting-uncountable": Wording(
         87, "{name} = {value:g} is not a number of samples", "numbers of samples end at {most:g}"
@@ -54,11 +57,9 @@ MESSAGES: dict[str, Wording] = {
     ),
     "ermax-missing": Wording(
         87,
-        "rule {rule} needs an error bound, but ERMAX is not set",
+        "rule {rule} needs an error bound, but ERMAX is not set: a run takes {taken:g}",
         "set it before drun, for instance ERMAX = 1.0E-06",
-    ),
-    "ermax-not-positive": Wording(
-        87, "ERMAX = {value:g}, but an error bound must be above 0", "for instance ERMAX = 1.0E-06"
+        "This is a warning. 0.001 is coarse for most models.",
     ),
     "checkn-out-of-range": Wording(
         93,
@@ -91,7 +92,9 @@ MESSAGES: dict[str, Wording] = {
         _FAULT_PAGE,
     ),
     "row-not-chosen": Wording(
-        124, "iRow = {value:g} chooses no row", "set iRow = 1, 2, … before drun, or in the segment"
+        124,
+        "iRow = {value:g} chooses no row",
+        "iRow must be above 0: set iRow = 1, 2, … before drun, or in the segment",
     ),
     "no-template-left": Wording(
         232,
