@@ -1,10 +1,11 @@
-"""What all tests share: hypothesis without deadlines, and without chance where a failure must be repeatable.
+"""What all tests share: folders of their own, rare garbage collections, and hypothesis without deadlines or chance.
 
 `HYPOTHESIS_PROFILE=search pytest …` looks for new examples, and more of them where a test names no number.
 """
 
 from __future__ import annotations
 
+import gc
 import os
 import tempfile
 
@@ -13,6 +14,16 @@ from hypothesis import settings
 os.environ["XDG_STATE_HOME"] = tempfile.mkdtemp(
     prefix="desire-tests-"
 )  # the user's own record is not for tests
+if "PYTEST_XDIST_WORKER" not in os.environ:  # parse tables and native code are made once for all processes
+    os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="desire-tests-cache-")
+
+
+def pytest_collection_finish() -> None:
+    """Leave all imports and 7,500 tests out of garbage collections, as the desktop does with its own imports."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 10, 10)  # a desktop is 50,000 objects that stay until its test ends
+
 
 settings.register_profile("repeatable", deadline=None, derandomize=True, database=None)
 settings.register_profile("search", deadline=None, max_examples=1000)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import gc
 from contextlib import asynccontextmanager
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -32,14 +31,6 @@ dispt x, v
 """
 LONG = OSCILLATOR.replace("TMAX = 6", "TMAX = 1E7").replace("NN = 301", "NN = 1000001")
 """Goes on for minutes."""
-
-
-@pytest.fixture(autouse=True, scope="session")
-def collector() -> None:
-    """Leave what has been imported out of garbage collections, as the desktop does (`start_up_gc.resume_gc`)."""
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(20_000, 10, 10)  # a desktop is 50,000 objects that stay until its test ends
 
 
 @pytest.fixture(autouse=True)

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -19,15 +20,18 @@ from desire_tui.engine.session import shell_command
 from desire_tui.engine.session.shell_command import run_shell
 from desire_tui.engine.source import Source
 
+if TYPE_CHECKING:
+    from pathlib import Path
 
-class Ended:
-    """A user who ends the command after some seconds."""
 
-    def __init__(self, seconds: float) -> None:
-        self._at = time.monotonic() + seconds
+class EndedOnce:
+    """A user who ends the command once it has written a file."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
 
     def __call__(self) -> bool:
-        return time.monotonic() > self._at
+        return self._path.exists() and self._path.read_text().endswith("\n")
 
 
 def printed(command, folder, ending=lambda: False):
@@ -47,8 +51,8 @@ def is_alive(pid: int) -> bool:
 
 
 def dies(pid: int) -> bool:
-    """Whether a process is gone within two seconds."""
-    deadline = time.monotonic() + 2
+    """Whether a process is gone soon, however busy the machine is."""
+    deadline = time.monotonic() + 20
     while is_alive(pid) and time.monotonic() < deadline:
         time.sleep(0.02)
     return not is_alive(pid)
@@ -62,12 +66,15 @@ def test_output_and_status(tmp_path):
 
 def test_output_comes_as_it_is_printed(tmp_path):
     came = []
+
+    def hear(text):
+        came.append(text)
+        (tmp_path / "heard").touch()
+
     run_shell(
-        "echo early; sleep 0.6; echo late", tmp_path, lambda text: came.append((text, time.monotonic())), bool
+        "echo early; while [ ! -e heard ]; do sleep 0.02; done; echo late", tmp_path, hear, lambda: False
     )
-    (early, first), (late, second) = came
-    assert (early, late) == ("early\n", "late\n")
-    assert second - first > 0.3
+    assert came == ["early\n", "late\n"]
 
 
 def test_letters_cut_between_two_pieces_stay_whole(tmp_path):
@@ -88,23 +95,24 @@ def test_letters_cut_between_two_pieces_stay_whole(tmp_path):
 def test_the_user_ends_it_with_all_it_started(tmp_path, command):
     began = time.monotonic()
     with pytest.raises(Interrupted):
-        run_shell(command, tmp_path, len, Ended(0.3))
-    assert time.monotonic() - began < 1.5
+        run_shell(command, tmp_path, len, EndedOnce(tmp_path / "pid"))
+    assert time.monotonic() - began < 20
     assert dies(int((tmp_path / "pid").read_text()))
 
 
 def test_a_command_that_was_asked_to_end_can_clear_up(tmp_path):
     with pytest.raises(Interrupted):
         run_shell(
-            "trap 'echo > cleared; exit' TERM; while true; do sleep 0.05; done", tmp_path, len, Ended(0.3)
-        )
+            "trap 'echo > cleared; exit' TERM; echo > set; while true; do sleep 0.05; done",
+            tmp_path, len, EndedOnce(tmp_path / "set"),
+        )  # fmt: skip
     assert (tmp_path / "cleared").exists()
 
 
 def test_what_runs_in_the_background_is_not_waited_for(tmp_path):
     began = time.monotonic()
-    text, status = printed("echo on; (trap '' PIPE; sleep 3) & yes & echo $! > pid", tmp_path)
-    assert time.monotonic() - began < 1.5
+    text, status = printed("echo on; (trap '' PIPE; sleep 30) & yes & echo $! > pid", tmp_path)
+    assert time.monotonic() - began < 20
     assert text.startswith("on\n")
     assert status == 0
     assert dies(int((tmp_path / "pid").read_text())), "nobody reads what it writes"
@@ -120,13 +128,13 @@ def test_output_has_a_limit_and_does_not_stop_the_command(tmp_path, monkeypatch)
 
 def test_the_time_limit_of_a_headless_run_ends_it(tmp_path):
     listener = HeadlessListener(len, iter(()), len)
-    options = RunOptions(timeout=0.5, folder=tmp_path, allow_shell=True)
+    options = RunOptions(timeout=2, folder=tmp_path, allow_shell=True)
     runner = Runner(
         Source("sh (trap '' TERM; sleep 30; sleep 30) & echo $! > pid; wait\n", "t.src"), options, listener
     )
     began = time.monotonic()
     runner.run()
-    assert time.monotonic() - began < 2.5
+    assert time.monotonic() - began < 20
     assert runner.status == "limit"
     assert not runner.abandoned
     assert dies(int((tmp_path / "pid").read_text()))

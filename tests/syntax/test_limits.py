@@ -38,7 +38,7 @@ def test_hostile_text_gets_a_message_at_once(text: str) -> None:
     began = process_time()
     program = parse(Source(text))
     assert [problem.key for problem in program.problems] == [HOSTILE[text]]
-    assert process_time() - began < 2.0
+    assert process_time() - began < 10.0
 
 
 def test_long_lists_are_fine() -> None:
