@@ -9,6 +9,7 @@ from desire_tui.actions import Controller
 from desire_tui.actions.save_and_reload import SaveAndReload
 from desire_tui.common.dialogs import Choice, LineDialog
 from desire_tui.common.paths import exists, full
+from desire_tui.editor import line_ends
 from desire_tui.editor.buffer import Buffer, NotText
 
 if TYPE_CHECKING:
@@ -16,16 +17,19 @@ if TYPE_CHECKING:
 
     from desire_tui.app import DesireApp
     from desire_tui.editor.code_area import CodeArea
+    from desire_tui.editor.program_lines import ProgramLines
 
 SUFFIX = ".src"
 _NAMED_MOST = 40
 
 
-def numbered(text: str) -> str:
-    """Return a program with line numbers, by tens, as `edit` and `keep+` write it."""
+def numbered(document: ProgramLines) -> str:
+    """Return a program with line numbers, by tens, and the line ends of its file: `edit` and `keep+`."""
     from desire_tui.engine.syntax.line_numbers import with_numbers
 
-    return with_numbers(text)
+    *lines, _ = with_numbers(document.text).split("\n")
+    ends = [end or document.usual_end for end in document.ends][: len(lines)]
+    return line_ends.ended([*lines, ""], [*ends, ""])
 
 
 class FileActions(Controller):
@@ -132,17 +136,18 @@ class FileActions(Controller):
         area = self.app.editor.front
         path = self._resolve(argument) if argument else area.buffer.path or await self._ask_path(area)
         if path is not None and await self.save_and_reload.may_overwrite(area, path):
-            self.save_and_reload.write(path, numbered(area.text))
+            await self.save_and_reload.write(path, numbered(area.document), area.buffer.encoding)
 
     async def save_area(self, area: CodeArea, path: Path | None) -> bool:
         """Save a tab; asks for a name if there is none, and before others' work is overwritten."""
         path = path or await self._ask_path(area)
         if path is None or not await self.save_and_reload.may_overwrite(area, path):
             return False
-        text = area.text
-        if not self.save_and_reload.write(path, text.replace("\n", "\r\n") if area.buffer.crlf else text):
+        text = area.document.ended_text
+        encoding = await self.save_and_reload.write(path, text, area.buffer.encoding)
+        if encoding is None:
             return False
-        area.buffer.saved(full(path), text)
+        area.buffer.hold(full(path), text, encoding)
         self.app.editor.refresh_tabs()
         self.app.notify(f"Saved {path}", timeout=2, markup=False)
         return True
@@ -183,17 +188,17 @@ class FileActions(Controller):
     async def edit_copy(self, argument: str = "") -> None:
         """`ed`: a copy of the active program in a new tab."""
         del argument
-        await self._copy(lambda text: text)
+        await self._copy(lambda document: document.ended_text)
 
     async def edit_numbered(self, argument: str = "") -> None:
         """`edit`: the same with line numbers."""
         del argument
         await self._copy(numbered)
 
-    async def _copy(self, change: Callable[[str], str]) -> None:
+    async def _copy(self, change: Callable[[ProgramLines], str]) -> None:
         origin = self.app.editor.active or self.app.editor.front
-        buffer = Buffer(label=f"{Path(origin.buffer.name).stem}-copy")
-        area = await self.app.editor.add(buffer, change(origin.text))
+        buffer = Buffer(label=f"{Path(origin.buffer.name).stem}-copy", encoding=origin.buffer.encoding)
+        area = await self.app.editor.add(buffer, change(origin.document))
         self.app.move_focus(area)
 
     # ------------------------------------------------------------------------------------------ tabs, leaving
@@ -294,7 +299,7 @@ class FileActions(Controller):
             editor.show(area)
             return
         blank = editor.front.tab if not editor.front.text and editor.front.buffer.path is None else None
-        await editor.add(Buffer(label=path.name, saved_text=text))
+        await editor.add(Buffer(label=path.name, saved_text=text, ended_text=text))
         if blank is not None and blank is not editor.active:
             await editor.close_tab(blank)
 

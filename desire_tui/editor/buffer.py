@@ -5,7 +5,12 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from itertools import count
+from stat import S_ISCHR, S_ISFIFO
 from typing import TYPE_CHECKING
+
+from desire_tui.editor.line_ends import ends_of, kind, with_line_feeds
+from desire_tui.engine import text_encoding
+from desire_tui.engine.text_encoding import UTF_8, TextEncoding, decode
 
 if TYPE_CHECKING:
     from collections.abc import Container
@@ -35,7 +40,11 @@ class Buffer:
     """The time stamp of a change by somebody else that the user was told of."""
     label: str = ""
     """Its name while it has no file."""
-    crlf: bool = False
+    encoding: TextEncoding = UTF_8
+    ended_text: str = ""
+    """The saved text with the line ends of the file."""
+    line_ends: str = "LF"
+    """What a user is told of them."""
     number: int = field(default_factory=lambda: next(_numbers))
 
     @property
@@ -43,22 +52,31 @@ class Buffer:
         """What the tab shows."""
         return self.path.name if self.path else self.label
 
+    @property
+    def shape(self) -> str:
+        """Encoding and line ends, where they are not the usual ones."""
+        if self.encoding == UTF_8 and self.line_ends == "LF":
+            return ""
+        named = self.encoding.name if self.encoding != UTF_8 else ""
+        return f"{named} {self.line_ends if self.line_ends != 'LF' else ''}".strip()
+
     @classmethod
     def from_file(cls, path: Path) -> Buffer:
         """Read a file. Raises OSError, or NotText if it holds binary data or is too large."""
         path = path.expanduser().resolve()
-        if path.stat().st_size > SIZE_MAX:
+        status = path.stat()
+        if S_ISFIFO(status.st_mode) or S_ISCHR(status.st_mode):  # to read it might never end
+            raise NotText(f"{path.name} is not an ordinary file")
+        if status.st_size > SIZE_MAX:
             raise NotText(f"{path.name} is larger than {SIZE_MAX >> 20} MB")
-        data = path.read_bytes()
-        if b"\0" in data:
-            raise NotText(f"{path.name} is not a text file")
         try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = data.decode("latin-1")
-        crlf = "\r\n" in text
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
-        return cls(path, text, path.stat().st_mtime, crlf=crlf)
+            text, encoding = decode(path.read_bytes())
+        except text_encoding.NotText:
+            raise NotText(f"{path.name} is not a text file") from None
+        buffer = cls()
+        buffer.hold(path, text, encoding)
+        buffer.stamp = status.st_mtime
+        return buffer
 
     def changed_on_disk(self) -> bool:
         """Whether the file was changed, or removed, by somebody else since it was read or saved."""
@@ -71,10 +89,12 @@ class Buffer:
         except OSError:
             return None
 
-    def saved(self, path: Path, text: str) -> None:
-        """Note that `text` now stands in `path`."""
-        self.path, self.saved_text = path, text
+    def hold(self, path: Path, text: str, encoding: TextEncoding) -> None:
+        """Note that `text`, with its line ends, now stands in `path`."""
+        self.path, self.ended_text, self.saved_text = path, text, with_line_feeds(text)
         self.stamp = self.stamp_on_disk()
+        self.encoding = encoding
+        self.line_ends = kind(ends_of(text))
 
 
 def free_label(wanted: str, taken: Container[str]) -> str:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from desire_tui.editor import recovery
 from desire_tui.editor.buffer import Buffer, NotText
 from desire_tui.editor.recovery import Leftover, SavedTab
+from desire_tui.engine.text_encoding import ENCODINGS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -75,8 +76,8 @@ class Checkpoints:
         row, column = area.cursor_location
         return SavedTab(
             str(buffer.path) if buffer.path else None, buffer.label or buffer.name,
-            area.text if text else None,
-            row, column, area is self._editor.front.tab,
+            area.document.ended_text if text else None,
+            row, column, area is self._editor.front.tab, buffer.encoding.name, buffer.stamp,
         )  # fmt: skip
 
     def leave(self) -> None:
@@ -123,9 +124,14 @@ class Checkpoints:
 
 def _buffer_of(tab: SavedTab) -> Buffer:
     if tab.path is None:
-        return Buffer(label=tab.label)
-    path = Path(tab.path)
-    try:
-        return Buffer.from_file(path)
-    except (OSError, NotText):
-        return Buffer(path)
+        buffer = Buffer(label=tab.label)
+    else:
+        try:
+            buffer = Buffer.from_file(Path(tab.path))
+        except (OSError, NotText):
+            buffer = Buffer(Path(tab.path))
+        else:
+            buffer.stamp = tab.stamp if tab.stamp is not None else buffer.stamp
+    if tab.encoding is not None:
+        buffer.encoding = ENCODINGS[tab.encoding]
+    return buffer

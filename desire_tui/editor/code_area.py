@@ -9,7 +9,8 @@ from textual.message import Message
 from textual.widgets.text_area import Selection
 
 from desire_tui.common.line_tokens import joined_word_at
-from desire_tui.editor import indent
+from desire_tui.editor import indent, line_ends
+from desire_tui.editor.line_ends import EndedText
 from desire_tui.editor.program_view import ProgramView
 
 if TYPE_CHECKING:
@@ -126,13 +127,22 @@ class CodeArea(ProgramView):
             bottom -= 1
         return top, bottom
 
-    def rewrite_rows(self, top: int, bottom: int, lines: list[str]) -> None:
-        """Replace whole rows as one undoable edit; the rows stay selected if there were several."""
+    def rewrite_rows(self, top: int, bottom: int, lines: list[str], ends: list[str] | None = None) -> None:
+        """Replace whole rows as one undoable edit; the rows stay selected if there were several.
+
+        `ends`: what ends the new rows in the file, if that is not what ends the old ones.
+        """
         end = len(self.document.get_line(bottom))
         row, column = self.cursor_location
-        if lines != self.document.lines[top : bottom + 1]:  # else what can be redone is kept
+        old = self.document.lines[top : bottom + 1]
+        if lines != old:  # else what can be redone is kept
+            if ends is None:
+                ends = self.document.ends[top : bottom + 1]
+                if len(lines) != len(old):
+                    ends = line_ends.following(old, ends, lines, self.document.usual_end)
+            text = EndedText("\n".join(lines), ends)
             self.history.checkpoint()
-            self.replace("\n".join(lines), (top, 0), (bottom, end), maintain_selection_offset=False)
+            self.replace(text, (top, 0), (bottom, end), maintain_selection_offset=False)
             self.history.checkpoint()
         if top != bottom:
             self.selection = Selection((top, 0), (top + len(lines) - 1, len(lines[-1])))
@@ -168,9 +178,10 @@ class CodeArea(ProgramView):
             return
         lines = self.document.lines
         first, last = (top - 1, bottom) if step < 0 else (top, bottom + 1)
-        moved = lines[first : last + 1]
-        moved = [*moved[1:], moved[0]] if step < 0 else [moved[-1], *moved[:-1]]
-        self.rewrite_rows(first, last, moved)
+        moved, ends = lines[first : last + 1], self.document.ends[first : last + 1]
+        if ends[-1]:  # the last line of all has no end to take along
+            ends = _rotated(ends, step)
+        self.rewrite_rows(first, last, _rotated(moved, step), ends)
         self.marks.rotated(first, last, step)
         self.marks_changed()
         self.selection = Selection(
@@ -190,3 +201,7 @@ class CodeArea(ProgramView):
         """Return the name or word the cursor is on or just behind, or an empty text."""
         row, column = self.cursor_location
         return joined_word_at(self.document.lines, row, column)
+
+
+def _rotated(lines: list[str], step: int) -> list[str]:
+    return [*lines[1:], lines[0]] if step < 0 else [lines[-1], *lines[:-1]]

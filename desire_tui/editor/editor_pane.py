@@ -13,6 +13,7 @@ from textual.widgets import TextArea
 from desire_tui.editor.buffer import Buffer, free_label
 from desire_tui.editor.code_area import CodeArea
 from desire_tui.editor.find_bar import FindBar
+from desire_tui.editor.line_ends import kind
 from desire_tui.editor.status_row import StatusRow
 from desire_tui.editor.tab_strip import NEW, TabLabel, TabStrip
 
@@ -108,7 +109,8 @@ class EditorPane(Vertical):
         """Open a tab; an untouched empty one is replaced."""
         if buffer.path is None:
             buffer.label = free_label(buffer.label, {area.buffer.name for area in self.areas})
-        area = CodeArea(buffer, buffer.saved_text if text is None else text, self._completion)
+        area = CodeArea(buffer, buffer.ended_text if text is None else text, self._completion)
+        buffer.line_ends = kind(area.document.ends)
         blank = self._front
         if blank is not None and (blank.text or blank.buffer.path is not None):
             blank = None

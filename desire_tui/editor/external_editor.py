@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 
 from textual.app import App, SuspendNotSupported
 
+from desire_tui.editor import line_ends
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -39,7 +41,9 @@ def edit_outside(app: App[None], area: CodeArea) -> None:
     if text == area.text:
         return
     row, column = area.cursor_location
-    area.rewrite_rows(0, area.document.line_count - 1, text.split("\n"))
+    document, lines = area.document, text.split("\n")
+    ends = line_ends.following(document.lines, document.ends, lines, document.usual_end)
+    area.rewrite_rows(0, document.line_count - 1, lines, ends)
     area.go_to(row, column)
 
 

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from desire_tui.common.paths import state_folder
+from desire_tui.engine.text_encoding import ENCODINGS
 from desire_tui.engine.user_folders import write_private
 
 VERSION = 1
@@ -26,7 +27,7 @@ VERSION = 1
 
 @dataclass(frozen=True, slots=True)
 class SavedTab:
-    """A tab as it is stored; `text` None: the file's own text."""
+    """A tab as it is stored; `text`, with the line ends of its file; None: the file's own text."""
 
     path: str | None
     label: str
@@ -34,6 +35,9 @@ class SavedTab:
     row: int = 0
     column: int = 0
     front: bool = False
+    encoding: str | None = None
+    stamp: float | None = None
+    """The time stamp its file had when it was read or saved."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,9 +83,18 @@ def read(path: Path) -> tuple[SavedTab, ...]:
         tabs = tuple(SavedTab(**tab) for tab in stored["tabs"])
     except (TypeError, KeyError) as error:
         raise ValueError("damaged") from error
-    if not all(isinstance(tab.text, str | None) and isinstance(tab.path, str | None) for tab in tabs):
+    if not all(_is_sound(tab) for tab in tabs):
         raise ValueError("damaged")
     return tabs
+
+
+def _is_sound(tab: SavedTab) -> bool:
+    return (
+        isinstance(tab.text, str | None)
+        and isinstance(tab.path, str | None)
+        and isinstance(tab.stamp, float | int | None)
+        and tab.encoding in (None, *ENCODINGS)
+    )
 
 
 def leftovers() -> tuple[list[Leftover], list[Path]]:

@@ -50,7 +50,8 @@ class StatusRow(Horizontal):
             sentence = f" {count} problem{'s' if count > 1 else ''} · F8"
         else:
             sentence = ""
-        self._set_label("#place", f"{row + 1}:{column + 1}")
+        shape = area.buffer.shape
+        self._set_label("#place", f"{shape}{'  ' if shape else ''}{row + 1}:{column + 1}")
         label = self._set_label("#problem", sentence)
         label.set_class(mark is not None and mark.style == "error", "-error")
         label.tooltip = Content(mark.text) if mark else None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.atomic_file import replacing
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.source import Source
+from desire_tui.engine.text_encoding import NotText, decode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -19,7 +20,7 @@ PROGRAM_BYTES_MAX = 1 << 26
 
 
 def read_source(path: Path) -> Source:
-    """Read a program: UTF-8, or Latin-1 where it is not. DesireError 38: missing, unreadable, not a text."""
+    """Read a program, encoded as `text_encoding` knows. DesireError 38: missing, unreadable, not a text."""
     try:
         size = path.stat().st_size
         if size > PROGRAM_BYTES_MAX:
@@ -35,12 +36,10 @@ def read_source(path: Path) -> Source:
 
 def decoded(data: bytes, name: str) -> str:
     """Return a program's text. DesireError 38 where it is none."""
-    if b"\0" in data:
-        raise DesireError(Diagnostic("file-binary", facts={"path": name}))
     try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("latin-1")
+        return decode(data)[0]
+    except NotText:
+        raise DesireError(Diagnostic("file-binary", facts={"path": name})) from None
 
 
 def write_file(path: Path, write: Callable[[IO[str]], object]) -> None:

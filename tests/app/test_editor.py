@@ -16,6 +16,7 @@ from desire_tui.common.line_tokens import word_before
 from desire_tui.editor import indent
 from desire_tui.editor.completion import OWN_NAME, around, offers
 from desire_tui.editor.highlighting import LineHighlights
+from desire_tui.editor.program_lines import ProgramLines
 
 from .conftest import OSCILLATOR, desktop
 
@@ -102,7 +103,8 @@ def test_commenting_twice_gives_the_lines_back(lines: list[str]):
 
 
 def test_numbered_lines():
-    assert numbered("x = 1\ny = 2\n") == "10 x = 1\n20 y = 2\n"
+    assert numbered(ProgramLines("x = 1\ny = 2\n")) == "10 x = 1\n20 y = 2\n"
+    assert numbered(ProgramLines("x = 1\ry = 2")) == "10 x = 1\r20 y = 2\r"
 
 
 def test_completion_offers_own_names_functions_and_statements():
@@ -351,10 +353,10 @@ async def test_a_read_only_folder_and_a_vanished_file_lose_nothing(program, tmp_
         area.focus()
         await desk.press("y")
 
-        def refuse(*_: object) -> None:
+        def refuse(*_: object, **__: object) -> None:
             raise PermissionError(13, "Permission denied")
 
-        monkeypatch.setattr("desire_tui.actions.save_and_reload.replace_text", refuse)
+        monkeypatch.setattr("desire_tui.actions.save_and_reload.replacing", refuse)
         await desk.press("ctrl+s")
         await desk.until(lambda: "error 106" in desk.output)
         assert area.is_dirty
