@@ -50,9 +50,9 @@ def usual(ends: Sequence[str], otherwise: str = "\n") -> str:
 
 
 def kind(ends: Sequence[str]) -> str:
-    """Return what a user is told of a text's line ends: `LF`, `CRLF`, `CR`, or `mixed line ends`."""
+    """Return what a user is told of a text's line ends: `LF`, `CRLF`, `CR`, or `mixed ends`."""
     found = {end for end in NAMES if end in ends}
-    return "mixed line ends" if len(found) > 1 else NAMES[found.pop()] if found else "LF"
+    return "mixed ends" if len(found) > 1 else NAMES[found.pop()] if found else "LF"
 
 
 def ended(lines: Sequence[str], ends: Sequence[str]) -> str:

@@ -37,7 +37,7 @@ async def typed_and_saved(desk, *keys):
         (b"-- caf\xe9\r\nx = 1\r\n", "Latin-1 CRLF"),
         (b"-- \x93caf\xe9\x94\rx = 1\r", "Windows-1252 CR"),
         (b"\xff\xfe" + "-- ∞\nx = 1\n".encode("utf-16-le"), "UTF-16 LE"),
-        (MIXED, "mixed line ends"),
+        (MIXED, "mixed ends"),
     ],
 )
 async def test_only_what_was_typed_changes(tmp_path, data, shape):
@@ -164,7 +164,7 @@ async def test_recovered_work_keeps_encoding_ends_and_the_question_about_changes
         await desk.press("r")
         await desk.until(lambda: not file.exists())
         first, second = desk.app.editor.areas[-2:]
-        assert first.buffer.shape == "Latin-1 mixed line ends"
+        assert first.buffer.shape == "Latin-1 mixed ends"
         desk.app.editor.show(second)
         await desk.press("ctrl+s")
         await desk.until(gone.exists)
@@ -191,7 +191,7 @@ async def test_a_file_read_again_brings_its_encoding_and_ends(tmp_path):
         path.write_bytes("-- café\nx = 1\r\n".encode())
         os.utime(path, (1, 1))
         desk.app.file_actions.save_and_reload.notice_changes()
-        assert desk.app.editor.front.buffer.shape == "mixed line ends"
+        assert desk.app.editor.front.buffer.shape == "mixed ends"
         await typed_and_saved(desk, "y")
         assert path.read_bytes() == "y-- café\nx = 1\r\n".encode()
 
