@@ -174,8 +174,8 @@ def vectors(draw):
 def learners(draw):
     kind = draw(st.sampled_from(["CLEARN", "PLEARN", "INTP"]))
     criterion = draw(st.one_of(numbers, names.map(Name))) if kind == "CLEARN" else None
-    conscience = kind == "CLEARN" and draw(st.booleans())
-    return Learn(kind, draw(names), draw(names), draw(names), draw(expressions), criterion, conscience)
+    fast = kind == "CLEARN" and draw(st.booleans())
+    return Learn(kind, draw(names), draw(names), draw(names), draw(expressions), criterion, fast)
 
 
 @st.composite

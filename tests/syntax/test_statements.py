@@ -281,6 +281,8 @@ FORMS = {
     "CLEARN v = W(x) a, b": Learn("CLEARN", "v", "W", "x", a, b, False),
     "CLEARN v = W(x) a, b#": Learn("CLEARN", "v", "W", "x", a, b, True),
     "CLEARN v = W(x) a, 0.5#": Learn("CLEARN", "v", "W", "x", a, N(0.5), True),
+    "CLEARN v = W*x; a, b": Learn("CLEARN", "v", "W", "x", a, b, False),
+    "CLEARN v = W*x; a, b#": Learn("CLEARN", "v", "W", "x", a, b, True),
     "PLEARN y = W*x; a": Learn("PLEARN", "y", "W", "x", a, None, False),
     "INTP v = W*x; a": Learn("INTP", "v", "W", "x", a, None, False),
     "JACOBIAN": Simple("JACOBIAN"),

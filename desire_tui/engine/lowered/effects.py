@@ -145,12 +145,12 @@ def own_reads(action: Action) -> tuple[Piece, ...]:
         case UpdateTrackHold():
             return ((action.held_slot, 1), (action.tracked_slot, 1))
         case LearningStep():
-            counts = () if action.count_slot is None else (ArrayPiece(action.count_slot, action.out_count),)
+            h = () if action.h_slot is None else (ArrayPiece(action.h_slot, action.out_count),)
             return (
                 ArrayPiece(action.weights_slot, action.out_count * action.in_count),
                 ArrayPiece(action.in_slot, action.in_count),
                 ArrayPiece(action.out_slot, action.out_count),
-                *counts,
+                *h,
             )
         case _:
             assert_never(action)
@@ -179,12 +179,12 @@ def writes(action: Action) -> tuple[Piece, ...]:
         case UpdateTrackHold():
             return ((action.held_slot, 1), (action.tracked_slot, 1))
         case LearningStep():
-            counts = () if action.count_slot is None else (ArrayPiece(action.count_slot, action.out_count),)
+            h = () if action.h_slot is None else (ArrayPiece(action.h_slot, action.out_count),)
             full = () if action.full_slot is None else (ArrayPiece(action.full_slot, 1),)
             return (
                 ArrayPiece(action.weights_slot, action.out_count * action.in_count),
                 ArrayPiece(action.out_slot, action.out_count),
-                *counts,
+                *h,
                 *full,
             )
         case _:

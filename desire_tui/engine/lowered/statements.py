@@ -173,7 +173,9 @@ class Terminate:
 class LearningStep:
     """CLEARN, PLEARN, INTP (docs/neural.md): vectors and matrices by slot.
 
-    `full_slot` ← 1 where CLEARN finds no template for its input (error 232), else 0.
+    `h_slot`: CLEARN's vector of weights or of committed rows; `fast`: the winner becomes the input.
+    `full_slot` ← 1 where CLEARN finds no template for its input (error 232), 2 where it has no vector h and
+    needs one (error 475), else 0.
     """
 
     kind: Literal["CLEARN", "PLEARN", "INTP"]
@@ -184,7 +186,8 @@ class LearningStep:
     in_count: int
     rate: Value
     criterion: Value | None
-    count_slot: int | None
+    h_slot: int | None
+    fast: bool
     where: Where
     full_slot: int | None = None
 

@@ -10,6 +10,7 @@ from desire_tui.engine.lowering.products import array, nonconformable
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.lowering.targets import mark_array
 from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowering.builder import SegmentBuilder
@@ -18,9 +19,9 @@ if TYPE_CHECKING:
 
 
 def learn(builder: SegmentBuilder, node: Learn) -> None:
-    """`CLEARN v = W(x) lrate, crit[#]`, `PLEARN y = W*x; lrate`, `INTP v = W*x; thresh`.
+    """`CLEARN y = W(x) lrate, crit[#]`, `PLEARN y = W*x; lrate`, `INTP y = W*x; thresh`.
 
-    W is rows × cols, the output has `rows` elements, the input `cols`. Errors 70, 74, 75, 218.
+    W is rows × cols, the output has `rows` elements, the input `cols`. Errors 70, 74, 75, 218, 475.
     """
     context = builder.context
     out = _ranked(builder, node, node.output, 1)
@@ -37,20 +38,36 @@ def learn(builder: SegmentBuilder, node: Learn) -> None:
             )
             return
     rows = weights.shape[0]
-    counts = context.scope.hidden(rows) if node.conscience and rows != UNKNOWN else None
-    full = context.scope.hidden(1) if criterion is not None and criterion != Const(0.0) else None
+    plain = criterion is None or (isinstance(criterion, Const) and criterion.value < 0.0)
+    h = None if plain else _declared_behind(builder, out)
+    if h is None and isinstance(criterion, Const) and not plain:
+        context.report("learning-needs-vector", node, name=out.name, rows=rows)
+        return
+    full = None if plain or (h is not None and criterion == Const(0.0)) else context.scope.hidden(1)
     if full is not None:
         builder.watch(full, context.where(node))
-    for quantity in (given, weights, out):
-        if UNKNOWN not in quantity.shape and quantity is not out:
-            context.flow.read_range(quantity.slot, size_of(quantity))
+    for read in (given, weights, h):
+        if read is not None and UNKNOWN not in read.shape:
+            context.flow.read_range(read.slot, size_of(read))
     builder.body.append(
         LearningStep(
             node.kind, out.slot, out.shape[0], weights.slot, given.slot, given.shape[0],
-            rate, criterion, counts, context.where(node), full,
+            rate, criterion, None if h is None else h.slot, node.fast, context.where(node), full,
         )
     )  # fmt: skip
     mark_array(context, out.slot, out.shape[0])
+
+
+def _declared_behind(builder: SegmentBuilder, out: Quantity) -> Quantity | None:
+    """Return the vector declared right after a CLEARN's output if it has as many elements, else None."""
+    names = builder.context.scope.names
+    arrays = iter([quantity for quantity in names.values() if quantity.shape])
+    for quantity in arrays:
+        if quantity.name == out.name:
+            break
+    h = next(arrays, None)
+    fits = h is not None and h.kind is Kind.REAL and len(h.shape) == 1 and agree(h.shape[0], out.shape[0])
+    return h if fits else None
 
 
 def _ranked(builder: SegmentBuilder, node: Learn, name: str, rank: int) -> Quantity | None:

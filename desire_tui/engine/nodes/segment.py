@@ -105,7 +105,7 @@ class Sample(Node):
 
 @node
 class Learn(Node):
-    """`CLEARN v = W(x) lrate, crit[#]`, `PLEARN y = W*x; lrate`, `INTP v = W*x; thresh`."""
+    """`CLEARN y = W(x) lrate, crit[#]` (`fast`: with #), `PLEARN y = W*x; lrate`, `INTP y = W*x; thresh`."""
 
     kind: Literal["CLEARN", "PLEARN", "INTP"]
     output: str
@@ -113,7 +113,7 @@ class Learn(Node):
     input: str
     rate: Expr
     criterion: Expr | None
-    conscience: bool
+    fast: bool
     start: int = 0
     end: int = 0
 

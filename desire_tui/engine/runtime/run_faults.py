@@ -74,16 +74,19 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
 def watched_fault(
     ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, values: Values
 ) -> DesireError | None:
-    """Return the error of a run that one of the compiler's own tests ended (232, 124), else None."""
+    """Return the error of a run that one of the compiler's own tests ended (232, 475, 124), else None."""
     if ended is not Ended.TERM:
         return None
     for watched in segment.faults:
         if watched.number == memory.which:
-            assert watched.fault is not None
+            fault = watched.fault
+            assert fault is not None
             if isinstance(watched.value, Load):
+                if values.cells[watched.value.slot] == 2.0:  # `LearningStep.full_slot`
+                    fault = "learning-without-vector"
                 values.cells[watched.value.slot] = 0.0  # the next run begins without it
             t = values.cells[T] - (plan.comint if plan.rule == DUMMY else 0.0)  # rule 0 has moved t on
-            return _placed(watched.fault, {"t": t, "value": values.cells[IROW]}, segment, watched.where)
+            return _placed(fault, {"t": t, "value": values.cells[IROW]}, segment, watched.where)
     return None
 
 

@@ -244,6 +244,6 @@ def _learn(node: Learn) -> str:
     if node.kind != "CLEARN":
         return f"{node.kind} {node.output} = {node.weights} * {node.input}; {expression(node.rate)}"
     assert node.criterion is not None
-    mark = " #" if node.conscience else ""
+    mark = " #" if node.fast else ""
     head = f"CLEARN {node.output} = {node.weights}({node.input})"
     return f"{head} {expression(node.rate)}, {expression(node.criterion)}{mark}"

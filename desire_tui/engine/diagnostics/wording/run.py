@@ -19,6 +19,13 @@ kept: look at the curves. Usual causes: a division by zero, the square root or l
 a step DT too large for the rule (try a quarter of it, or `irule 4`), or a model whose solution really grows
 without bound (stop it with `term`)."""
 
+_LEARNING_HINT = "declare it: ARRAY y[n], h[n] with y the output; or use a criterion below 0"
+
+_LEARNING_MORE = """With a criterion of 0 CLEARN multiplies the distance of each row by its element of h,
+where the program counts wins (`Vectr delta h = y`); above 0 it marks committed rows there. h is the vector
+that stands right after the output in the declarations, of the same length. With a criterion below 0 none
+is needed."""
+
 MESSAGES: dict[str, Wording] = {
     "tmax-missing": Wording(
         87,
@@ -98,8 +105,20 @@ MESSAGES: dict[str, Wording] = {
     ),
     "no-template-left": Wording(
         232,
-        "no template is left at t = {t:.6g}: the input is near none, and no row is free",
-        "give the matrix more rows of zeros, or use a larger criterion",
+        "no template is left at t = {t:.6g}: the input is near none, and all rows are committed",
+        "give the matrix more rows, or use a larger criterion",
+    ),
+    "learning-without-vector": Wording(
+        475,
+        "at t = {t:.6g} CLEARN has a criterion of 0 or more, and no vector to keep wins or committed rows in",
+        _LEARNING_HINT,
+        _LEARNING_MORE,
+    ),
+    "learning-needs-vector": Wording(
+        475,
+        "with a criterion of 0 or more CLEARN needs a vector of {rows} elements right after '{name}'",
+        _LEARNING_HINT,
+        _LEARNING_MORE,
     ),
     "stopped-by-user": Wording(301, "stopped by the user"),
     "delay-too-long": Wording(

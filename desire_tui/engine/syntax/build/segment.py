@@ -88,10 +88,10 @@ class Dynamic:
         kind, output, weights, source = kids[0].kind, kids[1], kids[3], kids[5]
         if kind != "CLEARN":
             return Learn(
-                kind, output, weights, source, plain(kids[7]), None, conscience=False, start=first, end=last
+                kind, output, weights, source, plain(kids[7]), None, fast=False, start=first, end=last
             )
         criterion = plain(kids[9])
-        conscience = len(kids) > 10
-        if isinstance(criterion, RowOf):  # `crit#`: the mark of the conscience, not a row of a matrix
-            criterion, conscience = Name(criterion.name, criterion.start, criterion.start), True
-        return Learn(kind, output, weights, source, plain(kids[7]), criterion, conscience, first, last)
+        fast = len(kids) > 10
+        if isinstance(criterion, RowOf):  # `crit#`: the mark of fast learning, not a row of a matrix
+            criterion, fast = Name(criterion.name, criterion.start, criterion.start), True
+        return Learn(kind, output, weights, source, plain(kids[7]), criterion, fast, first, last)
