@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.segment import Segment, StateRange
     from desire_tui.engine.lowered.statements import Action, Assignment
 
 _NUDGE = Const(1e-6)
@@ -67,8 +67,16 @@ def differentiate(segment: Segment, allocate: Callable[[int], int]) -> TangentPa
     """
     actions = derivative_slice(segment)
     tangents = Tangents(segment.states, actions, allocate)
-    body = _Differentiator(tangents).actions(actions)
+    body = [_copied(slot, tangents.directions + s.first, s) for slot, s in tangents.copies]
+    body += _Differentiator(tangents).actions(actions)
     return TangentPass(without_dead_code(tuple(body)), tangents.directions)
+
+
+def _copied(slot: int, source: int, states: StateRange) -> Action:
+    """Return the statement that copies a part of the direction."""
+    if states.count == 1:
+        return Set(slot, Load(source), states.where)
+    return SetVec(slot, states.count, Vec(source, states.count), states.where)
 
 
 class _Differentiator:

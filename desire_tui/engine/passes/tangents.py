@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.effects import reads, writes
@@ -26,7 +27,9 @@ class Tangents:
 
     Memory is divided into regions: stretches that the segment's arrays and scalars overlap. A region is
     *active* if it holds a state, or if a statement that reads an active region writes into it. States'
-    tangents are the direction v: `directions` and on, in the order of the states.
+    tangents are the direction v: `directions` and on, in the order of the states. Where a region holds more
+    than states, or holds them in another order, the pass copies them into room of its own: `copies` (slot
+    there, states).
     """
 
     def __init__(
@@ -39,21 +42,25 @@ class Tangents:
             pieces += writes(action)
         self._starts, self._ends = _regions(pieces)
         self._base: list[int | None] = [None] * len(self._starts)
-        order = sum(s.count for s in states)
-        self.directions = allocate(max(order, 1))
-        for s in states:
-            region = self._region(s.slot)
-            base = self.directions + s.first - (s.slot - self._starts[region])
-            inside = self.directions <= base and base + self._size(region) <= self.directions + order
-            if self._base[region] not in (None, base) or not inside:
-                raise NotDifferentiable(
-                    s
-                )  # an array that overlaps states in another order, or reaches beyond
-            self._base[region] = base
+        self.directions = allocate(max(sum(s.count for s in states), 1))
+        self.copies: list[tuple[int, StateRange]] = []
+        for region, group in groupby(
+            sorted(states, key=lambda s: s.slot), key=lambda s: self._region(s.slot)
+        ):
+            self._place_states(region, list(group), allocate)
         self._propagate(flat)
         for region, known in enumerate(self._base):
             if known == -1:
                 self._base[region] = allocate(self._size(region))
+
+    def _place_states(self, region: int, states: list[StateRange], allocate: Callable[[int], int]) -> None:
+        start = self._starts[region]
+        bases = {self.directions + s.first - (s.slot - start) for s in states}
+        if len(bases) == 1 and sum(s.count for s in states) == self._size(region):
+            self._base[region] = bases.pop()
+            return
+        base = self._base[region] = allocate(self._size(region))
+        self.copies += [(base + s.slot - start, s) for s in states]
 
     def slot(self, slot: int) -> int | None:
         """Return the slot of a number's tangent; None if it does not depend on the states."""

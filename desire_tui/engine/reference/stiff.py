@@ -26,6 +26,7 @@ from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.lowered.jacobian_array import checked_array
+from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
@@ -51,6 +52,9 @@ class StiffReferenceModel(ReferenceModel):
     """A segment under a multistep rule. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
 
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
+        if rule_numbered(rule).corrector == "jacobian" and segment.jacobian is not None:
+            checked_array(segment, values)
+        segment, self._numbers = without_assigned_states(segment, values.room)
         super().__init__(segment, EULER, values)
         self.values, self.data, self.order = values, values.data, segment.order
         self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
@@ -74,7 +78,7 @@ class StiffReferenceModel(ReferenceModel):
         order, kind, given = segment.order, rule_numbered(rule).corrector, segment.jacobian
         program = tangent = False
         if kind == "jacobian" and given is not None:
-            self._array, program = checked_array(segment, self.values), True
+            self._array, program = given.slot, True
             self._jacobian = self._others.compile(jacobian_pass(segment, order))
             rows, columns = ([getattr(e, side) for e in given.entries] for side in ("row", "column"))
             pattern = Pattern.of(order, np.array(rows, np.int32), np.array(columns, np.int32))
@@ -150,8 +154,14 @@ class StiffReferenceModel(ReferenceModel):
         ended = super().advance(memory)
         system.report(memory)
         if ended is Ended.SOLVER:
-            memory.suspect = system.suspect()
+            memory.suspect = self._numbers[system.suspect()]
         return ended
+
+    def _not_finite(self, memory: RunMemory) -> bool:
+        if not super()._not_finite(memory):
+            return False
+        memory.which = self._numbers[memory.which]
+        return True
 
     def _chatters(self, memory: RunMemory, t: float) -> bool:
         """Whether steps fail about as often as they succeed and get nowhere; looked at now and then."""

@@ -79,14 +79,14 @@ def watched_fault(
         return None
     for watched in segment.faults:
         if watched.number == memory.which:
-            fault = watched.fault
-            assert fault is not None
+            key = watched.fault
+            assert key is not None
             if isinstance(watched.value, Load):
                 if values.cells[watched.value.slot] == 2.0:  # `LearningStep.full_slot`
-                    fault = "learning-without-vector"
+                    key = "learning-without-vector"
                 values.cells[watched.value.slot] = 0.0  # the next run begins without it
             t = values.cells[T] - (plan.comint if plan.rule == DUMMY else 0.0)  # rule 0 has moved t on
-            return _placed(fault, {"t": t, "value": values.cells[IROW]}, segment, watched.where)
+            return _placed(key, {"t": t, "value": values.cells[IROW]}, segment, watched.where)
     return None
 
 

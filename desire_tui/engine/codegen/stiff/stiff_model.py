@@ -19,6 +19,7 @@ from desire_tui.engine.integration.plan import is_own, plan
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
 from desire_tui.engine.lowered.jacobian_array import checked_array
+from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
@@ -56,7 +57,11 @@ class StiffModel:
         rule: int,
         values: Values,
     ) -> None:
-        self.rule, self._segment, self._values = rule, segment, values
+        self.rule, self._values = rule, values
+        if rule_numbered(rule).reads_jacobian and segment.jacobian is not None:
+            checked_array(segment, values)
+        segment, self._numbers = without_assigned_states(segment, values.room)
+        self._segment = segment
         self._passes = passes = passes_of(segment)
         self._advised = False
         extra, directions, array = _jacobian_passes(segment, rule, values)
@@ -162,9 +167,10 @@ class StiffModel:
         ended = Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
         system.report(memory)
         if ended is Ended.SOLVER:
-            memory.suspect = system.suspect()
+            memory.suspect = self._numbers[system.suspect()]
         elif ended is Ended.NOT_FINITE:
-            memory.which = first_not_finite(self._values.data, self._slots, self._columns)
+            which = first_not_finite(self._values.data, self._slots, self._columns)
+            memory.which = which if which < 0 else self._numbers[which]
         return ended
 
     def _clear_array(self) -> None:
@@ -180,8 +186,7 @@ def _jacobian_passes(
     if not rule_numbered(rule).reads_jacobian:
         return {}, 0, 0
     if segment.jacobian is not None:
-        slot = checked_array(segment, values)
-        return {"jacobian": jacobian_pass(segment, segment.order)}, 0, slot
+        return {"jacobian": jacobian_pass(segment, segment.order)}, 0, segment.jacobian.slot
     try:
         tangent = differentiate(segment, values.room)
     except NotDifferentiable:

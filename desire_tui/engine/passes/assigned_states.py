@@ -1,0 +1,162 @@
+"""States that a segment assigns in every pass (boundary values: `u[n] = 25`) taken out of the integration.
+
+Such a state has no derivative of its own. A solver that took it for a state would find it changed after each
+of its steps, and begin anew. Without it the number is a defined variable like any other: every pass computes
+it from t, parameters and states before it is read.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import replace
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered.effects import count_draws, expressions, reads, writes
+from desire_tui.engine.lowered.expressions import Load, Vec
+from desire_tui.engine.lowered.segment import JacobianEntry, StateRange
+from desire_tui.engine.lowered.statements import Assignment, Deriv, DerivVec, SetMat, SetVec
+from desire_tui.engine.lowered.walk import walk_actions
+from desire_tui.engine.passes.slot_set import SlotSet
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from desire_tui.engine.lowered.segment import Jacobian, Segment
+    from desire_tui.engine.lowered.statements import Action
+
+
+def without_assigned_states(
+    segment: Segment, allocate: Callable[[int], int]
+) -> tuple[Segment, Sequence[int]]:
+    """Return the segment with fewer states, and the numbers that those left had.
+
+    `allocate(count)` gives the first of `count` slots. A segment without such states, or of nothing else,
+    comes back as it is. States that a difference equation moves (`x = 0.5*x`), or that are assigned only at
+    some passes, stay.
+    """
+    everything = range(segment.order)
+    found = _assignments(segment)
+    slots = SlotSet()
+    for made, _ in found:
+        for slot, count in writes(made):
+            slots.add(slot, count)
+    kept = [
+        (states, at)
+        for states in segment.states
+        for at in range(states.count)
+        if not slots.overlaps(states.slot + at, 1)
+    ]
+    if not kept or len(kept) == segment.order:
+        return segment, everything
+    numbers = {states.first + at: new for new, (states, at) in enumerate(kept)}
+    assigned = {id(made): is_early for made, is_early in found}
+    body: list[Action] = [_definition(made) for made, is_early in found if is_early]
+    for action in segment.body:
+        if id(action) in assigned:
+            if not assigned[id(action)]:
+                body.append(_definition(action))
+        elif isinstance(action, Deriv | DerivVec):
+            body.extend(_derivatives(action, numbers, allocate))
+        else:
+            body.append(action)
+    jacobian = segment.jacobian and _jacobian(segment.jacobian, numbers, allocate)
+    smaller = replace(segment, body=tuple(body), states=tuple(_ranges(kept)), jacobian=jacobian)
+    return smaller, list(numbers)
+
+
+def _assignments(segment: Segment) -> list[tuple[Assignment, bool]]:
+    """Return the assignments that every pass makes to states, each with whether it has to be made earlier."""
+    states = SlotSet()
+    for given in segment.states:
+        states.add(given.slot, given.count)
+    writers: list[tuple[Action, tuple[int, int]]] = []
+    found: list[tuple[Assignment, bool]] = []
+    for place, action in enumerate(segment.body):
+        if not isinstance(action, Assignment) or not any(states.overlaps(*piece) for piece in writes(action)):
+            continue
+        if not writers:
+            every = walk_actions(segment.body)
+            writers = [(writer, piece) for writer in every for piece in writes(writer)]
+        own = SlotSet()
+        for slot, count in writes(action):
+            own.add(slot, count)
+        if (isinstance(action, SetVec) and action.mode == "add") or isinstance(action, SetMat):
+            continue
+        if count_draws(*expressions(action)) or any(own.overlaps(*piece) for piece in reads(action)):
+            continue
+        if any(other is not action and own.overlaps(*piece) for other, piece in writers):
+            continue
+        before = (piece for reader in walk_actions(segment.body[:place]) for piece in reads(reader))
+        early = any(own.overlaps(*piece) for piece in before)
+        if early and any(_overlap(read, piece) for read in reads(action) for _, piece in writers):
+            continue
+        found.append((action, early))
+    return found
+
+
+def _overlap(a: tuple[int, int], b: tuple[int, int]) -> bool:
+    return a[0] < b[0] + b[1] and b[0] < a[0] + a[1]
+
+
+def _definition(action: Action) -> Action:
+    """Return an assignment that need not be made in passes which do not use it."""
+    assert isinstance(action, Assignment)
+    made = copy(action)
+    made.persistent = False  # type: ignore[misc]  # nodes are frozen for the type checker only
+    return made
+
+
+def _derivatives(
+    action: Deriv | DerivVec, numbers: dict[int, int], allocate: Callable[[int], int]
+) -> Iterable[Action]:
+    """Give the states that are left their derivatives; a vector's are computed whole, then copied."""
+    if isinstance(action, Deriv):
+        if action.state in numbers:
+            yield Deriv(numbers[action.state], action.value, action.where)
+        return
+    left = [i for i in range(action.count) if action.state + i in numbers]
+    if len(left) == action.count:
+        yield DerivVec(numbers[action.state], action.count, action.value, action.where)
+        return
+    if not left:
+        return
+    whole = action.value
+    if not isinstance(whole, Vec):
+        whole = Vec(allocate(action.count), action.count)
+        yield SetVec(whole.slot, action.count, action.value, action.where)
+    for first, last in _stretches(left):
+        number, count = numbers[action.state + first], last - first
+        if count == 1:
+            yield Deriv(number, Load(whole.slot + first), action.where)
+        else:
+            yield DerivVec(number, count, Vec(whole.slot + first, count), action.where)
+
+
+def _stretches(numbers: Sequence[int]) -> Iterable[tuple[int, int]]:
+    """Yield consecutive numbers as first and behind the last."""
+    first = numbers[0]
+    for one, following in zip(numbers, [*numbers[1:], None], strict=True):
+        if following != one + 1:
+            yield first, one + 1
+            first = following or 0
+
+
+def _ranges(kept: Sequence[tuple[StateRange, int]]) -> Iterable[StateRange]:
+    number = 0
+    for _, group in groupby(kept, key=lambda pair: pair[0].first):
+        some = list(group)
+        whole = some[0][0]
+        for first, last in _stretches([at for _, at in some]):
+            yield StateRange(whole.name, whole.slot + first, number, last - first, whole.where)
+            number += last - first
+
+
+def _jacobian(given: Jacobian, numbers: dict[int, int], allocate: Callable[[int], int]) -> Jacobian:
+    """Return the lines for the states that are left, in a matrix of their own."""
+    entries = tuple(
+        JacobianEntry(numbers[entry.row], numbers[entry.column], entry.value, entry.where)
+        for entry in given.entries
+        if entry.row in numbers and entry.column in numbers
+    )
+    return type(given)(allocate(len(numbers) ** 2), given.body, entries)
