@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from desire_tui.engine.outputs.formats import FORMATS
+from desire_tui.engine.outputs.formats import FORMATS, DataFormat
+from desire_tui.engine.user_folders import ignored_variables
+from desire_tui.engine.visible_text import visible
 from desire_tui.version import __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 _Command = TypeVar("_Command", bound="Callable[..., Any]")
 
@@ -24,6 +27,27 @@ class _FilesOrCommand(click.Group):
         if first is not None and first not in self.commands:
             args = ["ide", *args]
         return super().parse_args(ctx, args)
+
+    def make_context(self, *args: Any, **options: Any) -> click.Context:
+        """Read the words; what a message repeats of them, a terminal does not obey."""
+        with _visible_messages():
+            return super().make_context(*args, **options)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Carry a command out, with such messages too."""
+        with _visible_messages():
+            return super().invoke(ctx)
+
+
+@contextmanager
+def _visible_messages() -> Iterator[None]:
+    try:
+        yield
+    except click.UsageError as error:
+        sentence = error.format_message()
+        if (shown := visible(sentence)) == sentence:
+            raise
+        raise click.UsageError(shown, error.ctx) from None
 
 
 @click.group(cls=_FilesOrCommand, invoke_without_command=True)
@@ -109,6 +133,12 @@ def _run(file: str, **options: Any) -> int:
     files = {known.name: options[known.name] for known in FORMATS if options[known.name] is not None}
     if sum(name == STANDARD_OUTPUT for name in files.values()) > 1:
         raise click.UsageError("only one file can go to standard output")
+    for known in FORMATS:
+        is_text = isinstance(known, DataFormat) and known.is_text
+        if files.get(known.name) == STANDARD_OUTPUT and not is_text and sys.stdout.isatty():
+            raise click.UsageError(
+                f"--{known.name} - is nothing that a terminal shows: name a file, or send the output to one"
+            )
     run_options = RunOptions(
         settings=options["settings"], answer_stops=options["go"], timeout=options["timeout"],
         backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
@@ -194,6 +224,8 @@ def _guarded(work: Any) -> int:
     """Run a command; what the machine refuses (a closed pipe, a full disk) is a message, not a traceback."""
     import os
 
+    for sentence in ignored_variables():
+        sys.stderr.write(f"warning: {visible(sentence)}\n")
     try:
         status = int(work())
         sys.stdout.flush()

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.common.dialogs import Choice
-from desire_tui.common.paths import exists, full
+from desire_tui.common.paths import config_file, exists, full
 from desire_tui.editor.buffer import Buffer, NotText
 from desire_tui.editor.line_ends import ends_of
 from desire_tui.engine.atomic_file import replacing
 from desire_tui.engine.source import Source
 from desire_tui.engine.text_encoding import UTF_8, TextEncoding, encode, is_kept
+from desire_tui.engine.user_folders import write_private
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
@@ -41,8 +42,11 @@ class SaveAndReload(Controller):
             self.app.report_error(f"cannot write {path}: {reason}", code=106)
             return None
         try:
-            with replacing(path, "wb", make_folder=True) as file:
-                file.write(encode(text, encoding))
+            if full(path) == full(config_file()):
+                write_private(str(full(path)), encode(text, encoding))
+            else:
+                with replacing(path, "wb", make_folder=True) as file:
+                    file.write(encode(text, encoding))
         except OSError as error:
             self.app.report_error(f"cannot write {path}: {error.strerror}", code=106)
             return None

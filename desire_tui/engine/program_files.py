@@ -1,6 +1,7 @@
 """Opens files for programs: ordinary files only, and no link is followed on the way.
 
-The path was judged before (`session/permissions`); what stands there when it is opened must still be that.
+The path was judged before (`session/permissions`). Somebody may put links in its way at any moment since: so
+each folder is opened in the one before, and the file in the last.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ _FLAGS = {
     "w": os.O_WRONLY | os.O_CREAT,  # emptied once it is known what it is
     "a": os.O_WRONLY | os.O_CREAT | os.O_APPEND,
 }
+_FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
+"""A folder that may be entered need not be readable."""
 _KINDS = (
     (S_ISLNK, "a link in a circle"),
     (S_ISFIFO, "a named pipe"),
@@ -37,7 +40,12 @@ def open_for_program(path: Path, mode: Literal["r", "w", "a", "rb"]) -> IO[Any]:
 
     Never waits: a named pipe without a writer would hold the engine for ever.
     """
-    number = os.open(path, _FLAGS[mode] | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC, 0o666)
+    flags = _FLAGS[mode] | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
+    folder = _open_folder(path.parent)
+    try:
+        number = os.open(path.name, flags, 0o666, dir_fd=folder)
+    finally:
+        os.close(folder)
     try:
         _check(number, path)
         if mode == "w" and str(path) != os.devnull:
@@ -50,15 +58,30 @@ def open_for_program(path: Path, mode: Literal["r", "w", "a", "rb"]) -> IO[Any]:
         raise
 
 
+def _open_folder(path: Path) -> int:
+    """Open a folder, given by its resolved path, component by component. OSError."""
+    top, *names = path.parts
+    number = os.open(top, _FOLDER)
+    for name in names:
+        above = number
+        try:
+            number = os.open(name, _FOLDER, dir_fd=above)
+        except OSError:
+            if S_ISLNK(os.stat(name, dir_fd=above, follow_symlinks=False).st_mode):
+                raise OSError(ELOOP, "a link stands in its way") from None
+            raise
+        finally:
+            os.close(above)
+    return number
+
+
 def _check(number: int, path: Path) -> None:
-    """OSError: what was opened is no ordinary file, or another than the path names."""
+    """OSError: what was opened is no ordinary file."""
     status = os.fstat(number)
     if S_ISDIR(status.st_mode):
         raise IsADirectoryError(EISDIR, os.strerror(EISDIR))
     if not S_ISREG(status.st_mode) and str(path) != os.devnull:  # into which a look at a script writes
         raise OSError(EINVAL, "it is no ordinary file")
-    if os.path.realpath(path) != str(path) or not os.path.samestat(status, os.lstat(path)):
-        raise OSError(ELOOP, "a link stands in its way")
 
 
 def irregular_kind(path: Path) -> str | None:

@@ -187,3 +187,13 @@ async def test_a_large_program_is_opened(tmp_path):
         area.go_to(200_000)
         await desk.press("y")
         assert area.document.get_line(200_000).startswith("yx = 1")
+
+
+async def test_a_configuration_that_is_saved_is_private(program):
+    async with desktop(program("x = 1\n")) as desk:
+        await desk.line("config")
+        await desk.until(lambda: desk.app.editor.front.buffer.path == paths.config_file().resolve())
+        await desk.do("file.save")
+        await desk.until(lambda: paths.config_file().exists())
+        assert paths.config_file().stat().st_mode & 0o777 == 0o600
+        assert paths.config_file().parent.stat().st_mode & 0o777 == 0o700

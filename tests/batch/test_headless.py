@@ -563,3 +563,51 @@ def test_quantities_too_many_for_a_json_file_are_refused(tmp_path):
     assert status == 1
     assert "error 40: no room for" in err
     assert not (tmp_path / "p.json").exists()
+
+
+def on_terminal(*args, env=None):
+    """Run the command with a terminal for its output; returns status and what the terminal gets."""
+    master, slave = os.openpty()
+    done = subprocess.Popen(
+        [sys.executable, "-m", "desire_tui", *map(str, args)], stdout=slave, stderr=slave, stdin=subprocess.DEVNULL,
+        env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
+    )  # fmt: skip
+    os.close(slave)
+    shown = b""
+    while True:
+        try:
+            piece = os.read(master, 65536)
+        except OSError:  # Linux: the other side is closed
+            break
+        if not piece:
+            break
+        shown += piece
+    os.close(master)
+    return done.wait(60), shown.decode()
+
+
+@pytest.mark.parametrize("kind", ["png", "svg", "pdf", "npz"])
+def test_what_no_terminal_shows_is_not_sent_to_one(decay, kind):
+    status, shown = on_terminal("run", decay, f"--{kind}", "-")
+    assert status == 2
+    assert f"--{kind} - is nothing that a terminal shows" in shown
+    assert "done" not in shown  # nothing ran
+
+
+def test_wrong_words_of_the_command_line_are_shown_and_not_obeyed():
+    hostile = "\x1b]52;c;aGk=\x07\x1b[2J\u202e"
+    for words in (
+        ("run", "x", f"--nonsense{hostile}"), ("run", "x", "--set", hostile), ("run", "x", "y" + hostile),
+        ("run", "x", "--backend", hostile), ("config", hostile),
+    ):  # fmt: skip
+        status, shown = on_terminal(*words)
+        assert status == 2, words
+        assert "\x1b" not in shown
+        assert "\u202e" not in shown
+        assert "␛" in shown or r"\x1b" in shown  # of click itself
+
+
+def test_a_relative_cache_path_is_told(decay, tmp_path):
+    status, shown = on_terminal("run", decay, "--quiet", env={"XDG_CACHE_HOME": "cache\x1b[2J"})
+    assert status == 0
+    assert shown.startswith("warning: XDG_CACHE_HOME=cache␛[2J is no absolute path: ~/.cache is used")

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.program_files import open_for_program
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
@@ -194,3 +196,53 @@ def test_what_one_program_was_allowed_another_is_not(home, folder):
     for name in ("one.src", "two.src"):
         session.erun(Source(WRITE.format("../o.txt"), name, folder / name))
     assert len(user.asked) == 2
+
+
+def test_a_folder_that_becomes_a_link_between_two_steps_is_not_entered(tmp_path, monkeypatch):
+    """The check by names alone could be passed by a link that was swapped in for a moment."""
+    inside, outside = tmp_path / "inside", tmp_path / "outside"
+    inside.mkdir()
+    outside.mkdir()
+    (inside / "data.dat").write_text("mine")
+    (outside / "data.dat").write_text("secret")
+    path, aside = inside / "data.dat", tmp_path / "aside"
+    real_open = os.open
+
+    def swapping(name, *args, **options):
+        if str(name) in (str(path), "inside"):
+            inside.rename(aside)
+            inside.symlink_to(outside)
+            try:
+                return real_open(name, *args, **options)
+            finally:
+                inside.unlink()
+                aside.rename(inside)
+        return real_open(name, *args, **options)
+
+    monkeypatch.setattr(os, "open", swapping)
+    with pytest.raises(OSError, match="Not a directory"):  # the link is gone when it is looked at
+        open_for_program(path, "w")
+    assert (outside / "data.dat").read_text() == "secret"
+    assert path.read_text() == "mine"
+
+
+def test_a_link_for_a_folder_is_named_as_the_reason(tmp_path):
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to("real")
+    with pytest.raises(OSError, match="a link stands in its way"):
+        open_for_program(tmp_path / "link" / "data.dat", "w")
+    assert not list((tmp_path / "real").iterdir())
+
+
+OPEN_FILES = Path("/proc/self/fd")
+
+
+def test_no_folder_stays_open(tmp_path):
+    path = tmp_path / "a" / "b" / "data.dat"
+    path.parent.mkdir(parents=True)
+    before = len(list(OPEN_FILES.iterdir()))
+    open_for_program(path, "w").close()
+    for missing in (path.parent / "c" / "d", path / "e", path.parent / "f"):
+        with pytest.raises(OSError, match=r"No such file|Not a directory"):
+            open_for_program(missing, "r")
+    assert len(list(OPEN_FILES.iterdir())) == before
