@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.editor.recovery import SavedTab, store
+
 from .conftest import desktop
-from .test_terminal import CTRL_Q, F5, Terminal, terminal
+from .test_safety import dead_pid
+from .test_terminal import CTRL_L, CTRL_N, CTRL_Q, CTRL_S, F5, Terminal, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,6 +43,30 @@ def test_a_hostile_file_opened_run_and_offered_again(
     screen.send(CTRL_Q)
     screen.read(0.5)
     assert "PWNED" in screen.text
+    assert_harmless(screen)
+
+
+def test_hostile_names_in_dialogs_and_hostile_text_that_is_pasted(
+    terminal: Callable[..., Terminal], tmp_path: Path
+) -> None:
+    (tmp_path / NAME).write_text(PROGRAM)
+    (tmp_path / "a.src").write_text("input a\nwrite a\n")
+    store(tmp_path / "state" / "desire-tui" / f"recovery-{dead_pid()}.json", [SavedTab(None, EVIL, EVIL)])
+    screen = terminal("a.src")
+    screen.until(lambda: "Unsaved work found" in screen.text and "PWNED" in screen.text)
+    screen.read(1.5)  # a question that comes up by itself takes no answer at first
+    screen.send("r")
+    screen.until(lambda: "Unsaved work found" not in screen.text)
+    screen.send(CTRL_S)  # a tab without a file: the dialog shows the folder
+    screen.until(lambda: "a.src" in screen.text and "Cancel" in screen.text)
+    screen.read(0.5)
+    screen.send("\x1b")
+    screen.until(lambda: "Cancel" not in screen.text)
+    pasted = f"\x1b[200~-- {EVIL.replace(chr(27), '')}\x1b[201~"
+    screen.send(CTRL_N + pasted)
+    screen.until(lambda: "UFdORUQ=␇" in screen.text)
+    screen.send(CTRL_L + pasted)
+    screen.read(0.5)
     assert_harmless(screen)
 
 
