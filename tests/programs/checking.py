@@ -164,16 +164,19 @@ UNREPEATABLE = frozenset({"started", "elapsed"})
 
 
 def difference(a: object, b: object) -> float:
-    """Return the largest difference relative to the largest value; 0 where both are the same inf or nan."""
+    """Return the largest difference relative to the largest finite value; 0 where both are the same inf or nan."""
     a, b = np.asarray(a, dtype=complex), np.asarray(b, dtype=complex)
     if a.shape != b.shape:
         return math.inf
-    if a.size == 0:
+    other = ~((a == b) | (np.isnan(a) & np.isnan(b)))
+    if not other.any():
         return 0.0
-    same = (a == b) | (np.isnan(a) & np.isnan(b))
-    if same.all():
-        return 0.0
-    return float(np.max(np.abs(a - b)[~same]) / max(np.max(np.abs(a)), np.max(np.abs(b))))
+    with np.errstate(all="ignore"):
+        gaps = np.abs(a - b)[other]
+    if not np.isfinite(gaps).all():
+        return math.inf
+    sizes = np.abs(np.concatenate([a.ravel(), b.ravel()]))
+    return float(np.max(gaps) / np.max(sizes[np.isfinite(sizes)]))
 
 
 def _problems(outcome: Outcome) -> list:

@@ -5,14 +5,16 @@ One step from (t, x) with step DT:
     kᵢ = f(t + cᵢ·DT, x + DT·Σⱼ aᵢⱼ·kⱼ)        x(t + DT) = x + DT·Σᵢ bᵢ·kᵢ
 
 and, for a rule with a variable step, the test difference of each state is `DT·|Σᵢ testᵢ·kᵢ|`. The rows are
-exact fractions; back ends write them out as products and sums in the order of the k's, so that all give the
-same bits.
+exact fractions; back ends write them out as DT/denominator times a sum of whole multiples in the order of the
+k's (`whole_multiples`), so that all give the same bits.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
+from math import lcm
 
 from desire_tui.engine.integration.rules import RULES, Rule
 
@@ -45,6 +47,13 @@ class Tableau:
     def variable(self) -> bool:
         """Whether the rule controls its step."""
         return self.test is not None
+
+
+@cache
+def whole_multiples(row: Row) -> tuple[int, tuple[int, ...]]:
+    """Return a row as its common denominator and whole numerators: (1/6, 2/6, …) is 6, (1, 2, …)."""
+    denominator = lcm(*(weight.denominator for weight in row))
+    return denominator, tuple(int(weight * denominator) for weight in row)
 
 
 def _row(denominator: int, *numerators: int) -> Row:

@@ -76,6 +76,8 @@ def lower_segment(
     _collect_targets(context, jacobian_lines)
     builder = SegmentBuilder(context, _states(context, lines), rule)
     _ready_from_start(builder, lines)
+    if builder.states.ranges:
+        _refuse_to_set_time(context, [*lines, *jacobian_lines])
     for node, frame in lines:
         context.enter(frame)
         outer, place = builder.body, len(builder.body)
@@ -168,6 +170,19 @@ def _collect_targets(context: LoweringContext, lines: Sequence[Line]) -> None:
             if name not in context.assigned:
                 context.assigned[name] = (context.span(node),)
                 context.scope.scalar(name)
+
+
+def _refuse_to_set_time(context: LoweringContext, lines: Sequence[Line]) -> None:
+    """Report what would move t while states are integrated over it: such a run may never end."""
+    for node, frame in lines:
+        if isinstance(
+            node, Request | ScriptOnlyStatement
+        ):  # `recover t` puts back what was stashed at the same point
+            continue
+        context.enter(frame)
+        for target in assigned(node).targets:
+            if isinstance(target, Name) and frame.rename.get(target.name, target.name) == "t":
+                context.report("time-as-target", target)
 
 
 def _states(context: LoweringContext, lines: Sequence[Line]) -> StateTable:

@@ -1,7 +1,7 @@
 """The states as one vector: fetched, put back, moved by a row of a rule's tableau.
 
 `UnrolledStates` writes the sums out as Python text for a model of few states, `ArrayStates` leaves them to
-NumPy. Both add the products in the order of the k's.
+NumPy. Both add whole multiples in the order of the k's and multiply by DT/denominator, as native code does.
 """
 
 from __future__ import annotations
@@ -9,6 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
+
+from desire_tui.engine.integration.tableaus import whole_multiples
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -56,7 +58,8 @@ class ArrayStates:
     def __init__(
         self, ranges: list[Range], order: int, rows: Sequence[Row], values: Values, first: Array
     ) -> None:
-        self.ranges, self.order, self.rows = ranges, order, rows
+        self.ranges, self.order = ranges, order
+        self.sums = [whole_multiples(row) for row in rows]
         self.data = values.data
         self.k = [first, *(np.zeros(order) for _ in rows[2:])]
 
@@ -74,7 +77,8 @@ class ArrayStates:
 
     def move(self, stage: int, start: Array, dt: float) -> None:
         """States ← start + dt·Σ row·k."""
-        self.put(start + dt * weighted_sum(self.rows[stage], self.k))
+        denominator, multiples = self.sums[stage]
+        self.put(start + dt / denominator * sum_of_multiples(multiples, self.k))
 
 
 class UnrolledStates(ArrayStates):
@@ -89,10 +93,10 @@ class UnrolledStates(ArrayStates):
         names |= {f"k{i}": k.data for i, k in enumerate(self.k)}
         lines = ["def fetch(): return (" + "".join(f"c[{slot}], " for slot in slots) + ")", "def put(x):"]
         lines += [f" c[{slot}] = x[{n}]" for n, slot in enumerate(slots)] or [" pass"]
-        for stage, row in enumerate(rows):
-            lines.append(f"def move{stage}(x, dt):")
+        for stage, (denominator, multiples) in enumerate(self.sums):
+            lines += [f"def move{stage}(x, dt):", f" dt = dt / {denominator}.0"]
             for n, slot in enumerate(slots):
-                total = " + ".join(f"{float(w)!r} * k{i}[{n}]" for i, w in enumerate(row) if w) or "0.0"
+                total = " + ".join(f"{m}.0 * k{i}[{n}]" for i, m in enumerate(multiples) if m) or "0.0"
                 lines.append(f" c[{slot}] = x[{n}] + dt * ({total})")
             lines.append(" return")
         exec(compile("\n".join(lines), "<states>", "exec"), names)  # noqa: S102 - numbers and slots only
@@ -113,12 +117,12 @@ class UnrolledStates(ArrayStates):
         self._moves[stage](start, dt)
 
 
-def weighted_sum(row: Row, k: Sequence[Array]) -> Array:
-    """Return Σ row·k, added in the order of the k's."""
+def sum_of_multiples(multiples: Sequence[int], k: Sequence[Array]) -> Array:
+    """Return Σ multiple·k, added in the order of the k's."""
     total: Array | None = None
-    for weight, one in zip(row, k, strict=False):
-        if weight:
-            total = float(weight) * one if total is None else total + float(weight) * one
+    for multiple, one in zip(multiples, k, strict=False):
+        if multiple:
+            total = float(multiple) * one if total is None else total + float(multiple) * one
     return np.zeros_like(k[0]) if total is None else total
 
 

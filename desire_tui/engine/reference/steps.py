@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from desire_tui.engine.integration.tableaus import STILL_MOST
-from desire_tui.engine.reference.states import weighted_sum
+from desire_tui.engine.integration.tableaus import STILL_MOST, whole_multiples
+from desire_tui.engine.reference.states import sum_of_multiples
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, ERRMAX, T
 
@@ -104,13 +104,15 @@ def _difference(
 ) -> tuple[float, int]:
     """Return the largest test difference, and the number of its state.
 
-    Relative to |x| + 1 with x at the step's start; absolute, and of one state, with CHECKN.
+    Relative to |x| + 1 with x at the step's start; absolute, and of one state, with CHECKN. A state that
+    is nan has no difference: the run ends at it when the step is done.
     """
     assert tableau.test is not None
-    absolute = dt * np.abs(weighted_sum(tableau.test, model.states.k))
+    denominator, multiples = whole_multiples(tableau.test)
+    absolute = dt / denominator * np.abs(sum_of_multiples(multiples, model.states.k))
     if checked:
-        return float(absolute[checked - 1]), checked - 1
-    relative = absolute / (np.abs(np.asarray(start)) + 1.0)
+        return float(np.nan_to_num(absolute[checked - 1], posinf=np.inf)), checked - 1
+    relative = np.nan_to_num(absolute / (np.abs(np.asarray(start)) + 1.0), posinf=np.inf)
     largest = int(np.argmax(relative))
     return float(relative[largest]), largest
 

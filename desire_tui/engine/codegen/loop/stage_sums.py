@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from math import lcm
 from typing import TYPE_CHECKING
+
+from desire_tui.engine.integration.tableaus import whole_multiples
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -12,21 +13,15 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.tableaus import Row
 
 
-def parts(row: Row) -> tuple[int, list[int]]:
-    """Return a row as its common denominator and whole numerators: (1/6, 2/6, …) is 6, [1, 2, …]."""
-    denominator = lcm(*(r.denominator for r in row))
-    return denominator, [int(r * denominator) for r in row]
-
-
 def scaled(lanes: Lanes, row: Row, dt: str) -> str:
     """Write dt divided by the row's denominator, once for all states."""
-    denominator, _ = parts(row)
+    denominator, _ = whole_multiples(row)
     return dt if denominator == 1 else lanes.div(dt, lanes.const(float(denominator)))
 
 
 def weighted(lanes: Lanes, row: Row, k: Callable[[int], str]) -> str:
     """Write Σ numerator·k, in the order of the stages; `k(stage)` reads a derivative, stages from 1."""
-    _, numerators = parts(row)
+    _, numerators = whole_multiples(row)
     total = ""
     for stage, n in enumerate(numerators, 1):
         if n == 0:

@@ -64,6 +64,13 @@ MESSAGES: dict[str, Wording] = {
         "'{name}' is not a real quantity and cannot be assigned in a DYNAMIC segment",
         "use a variable that is not declared INTEGER or COMPLEX",
     ),
+    "time-as-target": Wording(
+        87,
+        "t cannot be assigned where there are differential equations: the integration rule moves it",
+        "use another name; set t in the script before drun, and end a run with `term`",
+        "A step begins where the one before has ended: a segment that sets t at each pass may never reach"
+        " TMAX. Segments without `d/dt` may set it: their passes are counted.",
+    ),
     "constant-target": Wording(73, "'{name}' is a constant", "use another name"),
     "function-as-variable": Wording(73, "'{name}' is a FUNCTION and cannot be assigned", "use another name"),
     # ------------------------------------------------------------------ functions, submodels
