@@ -50,7 +50,7 @@ def check(text: str) -> None:
     if STOPPED in _codes(native) or sum(run.steps for run in native.runs) > STEPS_MOST:
         return
     reference = execute(text, "reference", Path.cwd())
-    wrong = _differences(native, reference)
+    wrong = {name: gap for name, gap in _differences(native, reference).items() if gap > TOLERANCE}
     for seed in range(OTHER_ROUNDINGS if wrong else 0):
         with other_roundings(seed):
             moved = _differences(execute(text, "reference", Path.cwd()), reference)
@@ -98,7 +98,7 @@ def _differences(one: Outcome, reference: Outcome) -> dict[str, float]:
             found[f"run {number}: {name}"] = difference(a.rows[: a.count, k], b.rows[: b.count, k])
     for name in one.quantities.keys() - UNREPEATABLE:
         found[name] = difference(one.quantities[name], reference.quantities[name])
-    return {name: gap for name, gap in found.items() if gap > TOLERANCE}
+    return found
 
 
 def _kind(outcome: Outcome) -> object:
