@@ -110,9 +110,7 @@ def _restored(folder: Path, name: str, newest: int) -> None:
     desktop = Terminal(folder, name, columns=900)  # the whole line is seen
     try:
         desktop.until(lambda: "Unsaved work found" in desktop.text)
-        desktop.read_question()
-        desktop.send("r")
-        desktop.until(lambda: "Unsaved work found" not in desktop.text and "TMAX" in desktop.text)
+        desktop.answer("r", "Unsaved work found")
         desktop.until(lambda: _newest(desktop.text) == newest)
     finally:
         desktop.child.close(force=True)

@@ -13,8 +13,9 @@ from desire_tui.engine.check.state_order import state_order
 from desire_tui.engine.diagnostics import render_all
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax.highlighting import before, highlight
+from desire_tui.engine.syntax.highlighting import highlight
 from desire_tui.engine.syntax.parse import parse, parse_command
+from desire_tui.engine.syntax.statement_rows import before
 from tests.fuzz.corpus import PIECES
 from tests.fuzz.corpus import texts as corpus
 from tests.fuzz.mutations import mutated, window
