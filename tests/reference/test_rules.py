@@ -64,7 +64,7 @@ def test_the_step_doubles_up_to_its_limit():
 def test_a_step_shortened_for_a_point_does_not_double():
     """DT = 0.3 with points every 0.5: 0.3, 0.2 (cut), then 0.3 or 0.6 must not come from the cut step."""
     session = run(
-        "irule 7\nTMAX = 1 | NN = 3 | DT = 0.3 | ERMIN = 0 | ERMAX = 1 | x = 1\ndrun\nDYNAMIC\nd/dt x = 0*x"
+        "irule 7\nTMAX = 1 | NN = 3 | DT = 0.3 | DTMAX = 0.3 | ERMAX = 1 | x = 1\ndrun\nDYNAMIC\nd/dt x = 0*x"
     )
     (record,) = session.runs
     assert record.steps == 4

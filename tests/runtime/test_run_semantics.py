@@ -87,12 +87,12 @@ def test_reset_rewinds_store():
     )
 
 
-def test_dummy_integration_goes_on_without_a_joint():
+def test_dummy_integration_repeats_the_joint_and_does_not_count_it():
     session = session_for(
         "ARRAY X[6] | NN = 3 | x = 0\ndrun | drun\nDYNAMIC\nx = x + 1\nstore X = x\ndispt x\n"
     )
-    assert [r.t.tolist() for r in session.runs] == [[1, 2, 3], [4, 5, 6]]
-    assert session.values.view(session.values.find("X")).tolist() == [1, 2, 3, 4, 5, 6]
+    assert [r.t.tolist() for r in session.runs] == [[1, 2, 3], [3, 4, 5]]
+    assert session.values.view(session.values.find("X")).tolist() == [1, 2, 3, 5, 6, 0]
 
 
 def test_what_a_segment_sets_can_be_read_by_the_script():

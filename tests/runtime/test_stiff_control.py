@@ -180,9 +180,11 @@ dispt x, y
     before = record.end_time - record.dt_most
     assert before <= log(2) + 1e-5
     assert record.values("x")[-1] == pytest.approx(exp(-record.end_time), abs=1e-5)
-    session.execute("drun")  # x is below 0.5 at once: no step, two samples of one time at most
+    session.execute("drun")  # x is below 0.5 at the joint and falls on: one step
     assert session.runs[-1].ended == "term"
-    assert session.runs[-1].end_time == record.end_time
+    assert session.runs[-1].steps == 1
+    session.execute("reset | x = 0.45 | drun")  # a run that continues none ends where it begins
+    assert (session.runs[-1].ended, session.runs[-1].steps, session.runs[-1].count) == ("term", 0, 1)
 
 
 @pytest.mark.parametrize("rule", RULES)

@@ -129,8 +129,10 @@ def expressions(action: Action) -> tuple[Value, ...]:
 def own_reads(action: Action) -> tuple[Piece, ...]:
     """Return the memory that a statement reads besides what its expressions read."""
     match action:
-        case Set() | Deriv() | DerivVec() | SetDot() | Terminate() | Guard():
+        case Set() | Deriv() | DerivVec() | SetDot() | Guard():
             return ()
+        case Terminate():
+            return () if action.level is None else ((action.level, 1),)
         case SetVec() | SetMat():
             count = _size(action)
             mask = () if action.mask_slot is None else (ArrayPiece(action.mask_slot, count),)
@@ -168,8 +170,10 @@ def writes(action: Action) -> tuple[Piece, ...]:
     match action:
         case Set() | SetDot() | GetHistory():
             return ((action.slot, 1),)
-        case Deriv() | DerivVec() | Terminate() | Guard():
+        case Deriv() | DerivVec() | Guard():
             return ()
+        case Terminate():
+            return () if action.level is None else ((action.level, 1),)
         case SetVec() | SetMat():
             return (ArrayPiece(action.slot, _size(action)),)
         case StoreHistory():

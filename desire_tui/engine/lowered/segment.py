@@ -88,6 +88,8 @@ class Segment:
 
     `scalars` lists the slots of scalars that the segment sets; `counters` says how many history positions
     it has. `faults` lists the compiler's own tests among `body`, which end the run with an error.
+    `levels` are the slots of what its `term` statements must exceed, `constants` the script's numbers (slot,
+    value) from which subscripts and the like were computed.
     `row_chosen` is the place of a `P#` whose row the script must choose (iRow above 0). `breakpoints` must
     not fall when a run begins.
     """
@@ -104,6 +106,8 @@ class Segment:
     counters: int = 0
     scalars: tuple[int, ...] = ()
     faults: tuple[Terminate, ...] = ()
+    levels: tuple[int, ...] = ()
+    constants: tuple[tuple[int, float], ...] = ()
     row_chosen: Where | None = None
     breakpoints: tuple[Breakpoints, ...] = ()
     names: dict[int, str] = field(default_factory=dict)

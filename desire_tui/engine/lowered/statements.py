@@ -160,12 +160,17 @@ class UpdateTrackHold:
 class Terminate:
     """`term e`: tested where STEP is on; `number` counts the segment's term statements from 0.
 
-    `fault`: the compiler's own test, which ends the run with this message where its value is above 0.
+    `level`: the slot of what `value` must exceed; afterwards it holds `value` if that is above 0, else 0. A
+    run begins with 0 there. One that continues another is not ended at the joint. It begins with infinity
+    where `value` was above 0 at the end of the run before: then it ends the run only when it grows, or after
+    it has been 0 or less. Else it begins with nan, behind which comes 0. No slot: `value` must exceed 0.
+    `fault`: the compiler's own test, which ends the run with this message.
     """
 
     value: Value
     number: int
     where: Where
+    level: int | None = None
     fault: str | None = None
 
 

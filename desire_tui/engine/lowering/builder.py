@@ -53,8 +53,8 @@ class SegmentBuilder:
     of a display and a type request. By states (slot, count): `derivative_paths` the guards around each of
     their `d/dt` lines, `_held` the numbers that keep a derivative whose guard is shut. `_derivative_arrays`:
     by a whole array's slot and size the stretches of it that have a `d/dt` (slot, count, guards, name).
-    `faults`: the compiler's own tests, which end the run with an error. `names`: scalars by slot, for
-    messages.
+    `faults`: the compiler's own tests, which end the run with an error. `levels`: slots of
+    what each `term` must exceed. `names`: scalars by slot, for messages.
     """
 
     context: LoweringContext
@@ -72,6 +72,7 @@ class SegmentBuilder:
     once_only: dict[str, Span] = field(default_factory=dict)
     derivative_paths: dict[tuple[int, int], list[Path]] = field(default_factory=dict)
     names: dict[int, str] = field(default_factory=dict)
+    levels: list[int] = field(default_factory=list)
     faults: list[Terminate] = field(default_factory=list)
     _exhausted: list[Terminate] = field(default_factory=list)
     _derivative_arrays: dict[tuple[int, int], list[tuple[int, int, Path, str]]] = field(default_factory=dict)
@@ -84,12 +85,12 @@ class SegmentBuilder:
 
     def watch(self, slot: int, where: Where) -> None:
         """End the run with error 232 when this number is 1; that is tested at every step, like a `term`."""
-        self._exhausted.append(Terminate(Load(slot), 0, where, "no-template-left"))
+        self._exhausted.append(Terminate(Load(slot), 0, where, fault="no-template-left"))
 
     def watch_row(self, where: Where) -> None:
         """End the run with error 124 where iRow chooses no row: 1 - swtch(iRow) > 0."""
         chosen = Op("swtch", (Load(IROW),))
-        test = Terminate(Op("sub", (Const(1.0), chosen)), 0, where, "row-not-chosen")
+        test = Terminate(Op("sub", (Const(1.0), chosen)), 0, where, fault="row-not-chosen")
         self.body.append(test)
         self.faults.append(test)
 

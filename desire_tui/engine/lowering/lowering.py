@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -45,7 +46,7 @@ def lower(
     segment, problems = lower_segment(text, scope, program.source, functions_of(found), found.submodels, rule)
     if problems:
         raise DesireError(*in_order(problems))
-    return segment
+    return replace(segment, constants=tuple(scope.constants.items())) if scope.constants else segment
 
 
 def functions_of(structure: Structure) -> dict[str, FunctionText]:

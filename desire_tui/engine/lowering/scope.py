@@ -58,6 +58,8 @@ class LiveScope:
     def __init__(self, values: Values) -> None:
         self.values = values
         self.names: Mapping[str, Quantity] = values.names
+        self.constants: dict[int, float] = {}
+        """Every number whose present value was asked for, by its slot."""
 
     def is_defined(self, quantity: Quantity) -> bool:
         """Whether the script (or an earlier run) gave it a value; states start at 0."""
@@ -76,7 +78,9 @@ class LiveScope:
 
     def constant(self, quantity: Quantity, offset: int = 0) -> float | None:
         """Return the present value."""
-        return self.values.cells[quantity.slot + offset]
+        slot = quantity.slot + offset
+        value = self.constants[slot] = self.values.cells[slot]
+        return value
 
 
 class StaticScope:

@@ -100,7 +100,7 @@ def lower_segment(
         requests=tuple(builder.requests), pictures=tuple(builder.pictures),
         stash=tuple(builder.stash), recover=tuple(builder.recover), jacobian=jacobian,
         counters=builder.counters, scalars=_scalars(context), names=builder.names,
-        faults=tuple(builder.faults), row_chosen=context.row_chosen,
+        faults=tuple(builder.faults), levels=tuple(builder.levels), row_chosen=context.row_chosen,
         breakpoints=_filled_by_script(context.breakpoints, body),
     )  # fmt: skip
     return segment, context.problems

@@ -77,7 +77,9 @@ def derivative(builder: SegmentBuilder, node: Derivative) -> None:
 def term(builder: SegmentBuilder, node: Term) -> None:
     """`term e`."""
     context = builder.context
-    builder.body.append(Terminate(context.lower(node.value), builder.terms, context.where(node)))
+    level = context.scope.hidden(1)
+    builder.body.append(Terminate(context.lower(node.value), builder.terms, context.where(node), level))
+    builder.levels.append(level)
     builder.terms += 1
 
 

@@ -24,8 +24,11 @@ Actions = tuple["Action", ...]
 
 
 def full_pass(segment: Segment) -> Actions:
-    """COMM and STEP: everything, in order."""
-    return _resolve(segment.body, comm=True, step=True)
+    """COMM and STEP: everything, in order.
+
+    Without `d/dt` OUT code leaves the joint of a continued run out, where it ran in the run before.
+    """
+    return _resolve(segment.body, comm=True, step=True, joints=segment.order > 0)
 
 
 def step_slice(segment: Segment) -> Actions:
@@ -77,7 +80,8 @@ def _definitions(actions: Actions) -> Actions:
     return tuple(kept)
 
 
-def _resolve(actions: Iterable[Action], *, comm: bool, step: bool) -> Actions:
+def _resolve(actions: Iterable[Action], *, comm: bool, step: bool, joints: bool = True) -> Actions:
+    """Return what a pass must execute; `joints`: OUT code runs at the joint of two runs too."""
     runs = {"always": True, "point": comm, "step": step}
     kept: list[Action] = []
     for action in actions:
@@ -86,13 +90,17 @@ def _resolve(actions: Iterable[Action], *, comm: bool, step: bool) -> Actions:
                 kept.append(action)
             continue
         match action.kind:
+            case "out" if comm and not joints:
+                body = _resolve(action.body, comm=comm, step=step, joints=joints)
+                if body:
+                    kept.append(Guard("sample", body, action.where))
             case "out" | "step":
                 if comm if action.kind == "out" else step:
-                    kept.extend(_resolve(action.body, comm=comm, step=step))
+                    kept.extend(_resolve(action.body, comm=comm, step=step, joints=joints))
             case "if" | "sample":
                 if comm or action.kind == "if":
-                    body = _resolve(action.body, comm=comm, step=step)
-                    orelse = _resolve(action.orelse, comm=comm, step=step)
+                    body = _resolve(action.body, comm=comm, step=step, joints=joints)
+                    orelse = _resolve(action.orelse, comm=comm, step=step, joints=joints)
                     if body or orelse:
                         kept.append(with_bodies(action, body, orelse))
             case _:

@@ -93,8 +93,8 @@ def _delay(context: EvaluationContext, action: DelayLine) -> Run:
 def _is_fresh(memory: RunMemory) -> bool:
     """Whether this is not the joint of a continued run, which had its turn in the run before.
 
-    `get` and delays read at a joint what they read there before: after a `reset` the script has gone
-    back, and the first interval must not go on with the last value of the run taken back.
+    `get` and delays read at a joint what they read there before: the script may have changed what they
+    assign, and the first interval must not begin with that.
     """
     return not (memory.joined and memory.point == 0)
 

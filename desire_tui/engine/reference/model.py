@@ -84,12 +84,12 @@ class ReferenceModel:
         if (last or memory.point % memory.every == 0) and not self._sample(memory):
             return Ended.NOT_FINITE
         memory.point += 1
-        if self.tableau is None:
-            cells[T] = memory.t_start + memory.point * memory.comint
         if last:
             memory.phase = Phase.ENDED
             memory.which = fired or 0
             return Ended.TMAX if fired is None else Ended.TERM
+        if self.tableau is None:
+            cells[T] = memory.t_start + memory.point * memory.comint
         if memory.row >= memory.row_limit:
             if self.tableau is not None:
                 memory.phase = Phase.AFTER_POINT

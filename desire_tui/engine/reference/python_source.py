@@ -80,9 +80,12 @@ class PassText:
             self._line(depth, f"{closure}()")
             return
         if isinstance(action, Terminate):
-            statement = f"if {text} > 0.0 and s.fired is None: s.fired = {action.number}"
+            level = "0.0" if action.level is None else f"c[{action.level}]"
             self._line(depth, "try:")
-            self._line(depth + 1, statement)
+            self._line(depth + 1, f"now = {text}")
+            self._line(depth + 1, f"if now > {level} and s.fired is None: s.fired = {action.number}")
+            if action.level is not None:
+                self._line(depth + 1, f"{level} = now if now > 0.0 <= {level} else 0.0")
         else:
             target = f"c[{action.slot}]" if isinstance(action, Set) else f"d[{action.state}]"
             self._line(depth, f"try: {target} = {text}")

@@ -60,7 +60,7 @@ class StatementClosures(EvaluationContext):
             case StoreHistory() | GetHistory() | DelayLine() | UpdateTrackHold():
                 return history(self, action)
             case Terminate():
-                return self._term(action.number, self.value(action.value))
+                return self._term(action, self.value(action.value))
             case LearningStep():
                 rate = self.value(action.rate)
                 criterion = None if action.criterion is None else self.value(action.criterion)
@@ -94,10 +94,16 @@ class StatementClosures(EvaluationContext):
 
         return run
 
-    def _term(self, number: int, value: Thunk) -> Run:
+    def _term(self, action: Terminate, value: Thunk) -> Run:
+        cells, number, level = self.cells, action.number, action.level
+
         def run() -> None:
-            if value() > 0.0 and self.fired is None:
+            now = value()
+            before = 0.0 if level is None else cells[level]
+            if now > before and self.fired is None:
                 self.fired = number
+            if level is not None:
+                cells[level] = now if now > 0.0 <= before else 0.0
 
         return run
 

@@ -18,36 +18,43 @@ if TYPE_CHECKING:
 
 @dataclass
 class Positions:
-    """Where a segment's store, get, delay and SAMPLE stand; `end` is where its last run ended, or nan."""
+    """Where store, get, delay and SAMPLE stand through runs that continue one another.
+
+    `end` is where the last of them ended with a sample, or nan; `runs` counts them.
+    """
 
     counters: NDArray[np.int64]
     points: int = 0
     end: float = float("nan")
+    runs: int = 0
 
     def copy(self) -> Positions:
         """Return a copy that later runs leave alone."""
-        return Positions(self.counters.copy(), self.points, self.end)
+        return replace(self, counters=self.counters.copy())
 
 
 @dataclass
 class Start:
-    """t, DT and all states as they were when the last run began, and its segment's positions."""
+    """t, DT and all states as they were when the last run began."""
 
     t: float
     dt: float
     dt_defined: int
     states: list[tuple[int, NDArray[np.float64]]]
-    segment: str | None
-    positions: Positions
 
 
 @dataclass
 class RunHistory:
-    """Positions by segment, and the start of the last run."""
+    """What a further run continues, and the start of the last run.
+
+    Runs without a label that follow one another, with no `reset` between, continue one another. All others
+    begin anew; those of a labelled segment, and the first run after one, are compiled anew too.
+    """
 
     values: Values
     generation: int = -1
-    positions: dict[str | None, Positions] = field(default_factory=dict)
+    positions: Positions | None = None
+    label: str | None = None
     start: Start | None = None
     _ranges: list[tuple[int, int]] = field(default_factory=list)
     _names: int = -1
@@ -55,28 +62,36 @@ class RunHistory:
 
     def copy(self) -> RunHistory:
         """Return a copy that later runs leave alone."""
-        positions = {label: known.copy() for label, known in self.positions.items()}
-        return replace(self, positions=positions)
+        return replace(self, positions=None if self.positions is None else self.positions.copy())
+
+    def is_compiled_anew(self, label: str | None) -> bool:
+        """Whether a run of this segment takes subscripts and the like as they are now."""
+        self._forget_old()
+        return label is not None or self.label is not None
 
     def begin(self, segment: Segment) -> Positions:
-        """Save the start of a run; return the segment's positions, to be moved by the run."""
+        """Save the start of a run; return its positions, to be moved by the run."""
         self._forget_old()
         values, key = self.values, segment.label
-        known = self.positions.get(key)
-        if known is None or len(known.counters) < segment.counters:
-            known = self.positions[key] = Positions(np.zeros(max(segment.counters, 1), dtype=np.int64))
+        known = self.positions
+        if known is None or key is not None or len(known.counters) < segment.counters:
+            known = Positions(np.zeros(max(segment.counters, 1), dtype=np.int64))
+        known.runs += 1
+        self.positions = known if key is None else None
+        self.label = key
         if self._begun.get(key) is not segment:  # its states may be arrays that were none before
             self._begun = {**self._begun, key: segment}
             self._names = -1
         states = [(slot, values.data[slot : slot + count].copy()) for slot, count in self._state_ranges()]
         cells = values.cells
-        self.start = Start(cells[T], cells[DT], values.defined[DT], states, key, known.copy())
+        self.start = Start(cells[T], cells[DT], values.defined[DT], states)
         return known
 
     def reset(self) -> None:
-        """Go back to the start of the last run; nothing happens before the first."""
+        """Go back to the start of the last run, if there was one; the next begins anew."""
         self._forget_old()
         start, values = self.start, self.values
+        self.positions = None
         if start is None:
             return
         values.assign(T, start.t)
@@ -84,13 +99,11 @@ class RunHistory:
         values.defined[DT] = start.dt_defined
         for slot, numbers in start.states:
             values.data[slot : slot + len(numbers)] = numbers
-        self.positions[start.segment] = start.positions.copy()
 
     def _forget_old(self) -> None:
         if self.generation != self.values.generation:
             self.generation = self.values.generation
-            self.positions.clear()
-            self.start = None
+            self.positions = self.label = self.start = None
             self._names = -1
 
     def _state_ranges(self) -> list[tuple[int, int]]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.statements import Assignment, Deriv, DerivVec
@@ -71,9 +70,7 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
     return _placed("not-finite", {"name": name, "what": _what(value), "t": t}, segment, where)
 
 
-def watched_fault(
-    ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, values: Values
-) -> DesireError | None:
+def watched_fault(ended: Ended, segment: Segment, memory: RunMemory, values: Values) -> DesireError | None:
     """Return the error of a run that one of the compiler's own tests ended (232, 475, 124), else None."""
     if ended is not Ended.TERM:
         return None
@@ -85,8 +82,8 @@ def watched_fault(
                 if values.cells[watched.value.slot] == 2.0:  # `LearningStep.full_slot`
                     key = "learning-without-vector"
                 values.cells[watched.value.slot] = 0.0  # the next run begins without it
-            t = values.cells[T] - (plan.comint if plan.rule == DUMMY else 0.0)  # rule 0 has moved t on
-            return _placed(key, {"t": t, "value": values.cells[IROW]}, segment, watched.where)
+            facts: dict[str, object] = {"t": values.cells[T], "value": values.cells[IROW]}
+            return _placed(key, facts, segment, watched.where)
     return None
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf, nan
 from time import perf_counter
 from typing import TYPE_CHECKING, Protocol
 
@@ -104,7 +105,7 @@ class Simulator:
             self._settle(plan, memory, positions, record, sampled=ended in {Ended.TMAX, Ended.TERM})
             record.seconds = perf_counter() - self._began
             self._began = 0.0
-        own = watched_fault(ended, segment, plan, memory, self._values)
+        own = watched_fault(ended, segment, memory, self._values)
         if ended in _WORDS and own is None:
             record.ended = _WORDS[ended]
             return ended is not Ended.STOPPED
@@ -127,6 +128,9 @@ class Simulator:
             error_min=plan.error_min, points_before=positions.points, joined=int(joined), nn=plan.nn,
             every=plan.every, checked=plan.checked, phase=Phase.AT_POINT,
         )  # fmt: skip
+        for level in segment.levels:
+            above = values.cells[level] > 0.0  # at the end of the run before
+            values.cells[level] = 0.0 if positions.runs == 1 else inf if above else nan
         memory.keep = (positions.counters, lag)  # ctypes holds addresses only
         for states in segment.states:
             if states.count == 1 and states.slot < len(values.defined):
@@ -181,8 +185,7 @@ class Simulator:
         _note(memory, record)
         if memory.steps and not memory.dt_most:  # a constant step need not be measured
             record.dt_least = record.dt_most = plan.dt
-        # Dummy integration leaves t at the next point: nothing is there twice
-        positions.end = values.cells[T] if sampled and plan.rule != DUMMY else float("nan")
+        positions.end = values.cells[T] if sampled else nan
         self.defaults.follow()
         record.end_time = values.cells[T]
         if plan.rule == DUMMY and record.count:

@@ -64,13 +64,18 @@ class CompiledSegments:
         if self._backend is not None:
             self._backend.forget()
 
-    def lowered(self, program: Program, structure: Structure, label: str | None, rule: int) -> Segment:
-        """Return a segment ready for a back end. DesireError: everything that is wrong with it; 215: none."""
+    def lowered(
+        self, program: Program, structure: Structure, label: str | None, rule: int, *, anew: bool = False
+    ) -> Segment:
+        """Return a segment ready for a back end. DesireError: everything that is wrong with it; 215: none.
+
+        `anew`: subscripts and the like are computed again; nothing is compiled where they are what they were.
+        """
         if self._generation != self._values.generation or program is not self._program:
             self.forget()
             self._generation, self._program = self._values.generation, program
         known = self._kept.get((label, rule))
-        if known is None:
+        if known is None or (anew and not self._holds(known)):
             if program.segment(label) is None:
                 key = "no-dynamic-segment" if label is None else "no-such-segment"
                 raise DesireError(Diagnostic(key, facts={"label": label}))
@@ -78,6 +83,11 @@ class CompiledSegments:
 
             known = self._kept[label, rule] = lower(program, label, self._values, structure, rule)
         return known
+
+    def _holds(self, segment: Segment) -> bool:
+        """Whether the numbers that a segment was compiled with are what they were."""
+        cells = self._values.cells
+        return all(cells[slot] == value for slot, value in segment.constants)
 
     def model(self, segment: Segment, rule: int) -> Model:
         """Return a segment made ready for a rule; the back end keeps it."""

@@ -70,8 +70,9 @@ class Runs:
         """
         workspace, began = self._workspace, perf_counter()
         program, structure = workspace.runnable()
+        anew = self.simulator.history.is_compiled_anew(label)
         try:
-            segment = workspace.segments.lowered(program, structure, label, rule)
+            segment = workspace.segments.lowered(program, structure, label, rule, anew=anew)
         except DesireError as error:
             raise error.placed(placed.span(), workspace.source_of(placed)) from None
         if segment.recover:

@@ -97,8 +97,6 @@ class Driver(LoopFrame):
         self._sample()
         text.begin("sampled")
         self._next_point()
-        if self.tableau is None:  # rule 0 goes on to the next point even after the last sample
-            self.storage.store(T, self.get("t_next"))
         text.branch(self.get("last"), "finish", "onward")
         text.begin("finish")
         fired = self._fired()
@@ -107,6 +105,8 @@ class Driver(LoopFrame):
         self.put("phase", str(int(Phase.ENDED)))
         text.jump("exit")
         text.begin("onward")
+        if self.tableau is None:  # after the last sample t stays where it was taken
+            self.storage.store(T, self.get("t_next"))
         text.branch(self._rows_full(), "point.full", "step")
         text.begin("point.full")  # come back now: the caller sees the values as they were sampled
         self.storage.keep_first_stage()

@@ -144,8 +144,13 @@ class ScalarStatements:
         return op(f"or i1 {later}, {alone}")
 
     def _terminate(self, action: Terminate) -> None:
-        op = self.text.op
-        fires = self.lanes.compare("ogt", self.scalars.value(action.value), self.lanes.const(0.0))
+        op, lanes, zero = self.text.op, self.lanes, self.lanes.const(0.0)
+        value, level = self.scalars.value(action.value), zero
+        if action.level is not None:
+            level = self.cells.load(action.level)
+            above = op(f"and i1 {lanes.compare('ogt', value, zero)}, {lanes.compare('oge', level, zero)}")
+            self.cells.store(action.level, lanes.choose(above, value, zero))
+        fires = lanes.compare("ogt", value, level)
         before = self.context.load("term")
         first = op(f"and i1 {fires}, {op(f'icmp slt i64 {before}, 0')}")
         self.context.store("term", op(f"select i1 {first}, i64 {action.number}, i64 {before}"))
@@ -195,8 +200,7 @@ class ScalarStatements:
     def _present(self, position: str) -> str:
         """Return the record of this point: a joint's was made in the run before, and is read again.
 
-        After a `reset` the script has gone back: the first interval must not go on with the last value of
-        the run taken back.
+        The script may have changed what the statement assigns: the first interval must not begin with that.
         """
         back = self.text.op(f"sext i1 {self.text.op(f'xor i1 {self._fresh_point()}, true')} to i64")
         return self.text.op(f"add i64 {position}, {back}")
