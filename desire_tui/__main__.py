@@ -25,6 +25,16 @@ def main(arguments: list[str] | None = None) -> None:
     except KeyboardInterrupt:  # Ctrl-C while modules are still being loaded
         sys.stderr.write("stopped by the user\n")
         sys.exit(3)
+    except SystemExit as end:
+        _leave_at_once(end.code)
+        raise
+
+
+def _leave_at_once(status: object) -> None:
+    """End here if a library is in a long call, for which `sys.exit` would wait."""
+    work = sys.modules.get("desire_tui.engine.exclusive_work")  # else nothing was computed
+    if work is not None and (status is None or isinstance(status, int)):
+        work.leave_at_once(status or 0)
 
 
 def keep_current_folder_out() -> None:

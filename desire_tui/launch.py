@@ -45,9 +45,6 @@ def open_desktop(files: tuple[str, ...], *, allow_shell: bool = False, allow_wri
     from desire_tui.engine.session.process_groups import end_all
 
     end_all()
-    interruptible = sys.modules.get("desire_tui.engine.interpreter.interruptible")
-    if interruptible is not None:
-        interruptible.leave_at_once(status)
     sys.exit(status)
 
 

@@ -13,7 +13,6 @@ from desire_tui.batch.progress import Progress
 from desire_tui.batch.runner import Runner, RunOptions
 from desire_tui.engine.diagnostics import DesireError, internal_error, render_all
 from desire_tui.engine.files import decoded, read_source
-from desire_tui.engine.interpreter import interruptible
 from desire_tui.engine.session import process_groups
 from desire_tui.engine.source import Source
 from desire_tui.engine.visible_text import visible_line
@@ -99,7 +98,6 @@ def run_file(
     process_groups.end_all()
     if runner.abandoned or listener.reading.is_set():
         _leave_at_once(status)
-    interruptible.leave_at_once(status)
     return status
 
 

@@ -134,7 +134,8 @@ def test_a_process_is_left_while_something_goes_on() -> None:
     """Its exit status and its output get out, though the operation would never end."""
     code = (
         "import sys; from threading import Event\n"
-        "from desire_tui.engine.interpreter.interruptible import *\n"
+        "from desire_tui.engine.exclusive_work import leave_at_once\n"
+        "from desire_tui.engine.interpreter.interruptible import LONG_WORK, run_interruptibly\n"
         "def stop(): raise ValueError\n"
         "leave_at_once(3)\n"  # nothing goes on yet
         "try: run_interruptibly(LONG_WORK, Event().wait, stop)\n"

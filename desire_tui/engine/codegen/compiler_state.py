@@ -7,6 +7,7 @@ import functools
 import threading
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.jit import llvm_turn
 from desire_tui.engine.codegen.jit.background import Improver
 from desire_tui.engine.codegen.jit.cache import CodeCache
 from desire_tui.engine.codegen.jit.compiler import machine
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 _SETTLED_SECONDS = 0.4
 """A process that lives longer than this may run more programs: a headless run is over by then."""
 _END_SECONDS = 1.0
+_ABANDONED_SECONDS = 30.0
+"""For a compilation that nobody waits for any more."""
 _MAKING = threading.Lock()
 
 
@@ -55,6 +58,7 @@ class CompilerState:
         self._ending.set()
         self.improver.close()
         self._warming.join(_END_SECONDS)
+        llvm_turn.wait(_ABANDONED_SECONDS)
 
     def _warm_up(self) -> None:
         """Load LLVM; later compile every rule's loop, so that the next program need not."""

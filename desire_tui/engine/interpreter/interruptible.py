@@ -1,22 +1,16 @@
 """Waiting for one long NumPy operation in such a way that Ctrl-C gets through.
 
-LAPACK inverts a large matrix in one call that nothing can break off. It lets other threads run meanwhile, so
-it gets a thread of its own, and the interpreter waits for that, calling `check` twenty times a
-second. What is broken off goes on unseen until LAPACK is done, and its result is dropped; the next long
-operation waits for that, so that there is never more than one. A process that ends meanwhile must not wait
-for LAPACK, nor run the clearing up of Python and BLAS beside it (that may hang): it is left at once. (An
-elimination in blocks with looks between them really ends, but takes two to five times as long.)
+An elimination in blocks with looks between them would really end, but takes two to five times as long as
+LAPACK's, which is left alone instead (`engine.exclusive_work`).
 """
 
 from __future__ import annotations
 
-import os
-import sys
-from contextlib import suppress
-from threading import Lock, Thread
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
+
+from desire_tui.engine.exclusive_work import ExclusiveWork
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,18 +19,8 @@ Result = TypeVar("Result")
 
 LONG_WORK = 50_000_000
 """Multiplications from which on an operation is worth a thread: some hundredths of a second."""
-LOOK_SECONDS = 0.05
 
-_one = Lock()
-
-
-def leave_at_once(status: int) -> None:
-    """End the process here and now if a broken-off operation still goes on; else do nothing."""
-    if _one.locked():
-        for stream in (sys.stdout, sys.stderr):
-            with suppress(OSError, ValueError):
-                stream.flush()
-        os._exit(status)
+_lapack = ExclusiveWork("linear-algebra")
 
 
 def run_interruptibly(work: int, operation: Callable[[], Result], check: Callable[[], None]) -> Result:
@@ -46,25 +30,9 @@ def run_interruptibly(work: int, operation: Callable[[], Result], check: Callabl
     """
     if work < LONG_WORK:
         return operation()
-    while not _one.acquire(timeout=LOOK_SECONDS):
-        check()
-    results: list[Result] = []
-    errors: list[BaseException] = []
 
-    def carry_out() -> None:
-        try:
-            with np.errstate(all="ignore"):  # each thread has its own; the result is looked at
-                results.append(operation())
-        except BaseException as error:  # noqa: BLE001 - raised again by the thread that waits
-            errors.append(error)
-        finally:
-            _one.release()
+    def quietly() -> Result:
+        with np.errstate(all="ignore"):  # each thread has its own; the result is looked at
+            return operation()
 
-    thread = Thread(target=carry_out, name="linear-algebra", daemon=True)
-    thread.start()
-    while thread.is_alive():
-        thread.join(LOOK_SECONDS)
-        check()
-    if errors:
-        raise errors[0]
-    return results[0]
+    return _lapack.run_aside(quietly, check)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never, get_args
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment, StateRange
@@ -79,6 +80,7 @@ def lower_segment(
     if builder.states.ranges:
         _refuse_to_set_time(context, [*lines, *jacobian_lines])
     for node, frame in lines:
+        cancellation_point()
         context.enter(frame)
         outer, place = builder.body, len(builder.body)
         try:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellable
+from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.session.status import State
 
 if TYPE_CHECKING:
@@ -34,10 +36,15 @@ class Activity:
         """Frame of work that the user may pause and end. May nest."""
         self._control.begin()
         try:
-            with self.during(state):
+            with self.during(state), cancellable(self._leave):
                 yield
         finally:
             self._control.done()
+
+    def _leave(self) -> None:
+        """Break off what is prepared for a script or a run."""
+        if self._control.ending:
+            raise Interrupted
 
     @property
     def ending(self) -> bool:

@@ -62,7 +62,7 @@ class ScriptRunner:
         self._workspace.values.assign(SCALE, scale)
         self._runs.forget()
         self._workspace.notebook.program(program.source)
-        with self._working(program.source):
+        with self.working(program.source):
             interpreter = self._ready()
             interpreter.stepping = tracing
             interpreter.run()
@@ -76,7 +76,7 @@ class ScriptRunner:
             raise DesireError(Diagnostic("go-after-edit"))
         self.stopped = None
         self._host.step_allowed = self._current.interpreter.stepping
-        with self._working(self._workspace.source):
+        with self.working(self._workspace.source):
             self._current.interpreter.go()
         self._note_stop()
 
@@ -92,7 +92,7 @@ class ScriptRunner:
             return
         before, self._workspace.command = self._workspace.command, source
         try:
-            with self._working(source):
+            with self.working(source):
                 self._ready().execute(tuple(statements), source)
         finally:
             self._workspace.command = before
@@ -139,8 +139,8 @@ class ScriptRunner:
             self._listener.stopped_at(self.stopped)
 
     @contextmanager
-    def _working(self, source: Source) -> Iterator[None]:
-        """Frame of everything that may be paused and ended; places problems that have no source yet."""
+    def working(self, source: Source) -> Iterator[None]:
+        """Frame of what may be paused and ended (error 301); places problems that have no source yet."""
         with self._activity.working(State.SCRIPT):
             try:
                 yield

@@ -223,7 +223,8 @@ class Session:
         source = source or self._listener.front_source() or (self.program.source if self.program else None)
         if source is None:
             raise DesireError(Diagnostic("no-program"))
-        with self._notebook.task("" if self._workspace.overrides else "zz", lambda: self.graph):
+        command = "" if self._workspace.overrides else "zz"
+        with self._notebook.task(command, lambda: self.graph), self._script.working(source):
             self.accept(source)
             self._host.rule = DEFAULT_RULE
             self._script.run(scale=1.0)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.nodes.assignments import Bare
@@ -213,6 +214,7 @@ def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, 
                 next_at = at + len(line) + 1
             else:
                 entry = whole
+        cancellation_point()
         if entry[0] or number is not None:
             yield entry, at, number, range(first, i)
         at = next_at

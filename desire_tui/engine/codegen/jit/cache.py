@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, NamedTuple
 from desire_tui.engine.codegen.jit.compiler import compile_text, module_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from desire_tui.engine.codegen.jit.linker import MachineCode
     from desire_tui.engine.codegen.jit.piece import Piece
 
 _BYTES_MOST = 24_000_000
 """Of code that may be in nobody's use: a model of 1,400 equations takes 2 MB."""
+_TEXT_MOST = 400_000
+"""Characters that LLVM is given at once: nothing can break it off, and what waits is let in between."""
 
 
 class Compiled(NamedTuple):
@@ -58,11 +60,12 @@ class CodeCache:
                 found[piece.name] = known
             else:
                 missing[piece.name] = piece
-        if missing:
-            code = compile_text(_module(missing.values()), level=0)
-            share = code.size // len(missing)
-            for name in missing:
-                found[name] = self._keep(name, Compiled(code.address(name), code, share), fast=False)
+        for together in _modules(missing.values()):
+            code = compile_text(_module(together), level=0)
+            share = code.size // len(together)
+            for piece in together:
+                compiled = Compiled(code.address(piece.name), code, share)
+                found[piece.name] = self._keep(piece.name, compiled, fast=False)
         return found
 
     def fast(self, piece: Piece, *, slp: bool = True) -> Compiled:
@@ -83,9 +86,21 @@ class CodeCache:
         return compiled
 
 
-def _module(pieces: Iterable[Piece]) -> str:
-    listed = list(pieces)
+def _modules(pieces: Iterable[Piece]) -> Iterator[list[Piece]]:
+    together: list[Piece] = []
+    length = 0
+    for piece in pieces:
+        if together and length + len(piece.text) > _TEXT_MOST:
+            yield together
+            together, length = [], 0
+        together.append(piece)
+        length += len(piece.text)
+    if together:
+        yield together
+
+
+def _module(pieces: list[Piece]) -> str:
     needs: set[str] = set()
-    for piece in listed:
+    for piece in pieces:
         needs |= piece.needs
-    return module_text([piece.text for piece in listed], needs)
+    return module_text([piece.text for piece in pieces], needs)

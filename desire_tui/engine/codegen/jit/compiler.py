@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine import disk_cache
 from desire_tui.engine.codegen.ir import symbols
 from desire_tui.engine.codegen.jit.linker import Linker
+from desire_tui.engine.codegen.jit.llvm_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -131,7 +132,12 @@ def _scalar_declaration(name: str) -> str:
 
 def compile_text(text: str, *, level: int, slp: bool = False, vectorize: bool = False) -> MachineCode:
     """Compile a module at level 0 … 3. Level 0 is for quick code: no optimisation passes at all."""
-    return machine().link(_object_file(text, level, slp=slp, vectorize=vectorize), _exported(text))
+    host = machine()
+
+    def make() -> MachineCode:
+        return host.link(_object_file(text, level, slp=slp, vectorize=vectorize), _exported(text))
+
+    return in_turn(make, len(text))
 
 
 def _exported(text: str) -> list[str]:
@@ -172,15 +178,20 @@ def kept_code(name: str) -> MachineCode | None:
     if content is None or not content.startswith(_mark(file)):  # LLVM aborts the process on anything else
         return None
     exported, _, code = content[len(_mark(file)) :].partition(b"\n")
-    return machine().link(code, exported.decode("ascii").split())
+    host = machine()
+    return in_turn(lambda: host.link(code, exported.decode("ascii").split()), 0)
 
 
 def compile_and_keep(text: str, name: str, *, level: int, vectorize: bool) -> MachineCode:
     """Compile as `compile_text` does; later processes find the code under `name`."""
-    content = _object_file(text, level, slp=False, vectorize=vectorize)
-    exported, file = _exported(text), _file_of(name)
-    disk_cache.write(file, _mark(file) + " ".join(exported).encode("ascii") + b"\n" + content)
-    return machine().link(content, exported)
+    host, exported, file = machine(), _exported(text), _file_of(name)
+
+    def make() -> MachineCode:
+        content = _object_file(text, level, slp=False, vectorize=vectorize)
+        disk_cache.write(file, _mark(file) + " ".join(exported).encode("ascii") + b"\n" + content)
+        return host.link(content, exported)
+
+    return in_turn(make, len(text))
 
 
 def _mark(file: str) -> bytes:

@@ -7,8 +7,11 @@ LLVM keeps of a piece that was taken out goes with its linker: it takes so many 
 from __future__ import annotations
 
 import sys
+from functools import partial
 from itertools import count
 from typing import TYPE_CHECKING, Any
+
+from desire_tui.engine.codegen.jit.llvm_turn import clear_later
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -23,21 +26,20 @@ _linkers: set[Linker] = set()
 class MachineCode:
     """Compiled functions; their memory is freed with this object."""
 
-    def __init__(self, linker: Linker, library: Any, size: int) -> None:
+    def __init__(self, linker: Linker, number: int, size: int) -> None:
         self._linker = linker
-        self._library = library
+        self._number = number
         self.size = size
         """In bytes, about."""
 
     def address(self, name: str) -> int:
         """Return a function's address."""
-        return int(self._library[name])
+        return self._linker.address(self._number, name)
 
     def __del__(self) -> None:
         """Free the memory."""
         if not sys.is_finalizing():
-            self._library.close()
-            self._linker.dropped(self)
+            clear_later(partial(self._linker.drop, self._number))
 
 
 class Linker:
@@ -47,7 +49,7 @@ class Linker:
         self._llvm = llvm
         self._engine = llvm.create_lljit_compiler(target_machine)
         self._numbers = count()
-        self._living: set[int] = set()
+        self._living: dict[int, Any] = {}  # here, or a garbage collection would free them in its own way
         self.is_full = False
         outside = llvm.JITLibraryBuilder().add_current_process()
         for name, address in symbols.items():
@@ -61,20 +63,24 @@ class Linker:
         builder = self._llvm.JITLibraryBuilder().add_object_img(content).add_jit_library(_OUTSIDE)
         for name in exported:
             builder.export_symbol(name)
-        code = MachineCode(self, builder.link(self._engine, f"code{number}"), len(content) + _OVERHEAD)
-        self._living.add(id(code))
+        self._living[number] = builder.link(self._engine, f"code{number}")
+        code = MachineCode(self, number, len(content) + _OVERHEAD)
         if number >= _PIECES_MOST:
             self.close()
         return code
+
+    def address(self, number: int, name: str) -> int:
+        """Return the address of a function of some code."""
+        return int(self._living[number][name])
 
     def close(self) -> None:
         """Take no more code."""
         self.is_full = True
         self._drop_if_empty()
 
-    def dropped(self, code: MachineCode) -> None:
-        """Note that some code is gone."""
-        self._living.discard(id(code))
+    def drop(self, number: int) -> None:
+        """Free some code."""
+        self._living.pop(number).close()
         self._drop_if_empty()
 
     def _drop_if_empty(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.pieces.pass_pieces import cut, write
 from desire_tui.engine.codegen.scalar.rerolling import roll
@@ -39,6 +40,7 @@ class PieceTables:
                 key = tuple(map(id, group))
                 piece = written.get(key)
                 if piece is None:
+                    cancellation_point()
                     piece = written[key] = write(group)
                     self._pieces[piece.name] = piece
                 names[kind].append(piece.name)
