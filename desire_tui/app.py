@@ -163,7 +163,9 @@ class DesireApp(AppBase):
         self.command_line.next()
 
     def _check(self, source: Source, *, quick: bool = False) -> tuple[Diagnostic, ...]:
-        return self.session.check(source, quick=quick)
+        from desire_tui.engine.session.session import CHECK_SECONDS
+
+        return self.session.check(source, quick=quick, seconds=CHECK_SECONDS)
 
     def _checked(self, number: int, version: int, problems: tuple[Diagnostic, ...]) -> None:
         self.post_message(CheckFinished(number, version, problems))

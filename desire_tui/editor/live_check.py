@@ -6,9 +6,11 @@ A quick check follows each key; a closer look waits until nobody types.
 from __future__ import annotations
 
 import threading
+from functools import partial
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.source import Source
+from desire_tui.engine.cancellation import cancellable
+from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
     Checked = tuple[int, Source, "tuple[Diagnostic, ...]"]
 
 CHECKED_MAX = 2_000_000
-"""Longer texts are not checked while typing (characters)."""
+"""Longer texts are not checked while typing (characters): Python and the editor copy them at each key."""
 QUIET_SECONDS = 0.5
 """Nobody has typed for so long: time for a closer look."""
 
@@ -49,9 +51,7 @@ class LiveChecker:
         self._thread: threading.Thread | None = None
 
     def ask(self, buffer: Buffer, version: int, text: str) -> None:
-        """Check a text when its turn comes; an older text of the same tab is forgotten."""
-        if len(text) > CHECKED_MAX:
-            return
+        """Check a text when its turn comes; an older text of the same tab is forgotten, or broken off."""
         with self._condition:
             self._wanted[buffer.number] = (version, Source(text, buffer.name, buffer.path))
             self._condition.notify()
@@ -67,6 +67,8 @@ class LiveChecker:
                     self._closer()
                 else:
                     self._quickly(*wanted)
+            except _Superseded:
+                pass
             except Exception as error:  # noqa: BLE001 - a fault in a check must not end all checking
                 self._fault(error)
 
@@ -81,7 +83,11 @@ class LiveChecker:
 
     def _quickly(self, number: int, version: int, source: Source) -> None:
         self._checked.pop(number, None)
-        problems = self._check(source)
+        if len(source.text) > CHECKED_MAX:
+            self._report(number, version, (_too_long(source),))
+            return
+        with cancellable(partial(self._give_way, number)):
+            problems = self._check(source)
         if self._look_closer is not None:
             self._checked[number] = (version, source, problems)
         self._report(number, version, problems)
@@ -90,6 +96,22 @@ class LiveChecker:
         number = next(iter(self._checked))
         version, source, known = self._checked.pop(number)
         assert self._look_closer is not None
-        problems = self._look_closer(source)
+        with cancellable(partial(self._give_way, number)):
+            problems = self._look_closer(source)
         if problems != known:
             self._report(number, version, problems)
+
+    def _give_way(self, number: int) -> None:
+        """Leave a text of which there is a newer one."""
+        if number in self._wanted:
+            raise _Superseded
+
+
+class _Superseded(Exception):  # noqa: N818 - nothing is wrong
+    """The text that is being checked was edited."""
+
+
+def _too_long(source: Source) -> Diagnostic:
+    from desire_tui.engine.diagnostics import Diagnostic
+
+    return Diagnostic("check-too-long", Span(0, 0), {"most": CHECKED_MAX}, source, "warning")

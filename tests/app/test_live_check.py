@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import queue
+import threading
 
 import pytest
 
 from desire_tui.editor import live_check
 from desire_tui.editor.buffer import Buffer
 from desire_tui.editor.live_check import LiveChecker
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import Diagnostic
 
 from .conftest import desktop
@@ -72,6 +74,33 @@ def test_a_fault_does_not_end_all_checking(reports):
     assert isinstance(reports.get(timeout=PATIENCE), ZeroDivisionError)
     made.ask(buffer(1), 2, "x = 2\n")
     assert reports.get(timeout=PATIENCE) == (1, 2, QUICK)
+
+
+def test_a_text_that_is_edited_while_it_is_checked_is_left(reports):
+    """The first text's check would never end."""
+    begun = threading.Event()
+
+    def check(source):
+        begun.set()
+        while source.text == "x = 1\n":
+            cancellation_point()
+        return QUICK
+
+    made = LiveChecker(check, lambda *report: reports.put(report), reports.put)
+    made.ask(buffer(1), 1, "x = 1\n")
+    assert begun.wait(PATIENCE)
+    made.ask(buffer(1), 2, "x = 2\n")
+    assert reports.get(timeout=PATIENCE) == (1, 2, QUICK)
+    assert reports.empty()
+
+
+def test_a_text_that_is_not_checked_is_said(reports, monkeypatch):
+    monkeypatch.setattr(live_check, "CHECKED_MAX", 10)
+    made = checker(reports, lambda _: CLOSER)
+    made.ask(buffer(1), 1, "x = 1\n" * 3)
+    number, version, problems = reports.get(timeout=PATIENCE)
+    assert (number, version, [(d.code, d.severity) for d in problems]) == (1, 1, [(476, "warning")])
+    assert "10 characters" in problems[0].message
 
 
 async def test_each_tab_has_a_check_of_its_own_to_come(program, monkeypatch):

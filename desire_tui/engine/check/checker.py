@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import OutOfTime, handing_over
 from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.check.unknown import misplaced, unknown_names
 from desire_tui.engine.check.uses import unfit_uses
@@ -29,21 +30,39 @@ def check(program: Program) -> tuple[Diagnostic, ...]:
     They come from syntax, structure and segments. A name counts as defined if any script statement before the
     segment's first `drun` could assign it; sizes that the script computes are not checked.
     """
-    found = find_structure(program)
-    problems = [*program.problems, *found.problems, *misplaced(program, found)]
-    survey = DeclaredNames(program, found)
-    functions = functions_of(found)
-    for text in program.segments:
-        scope = survey.scope_for(text)
-        problems.extend(lower_segment(text, scope, program.source, functions, found.submodels)[1])
-    problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
-    problems.extend(unfit_uses(program, found))
-    broken = _names_in_broken_lines(program)
-    return tuple(in_order(p for p in problems if p.code not in _MISSING or p.facts.get("name") not in broken))
+    try:
+        problems = _all_problems(program)
+    except OutOfTime as end:
+        end.found = _without_echoes(end.found, program)
+        raise
+    return tuple(_without_echoes(problems, program))
+
+
+def _all_problems(program: Program) -> list[Diagnostic]:
+    problems, at = list(program.problems), 0
+    with handing_over(problems, lambda: at):
+        found = find_structure(program)
+        problems += [*found.problems, *misplaced(program, found)]
+        survey = DeclaredNames(program, found)
+        functions = functions_of(found)
+        for text in program.segments:
+            at = text.at
+            scope = survey.scope_for(text)
+            problems.extend(lower_segment(text, scope, program.source, functions, found.submodels)[1])
+        at = len(program.source.text)
+        problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
+        problems.extend(unfit_uses(program, found))
+    return problems
 
 
 _MISSING = frozenset({19, 59, 70, 200, 201, 215})
 """A name is unknown."""
+
+
+def _without_echoes(problems: list[Diagnostic], program: Program) -> list[Diagnostic]:
+    """Leave out names that seem to be missing because their lines could not be read."""
+    broken = _names_in_broken_lines(program)
+    return in_order(p for p in problems if p.code not in _MISSING or p.facts.get("name") not in broken)
 
 
 def _names_in_broken_lines(program: Program) -> set[str]:

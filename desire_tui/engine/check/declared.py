@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.lowering.constant_values import evaluate
 from desire_tui.engine.lowering.scope import UNKNOWN, StaticScope
 from desire_tui.engine.nodes.assignments import Assign
@@ -153,6 +154,7 @@ def _assigned_in_segments(program: Program, structure: Structure) -> dict[str | 
         names = found.setdefault(segment.label, set())
         invokes = False
         for placed in segment.body:
+            cancellation_point()
             invokes |= _add_assigned(placed.node, names)
         if invokes:
             names |= bodies

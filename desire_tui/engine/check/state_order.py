@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.lowering.lowering_context import DEPTH_MAX
@@ -33,6 +34,7 @@ def state_order(program: Program) -> tuple[str, ...]:
 
     def collect(statements: Iterable[Placed], rename: Mapping[str, str], calls: tuple[str, ...]) -> None:
         for statement, _, _ in statements:
+            cancellation_point()
             if isinstance(statement, Derivative):
                 if isinstance(statement.target, Name):
                     names.setdefault(rename.get(statement.target.name, statement.target.name))

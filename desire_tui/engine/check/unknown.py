@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import Diagnostic, closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.nodes.commands import Simple
@@ -45,6 +46,7 @@ def unknown_names(
     problems: list[Diagnostic] = []
     reported: set[str] = set()
     for placed in program.script:
+        cancellation_point()
         if id(placed) in in_bodies or isinstance(placed.node, Declare | Display | SegmentOnlyStatement):
             continue
         for part in parts_read(placed.node):

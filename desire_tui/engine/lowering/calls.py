@@ -60,8 +60,10 @@ def _expanded(context: LoweringContext, node: Call, extent: Extent) -> Value:
     function = context.functions[node.name]
     dummies = function.node.dummies
     frame = context.frame
-    if node.name in frame.calls or len(frame.calls) > DEPTH_MAX:
+    if node.name in frame.calls:
         return context.report("function-recursion", node, name=node.name)
+    if len(frame.calls) > DEPTH_MAX:
+        return context.report("functions-too-deep", node, limit=DEPTH_MAX)
     if len(dummies) != len(node.args):
         return context.report(
             "function-arguments", node, name=node.name, wanted=len(dummies), given=len(node.args)

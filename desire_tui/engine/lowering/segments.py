@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never, get_args
 
-from desire_tui.engine.cancellation import cancellation_point
+from desire_tui.engine.cancellation import cancellation_point, handing_over
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment, StateRange
@@ -79,21 +79,22 @@ def lower_segment(
     _ready_from_start(builder, lines)
     if builder.states.ranges:
         _refuse_to_set_time(context, [*lines, *jacobian_lines])
-    for node, frame in lines:
-        cancellation_point()
-        context.enter(frame)
-        outer, place = builder.body, len(builder.body)
-        try:
-            _lower_statement(builder, node)
-        except RecursionError:
+    with handing_over(context.problems, lambda: context.span(node).start):
+        for node, frame in lines:
             context.enter(frame)
-            context.report("expression-too-deep", node, limit=LEVELS_MOST)
-        if context.row_read is not None:
-            builder.watch_row(context.row_read)
-            context.row_read = None
-        if context.computed_first:
-            outer[place:place] = context.computed_first
-            context.computed_first.clear()
+            cancellation_point()
+            outer, place = builder.body, len(builder.body)
+            try:
+                _lower_statement(builder, node)
+            except RecursionError:
+                context.enter(frame)
+                context.report("expression-too-deep", node, limit=LEVELS_MOST)
+            if context.row_read is not None:
+                builder.watch_row(context.row_read)
+                context.row_read = None
+            if context.computed_first:
+                outer[place:place] = context.computed_first
+                context.computed_first.clear()
     body = builder.finish()
     jacobian = lower_jacobian(builder, jacobian_lines) if jacobian_lines else None
     context.flow.mark_persistent([(r.slot, r.count) for r in builder.states.ranges])
@@ -157,6 +158,7 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
 def _collect_targets(context: LoweringContext, lines: Sequence[Line]) -> None:
     """Note where each scalar of the segment is first assigned, and whether arrays are."""
     for node, frame in lines:
+        cancellation_point()
         if node.__class__ in _ASSIGN_NOTHING_IN_A_PASS:
             continue
         found = assigned(node)
@@ -190,6 +192,7 @@ def _refuse_to_set_time(context: LoweringContext, lines: Sequence[Line]) -> None
 def _states(context: LoweringContext, lines: Sequence[Line]) -> StateTable:
     found: list[StateRange] = []
     for node, frame in lines:
+        cancellation_point()
         if isinstance(node, Derivative):
             context.enter(frame)
             target = node.target

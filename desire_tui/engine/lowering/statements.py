@@ -40,6 +40,9 @@ if TYPE_CHECKING:
     )
     from desire_tui.engine.values import Quantity
 
+GUARDS_MOST = 80
+"""`if` inside of `if`, OUT, SAMPLE and step: Python nests a hundred, and so does nobody."""
+
 
 def assign(builder: SegmentBuilder, node: Assign) -> None:
     """`y = e`: defined variable or difference equation."""
@@ -90,6 +93,8 @@ def condition(builder: SegmentBuilder, node: If) -> None:
         context.report("then-in-segment", node)
         return
     value = lower_cached(context, node.value)
+    if len(builder.guards) >= GUARDS_MOST and context.first_report("nested if"):
+        context.report("ifs-too-deep", node, limit=GUARDS_MOST)
     builder.open("if", context.where(node), value)
 
 

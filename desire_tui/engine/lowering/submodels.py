@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, ExpansionFrame
@@ -31,6 +32,7 @@ def expand(
     expanded = expanded_lines(submodels) if submodels else {}
     total = 0
     for statement, at, _ in statements:
+        cancellation_point()
         frame, invoked = ExpansionFrame(at), invocation(statement)
         total += 1
         if invoked is None:
@@ -66,7 +68,10 @@ def _invoke(
         return  # it invokes itself, which was said: its bodies may have any number of lines
     if name in frame.calls or len(frame.calls) > DEPTH_MAX:
         context.reported.add(f"SUBMODEL {name}")
-        context.report("submodel-recursion", node, name=name)
+        if name in frame.calls:
+            context.report("submodel-recursion", node, name=name)
+        else:
+            context.report("submodels-too-deep", node, limit=DEPTH_MAX)
         return
     if len(args) != len(submodel.dummies):
         context.report("submodel-arguments", node, name=name, wanted=len(submodel.dummies), given=len(args))

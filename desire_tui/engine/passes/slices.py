@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.lowered.effects import role, timing
 from desire_tui.engine.lowered.statements import Deriv, Guard, Set
 from desire_tui.engine.lowered.walk import simple_actions, with_bodies
@@ -73,6 +74,7 @@ def is_pure(actions: Actions) -> bool:
 def _definitions(actions: Actions) -> Actions:
     kept: list[Action] = []
     for action in actions:
+        cancellation_point()
         if isinstance(action, Guard):
             kept.append(with_bodies(action, _definitions(action.body), _definitions(action.orelse)))
         elif role(action) == "definition":
@@ -85,6 +87,7 @@ def _resolve(actions: Iterable[Action], *, comm: bool, step: bool, joints: bool 
     runs = {"always": True, "point": comm, "step": step}
     kept: list[Action] = []
     for action in actions:
+        cancellation_point()
         if not isinstance(action, Guard):
             if runs[timing(action)]:
                 kept.append(action)

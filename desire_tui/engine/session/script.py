@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.session.listener import StoppedAt
@@ -105,6 +106,7 @@ class ScriptRunner:
         self._host.begin_program()
         if workspace.program is not None:
             for name in state_order(workspace.program):
+                cancellation_point()
                 values.scalar(name, is_state=True)
             if workspace.overrides:
                 from desire_tui.engine.session.overrides import initial_values

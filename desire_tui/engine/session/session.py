@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 BackendName = Literal["native", "reference"]
+CHECK_SECONDS = 3.0
+"""For checking a text while somebody waits or types; 20,000 equations take half of it."""
 
 
 class Session:
@@ -170,19 +172,22 @@ class Session:
         self._workspace.program, self._workspace.structure = active, script
         self._notebook.program(source)
         if self._listener.wants_check:
-            problems = self.check(source, quick=True)  # the run itself compares the JACOBIAN it uses
+            problems = self.check(source, quick=True, seconds=CHECK_SECONDS)  # the run compares the JACOBIAN
         else:
             problems = tuple(p.within(source) for p in program.problems)
         self._listener.program_accepted(program, problems)
         return problems
 
-    def check(self, source: Source, *, quick: bool = False) -> tuple[Diagnostic, ...]:
+    def check(
+        self, source: Source, *, quick: bool = False, seconds: float | None = None
+    ) -> tuple[Diagnostic, ...]:
         """Return all problems of a text without touching the session, in the order of their places.
 
         Parser, structure, static check; for a text without errors also JACOBIAN segments that disagree with
-        the model (warnings 462). `quick` leaves those out, which may take some 20 ms.
+        the model (warnings 462). `quick` leaves those out, which may take some 20 ms. After so many `seconds`
+        of processor time it stops; warning 476 then says how far it came.
         """
-        return self._checker.check(source, quick=quick)
+        return self._checker.check(source, quick=quick, seconds=seconds)
 
     def override(self, settings: Mapping[str, float]) -> None:
         """Give quantities values that the script does not change, from the next `accept` on.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, assert_never
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
@@ -30,6 +31,7 @@ class _Open:
 
     place: int
     closer: str
+    in_submodel: bool
     middle: int = -1
 
     @property
@@ -67,6 +69,7 @@ class BlockSurvey:
         """Walk the script once."""
         found = self.found
         for place, placed in enumerate(self.statements):
+            cancellation_point()
             found.inside.append(self.open[-1].innermost if self.open else -1)
             if placed.number is not None:
                 found.numbers.setdefault(placed.number, place)
@@ -135,12 +138,13 @@ class BlockSurvey:
                 return  # commands
 
     def _in_submodel(self) -> bool:
-        return any(isinstance(self.statements[block.place].node, Submodel) for block in self.open)
+        return bool(self.open) and self.open[-1].in_submodel
 
     def opens(self, place: int, closer: str) -> None:
         """Begin a block."""
         self.parents[place] = self.found.inside[place]
-        self.open.append(_Open(place, closer))
+        is_submodel = isinstance(self.statements[place].node, Submodel)
+        self.open.append(_Open(place, closer, is_submodel or self._in_submodel()))
 
     def closes(self, place: int, placed: Placed, word: str) -> None:
         """End the innermost block that `word` can end; blocks left open inside are reported."""

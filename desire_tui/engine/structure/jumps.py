@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import GoTo, If, Label, Procedure
@@ -82,6 +83,7 @@ def match_segments(survey: BlockSurvey, segments: Sequence[SegmentText]) -> None
 def _segment(survey: BlockSurvey, body: Sequence[Placed], partner: dict[int, int]) -> None:
     opened: list[int] = []
     for place, placed in enumerate(body):
+        cancellation_point()
         node = placed.node
         if isinstance(node, If):
             if node.condition is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.cancellation import cancellation_point
+from desire_tui.engine.cancellation import cancellation_point, handing_over
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.nodes.assignments import Bare
@@ -66,38 +66,41 @@ def parse(source: Source) -> Program:
     main: list[Placed] | None = None
     alone: list[Span] = []
     is_numbered = False
-    for entry, at, number, _ in logical_lines(source.text):
-        if number is not None:
-            is_numbered = is_numbered or bool(entry[0])
-            if not entry[0] and body is not None:
-                alone.append(_number_before(source.text, at))
-        for item, offset in entry[0]:
-            if isinstance(item, TokenFault):
-                if body is not None:
-                    problems.append(_diagnostic(item, at + offset, source))
-                continue
-            if isinstance(item, Bare) and not isinstance(item.value, Call) and body is not None:
-                problems.append(_diagnostic(_no_statement(item), at + offset, source))
-                continue
-            placed = Placed(item, at + offset, number)
-            if body is script:
-                if isinstance(item, Simple) and item.word == "DYNAMIC":
-                    body, opened = [], (None, placed.at)
+    reached = 0
+    with handing_over(problems, lambda: reached):
+        for entry, at, number, _ in logical_lines(source.text):
+            reached = at
+            if number is not None:
+                is_numbered = is_numbered or bool(entry[0])
+                if not entry[0] and body is not None:
+                    alone.append(_number_before(source.text, at))
+            for item, offset in entry[0]:
+                if isinstance(item, TokenFault):
+                    if body is not None:
+                        problems.append(_diagnostic(item, at + offset, source))
+                    continue
+                if isinstance(item, Bare) and not isinstance(item.value, Call) and body is not None:
+                    problems.append(_diagnostic(_no_statement(item), at + offset, source))
+                    continue
+                placed = Placed(item, at + offset, number)
+                if body is script:
+                    if isinstance(item, Simple) and item.word == "DYNAMIC":
+                        body, opened = [], (None, placed.at)
+                    else:
+                        script.append(placed)
+                    continue
+                if isinstance(item, Label):
+                    close()
+                    body, main, jacobian, opened = [], None, [], (item.name, placed.at)
+                elif body is None:
+                    continue  # commentary behind a STOP
+                elif isinstance(item, Simple) and item.word == "STOP":
+                    close()
+                    body = None
+                elif isinstance(item, Simple) and item.word == "JACOBIAN" and main is None:
+                    main, body = body, jacobian
                 else:
-                    script.append(placed)
-                continue
-            if isinstance(item, Label):
-                close()
-                body, main, jacobian, opened = [], None, [], (item.name, placed.at)
-            elif body is None:
-                continue  # commentary behind a STOP
-            elif isinstance(item, Simple) and item.word == "STOP":
-                close()
-                body = None
-            elif isinstance(item, Simple) and item.word == "JACOBIAN" and main is None:
-                main, body = body, jacobian
-            else:
-                body.append(placed)
+                    body.append(placed)
     close()
     if alone and not is_numbered:
         problems += [Diagnostic("expression-alone", span, {}, source) for span in alone]

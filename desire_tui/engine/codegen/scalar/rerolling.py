@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.ir.functions import C_FUNCTIONS
 from desire_tui.engine.codegen.scalar.templates import NotPlainError, shape
 from desire_tui.engine.lowered.statements import Deriv, Set
@@ -123,6 +124,7 @@ def roll(actions: Iterable[Action], width: int) -> list[Action | Rolled]:
     done: list[Action | Rolled] = []
     run: _Run | None = None
     for action in actions:
+        cancellation_point()
         found = _plain(action)
         if found is None:
             if run is not None:

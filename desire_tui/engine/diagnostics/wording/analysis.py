@@ -93,6 +93,9 @@ MESSAGES: dict[str, Wording] = {
     "function-recursion": Wording(
         52, "FUNCTION '{name}' would call itself", "use a loop or a difference equation"
     ),
+    "functions-too-deep": Wording(
+        52, "more than {limit} FUNCTIONs call one another", "put the bodies of some into those that call them"
+    ),
     "too-many-expansions": Wording(
         410,
         "more than {most} FUNCTION calls would be expanded, '{name}' among them",
@@ -111,6 +114,12 @@ MESSAGES: dict[str, Wording] = {
     ),
     "submodel-recursion": Wording(
         52, "submodel '{name}' would invoke itself", "submodels may nest, not recurse"
+    ),
+    "submodels-too-deep": Wording(
+        52, "more than {limit} submodels invoke one another", "invoke some of them in the segment itself"
+    ),
+    "ifs-too-deep": Wording(
+        52, "more than {limit} of if, OUT, SAMPLE and step are open here", "join conditions: if min(a, b)"
     ),
     "submodel-argument-not-name": Wording(
         209, "an argument of submodel '{name}' must be a name", "assign the expression to a variable first"

@@ -19,6 +19,16 @@ MESSAGES: dict[str, Wording] = {
         "internal error while fast code was made: {reason}",
         "the numbers are right, runs take longer; please report it, with the program that shows it",
     ),
+    "check-incomplete": Wording(
+        476,
+        "checked up to line {line} only: the text takes too long to check while you type",
+        "the run, and `desire check`, look at all of it",
+    ),
+    "check-too-long": Wording(
+        476,
+        "not checked while you type: the text has more than {most} characters",
+        "the run, and `desire check`, look at all of it",
+    ),
     "no-program": Wording(215, "there is no program to run", "type one into an editor tab, or load one"),
     "no-dynamic-segment": Wording(
         215, "there is no DYNAMIC program segment", "add a line DYNAMIC and a model below it"
