@@ -38,6 +38,8 @@ ELSEWHERE = {
     "notebook-vanished": "tests/session/test_notebook.py::test_a_file_that_vanishes_begins_anew_and_says_so",
     "internal-error": "tests/batch/test_internal_faults.py::test_in_python",
     "fast-code-missing": "tests/codegen/test_background_faults.py::test_the_user_is_told_once",
+    "check-incomplete": "tests/check/test_time_limit.py::test_a_check_that_is_stopped_tells_what_it_found_and_where_it_stopped",
+    "check-too-long": "tests/app/test_live_check.py::test_a_text_that_is_not_checked_is_said",
     "time-limit": "tests/batch/test_headless.py::test_timeout_is_status_3",
     "set-unknown": "tests/batch/test_headless.py::test_a_setting_the_program_has_no_use_for",
     "set-array": "tests/batch/test_headless.py::test_a_setting_the_program_has_no_use_for",
