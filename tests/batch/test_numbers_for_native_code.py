@@ -135,3 +135,10 @@ def test_a_table_made_by_its_segment_is_its_own_affair(backend):
         "y = func1(1; F)\ndispt y\n"
     )
     assert desire_tui.run(text, backend=backend).runs[0]["y"].tolist() == [6, 6, 6]
+
+
+@pytest.mark.parametrize("digits", [16, 20, 400, 4400])
+def test_subscripts_of_settings(digits):
+    """No number holds them, and Python reads no more than 4300 digits."""
+    result = desire_tui.run("ARRAY a[3]\na[1] = 2\n", set={f"a[{'9' * digits}]": 1})
+    assert [problem.code for problem in result.problems] == [2]

@@ -20,6 +20,7 @@ from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.names import assigned, dummies, invocation
 from desire_tui.engine.values import SYSTEM_SLOTS, Kind, Quantity
+from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -132,7 +133,8 @@ class DeclaredNames:
 
     def _size(self, node: Expr) -> int:
         value = _evaluate(node, self._constants)
-        return int(value) if value is not None and 1 <= value < 1e12 else UNKNOWN
+        size = whole(value, 1, ELEMENTS_MOST) if value is not None else None
+        return UNKNOWN if size is None else size
 
 
 def _assigned_by(node: Statement) -> tuple[str, ...]:

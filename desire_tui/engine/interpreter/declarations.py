@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.values import SYSTEM_VARIABLES, Kind, Quantity
+from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -37,9 +38,10 @@ def _shape(part: Declared, dimensions: list[Callable[[], float]]) -> tuple[int, 
     shape = []
     for node, evaluate in zip(part.dimensions, dimensions, strict=True):
         size = evaluate()
-        if not 1 <= size < 1e18:
+        truncated = whole(size, 1)
+        if truncated is None:
             raise ScriptFault("bad-dimension", node, name=part.name, value=f"{size:g}")
-        shape.append(int(size))
+        shape.append(truncated)
     return tuple(shape)
 
 
@@ -56,8 +58,8 @@ def _declare_group(
     if kind is Kind.INTEGER or kind is Kind.COMPLEX:
         raise ScriptFault("overlay-not-real", group, kind=node.kind)
     total = sum(prod(shape) for shape in shapes)
-    whole = _declare_one(context, group, group.whole, (total,), kind, is_state=is_state)
-    slot = whole.slot
+    overlaid = _declare_one(context, group, group.whole, (total,), kind, is_state=is_state)
+    slot = overlaid.slot
     for part, shape in zip(group.parts, shapes, strict=True):
         known = context.values.find(part.name)
         same = known is not None and known.shape == (shape or (1,)) and known.slot == slot

@@ -81,7 +81,7 @@ def element(context: LoweringContext, node: Element) -> tuple[int | None, str]:
         shown.append("…" if value is None else str(int(value)) if abs(value) < 1e15 else str(value))
         if value is None or size == UNKNOWN:
             slot = None
-        elif not 1 <= value < size + 1:
+        elif not 1 <= value <= size:  # before it is truncated, as in scripts
             context.report(
                 "subscript-out-of-range", subscript, name=name, value=f"{value:g}", size=size, number=number
             )

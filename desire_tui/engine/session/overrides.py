@@ -19,6 +19,7 @@ from desire_tui.engine.nodes.expressions import Element, Name, Number
 from desire_tui.engine.nodes.files import Input
 from desire_tui.engine.nodes.names import assigned, declared, dummies
 from desire_tui.engine.nodes.program import Placed
+from desire_tui.engine.whole_numbers import WHOLE_MOST
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -37,7 +38,13 @@ def name_and_subscripts(setting: str) -> tuple[str, tuple[int, ...]]:
     if found is None:
         raise ValueError(setting)
     subscripts = found[2]
-    return found[1], tuple(int(s) for s in subscripts.split(",")) if subscripts else ()
+    return found[1], tuple(map(_subscript, subscripts.split(","))) if subscripts else ()
+
+
+def _subscript(digits: str) -> int:
+    """Return a subscript that no array has instead of one that no number holds."""
+    digits = digits.strip().lstrip("0") or "0"
+    return int(digits) if len(digits) <= len(str(WHOLE_MOST)) else WHOLE_MOST
 
 
 def initial_values(program: Program, overrides: Mapping[str, float]) -> dict[str, float]:
