@@ -170,7 +170,7 @@ class DesireApp(AppBase):
     def _checked(self, number: int, version: int, problems: tuple[Diagnostic, ...]) -> None:
         self.post_message(CheckFinished(number, version, problems))
 
-    def _check_fault(self, error: Exception) -> None:
+    def _check_fault(self, error: BaseException) -> None:
         self.post_message(
             EngineFault(f"{type(error).__name__}: {error}", "".join(traceback.format_exception(error)))
         )

@@ -73,6 +73,11 @@ class EngineThread:
         """Do a job after those that wait. Called on the screen's thread only."""
         self._pending += 1
         self._jobs.put(job)
+        if self.is_ready and not self._thread.is_alive():
+            reason = "the engine's thread had ended; another has taken its place"
+            self._post(engine_messages.EngineFault(reason, reason))
+            self._thread = threading.Thread(target=self._go_on, daemon=True, name="desire-engine")
+            self._thread.start()
 
     def forget_waiting(self) -> None:
         """Drop the jobs that were not begun."""
@@ -91,6 +96,9 @@ class EngineThread:
         self._made.set()
         self._post(engine_messages.EngineReady())
         threading.Thread(target=self._warm_up, daemon=True, name="desire-warm-up").start()
+        self._go_on()
+
+    def _go_on(self) -> None:
         while True:
             self._do(self._jobs.get())
 
@@ -111,7 +119,7 @@ class EngineThread:
             self._post(engine_messages.ProblemsFound(error.diagnostics, stops=True))
         except Interrupted:
             pass
-        except Exception as error:  # noqa: BLE001 - the last line: a fault of ours must not take the work down
+        except BaseException as error:  # noqa: BLE001 - the last line: a fault of ours must not take the work down
             self._post(
                 engine_messages.EngineFault(f"{type(error).__name__}: {error}", traceback.format_exc())
             )

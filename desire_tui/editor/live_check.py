@@ -39,7 +39,7 @@ class LiveChecker:
         self,
         check: Check,
         report: Report,
-        fault: Callable[[Exception], object],
+        fault: Callable[[BaseException], object],
         look_closer: Check | None = None,
     ) -> None:
         self._check, self._look_closer = check, look_closer
@@ -55,7 +55,7 @@ class LiveChecker:
         with self._condition:
             self._wanted[buffer.number] = (version, Source(text, buffer.name, buffer.path))
             self._condition.notify()
-        if self._thread is None:
+        if self._thread is None or not self._thread.is_alive():  # at first, or something ended it
             self._thread = threading.Thread(target=self._work, daemon=True, name="desire-check")
             self._thread.start()
 
@@ -69,7 +69,7 @@ class LiveChecker:
                     self._quickly(*wanted)
             except _Superseded:
                 pass
-            except Exception as error:  # noqa: BLE001 - a fault in a check must not end all checking
+            except BaseException as error:  # noqa: BLE001 - a fault in a check must not end all checking
                 self._fault(error)
 
     def _next_wanted(self) -> tuple[int, int, Source] | None:

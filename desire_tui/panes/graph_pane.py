@@ -163,7 +163,7 @@ class GraphPane(MouseGestures, can_focus=True):
         under = tuple(len(graph.curves) for graph in self.paging.under)
         curves = len(page.curves) if under else 0
         look = (page.frame, page.caption, page.net, self.paper, self.window, self.size)
-        return id(page), look, under, curves
+        return page, look, under, curves
 
     def _begin_page(self, state: tuple[object, ...]) -> None:
         self._drawn = state

@@ -126,3 +126,37 @@ async def test_faults_without_end_end_the_desktop_with_the_work_kept(program):
     async with desktop(program("x = 1\n")) as desk:
         await endless(desk)
         assert desk.app.return_code == 1
+
+
+@pytest.mark.parametrize("fault", [SystemExit, KeyboardInterrupt, ValueError])
+async def test_the_engines_thread_outlives_whatever_a_job_raises(program, fault):
+    async with desktop(program("x = 1\nwrite x\n")) as desk:
+
+        def fails():
+            raise fault("injected")
+
+        desk.app.engine.submit(fails)
+        await desk.idle()
+        assert fault.__name__ in desk.output
+        await desk.line("write 6*7")
+        await desk.until(lambda: "42" in desk.output)
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+async def test_a_dead_engine_thread_is_reported_and_followed_by_another(program, monkeypatch):
+    async with desktop(program("x = 1\n")) as desk:
+        engine = desk.app.engine
+        post = engine._post
+
+        def fails(message):
+            raise SystemExit
+
+        monkeypatch.setattr(engine, "_post", fails)  # not even a report gets out
+        engine.submit(lambda: None)
+        dead = engine._thread
+        dead.join(20)
+        assert not dead.is_alive()
+        monkeypatch.setattr(engine, "_post", post)
+        await desk.line("write 6*7")
+        await desk.until(lambda: "42" in desk.output)
+        assert "thread had ended" in desk.output

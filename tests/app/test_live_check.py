@@ -103,6 +103,21 @@ def test_a_text_that_is_not_checked_is_said(reports, monkeypatch):
     assert "10 characters" in problems[0].message
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_checking_thread_that_ended_is_followed_by_another(reports):
+    """SystemExit ends a thread without a word; here even the report of the fault fails."""
+
+    def fails(_):
+        raise SystemExit
+
+    made = LiveChecker(fails, lambda *report: reports.put(report), fails)
+    made.ask(buffer(1), 1, "x = 1\n")
+    made._thread.join(PATIENCE)
+    made._check = lambda _: QUICK
+    made.ask(buffer(1), 2, "x = 2\n")
+    assert reports.get(timeout=PATIENCE) == (1, 2, QUICK)
+
+
 async def test_each_tab_has_a_check_of_its_own_to_come(program, monkeypatch):
     """An edit in a second tab a moment later does not put off the first one's check for ever."""
     async with desktop(program("x = 1\n")) as desk:

@@ -193,3 +193,24 @@ def test_the_last_pages_are_kept():
 
 def test_settings_start_anew():
     assert DisplaySettings() == DisplaySettings(mode=1, first=14, net=7, thickness=1, white=False)
+
+
+def test_old_pages_are_thinned_where_all_take_too_much(monkeypatch):
+    """Three programs' pages of 8,000 bytes each, of which 20,000 in all are kept whole."""
+    from desire_tui.engine.graph import pages as module
+    from desire_tui.engine.session.session import Session
+    from desire_tui.engine.source import Source
+
+    monkeypatch.setattr(module, "PAGES_BYTES_MAX", 20_000)
+    monkeypatch.setattr(module, "THINNED_ROWS", 10)
+    session = Session(backend="reference")
+    program = "x = 1 | TMAX = 1 | DT = 0.002 | NN = 501\ndrun\nDYNAMIC\nd/dt x = -x\ndispt x\n"
+    for number in range(4):
+        session.erun(Source(program + f"-- {number}\n"))
+    oldest, *others = session.graphs.pages
+    assert oldest.curves[0].count <= 10
+    assert oldest.caption == "x vs. t (thinned)"
+    assert oldest.erased == 1  # a painter begins anew
+    assert [page.curves[0].count for page in others] == [501] * 3
+    session.erun(Source("x = 1\n"))
+    assert [page.caption for page in session.graphs.pages] == ["x vs. t (thinned)"] * 2 + ["x vs. t"] * 2

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.graph.model import Curve, Frame, Graph, ShownArray
 from desire_tui.engine.graph.settings import DisplaySettings
 from desire_tui.engine.integration.rules import DUMMY
+from desire_tui.engine.runtime.run_record import RunRecord
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -15,9 +16,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.segment import Picture, SampleRequest
-    from desire_tui.engine.runtime.run_record import RunRecord
 
 PAGES_MAX = 32
+PAGES_BYTES_MAX = 1 << 28
+"""Samples of runs of earlier programs that pages show; the oldest pages' are thinned."""
+THINNED_ROWS = 10_000
+THINNED = " (thinned)"
 
 
 class GraphPages:
@@ -45,6 +49,20 @@ class GraphPages:
         """`erun`: settings as at the start; the program's first run gets a new page."""
         self.settings = DisplaySettings()
         self._fresh = True
+
+    def limit_memory(self) -> None:
+        """Thin the oldest pages' runs where all together take too much. For runs that only pages hold."""
+        held, seen = 0, set[RunRecord]()
+        for page in reversed(self.pages):
+            shown = {curve.record for curve in page.curves}
+            shown |= {picture.record for picture in page.shown if picture.record is not None}
+            held += sum(record.bytes for record in shown - seen)
+            seen |= shown
+            if held > PAGES_BYTES_MAX and shown and not page.caption.endswith(THINNED):
+                for record in shown:
+                    record.thin(THINNED_ROWS)
+                page.caption += THINNED
+                page.erased += 1
 
     def display(self, mode: str, args: Sequence[float], scale: float) -> bool:
         """Carry out a `display` statement; returns whether a page changed."""

@@ -28,7 +28,7 @@ class Painter:
 
     def __init__(self, canvas: Canvas, graph: Graph, window: Window = WHOLE) -> None:
         self.canvas, self.graph, self.window = canvas, graph, window
-        self._drawn: dict[int, int] = {}
+        self._drawn: dict[Curve, int] = {}
         self._points = 0
         self._pictures = 0
         self._erased = graph.erased
@@ -50,7 +50,7 @@ class Painter:
 
     def _curve(self, curve: Curve) -> bool:
         count = curve.count
-        drawn = self._drawn.get(id(curve), 0)
+        drawn = self._drawn.get(curve, 0)
         if count == drawn:
             return False
         stop = min(count, drawn + SAMPLES_MOST)
@@ -63,7 +63,7 @@ class Painter:
             self.canvas.line(x, y, curve.color, curve.thickness)
         else:
             self.canvas.dots(x, y, curve.color, curve.thickness)
-        self._drawn[id(curve)] = stop
+        self._drawn[curve] = stop
         return stop < count
 
     def _plot_points(self) -> None:

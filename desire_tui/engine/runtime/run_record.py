@@ -70,8 +70,14 @@ class RunRecord:
         """Where the columns' variables stand among the quantities."""
         return [column.slot for column in self.columns]
 
+    @property
+    def bytes(self) -> int:
+        """How much memory its samples and pictures take."""
+        return self.rows.nbytes + sum(shown.nbytes for picture in list(self.pictures) for shown in picture)
+
     def thin(self, rows_most: int) -> None:
-        """Keep only every n-th sample, at most `rows_most` of them: enough for a graph."""
+        """Keep every n-th sample, at most `rows_most` of them, and the last picture: enough for a graph."""
+        del self.pictures[:-1]
         step = -(-self.count // rows_most)
         if step > 1:
             kept = self.rows[: self.count : step].copy()

@@ -159,6 +159,7 @@ class Runs:
     def forget(self) -> None:
         """Begin a program: its runs count from 1."""
         self.kept.clear()
+        self._graphs.limit_memory()
         self.start = self.run_of = None
         self.count = self._bytes = 0
 
