@@ -226,5 +226,29 @@ def timing(action: SimpleAction) -> Timing:
             assert_never(action)
 
 
+def reads_replaced(action: Action) -> bool:
+    """Whether elements of an array are computed from such as the statement has assigned before them.
+
+    Elements are assigned in place, from the last to the first (compatibility.md).
+    """
+    if not isinstance(action, SetVec | SetMat) or _size(action) == 1:
+        return False
+    slot, end = action.slot, action.slot + _size(action)
+    for node in walk_values(*expressions(action)):
+        for start, count in memory(node):
+            if start >= end or start + count <= slot:
+                continue
+            match node:
+                case Load() | Vec():
+                    ahead = start > slot
+                case ShiftedVec():
+                    ahead = start + node.by > slot
+                case _:
+                    ahead = True
+            if ahead:
+                return True
+    return False
+
+
 def _size(action: SetVec | SetMat) -> int:
     return action.count if isinstance(action, SetVec) else action.rows * action.cols

@@ -31,7 +31,7 @@ def vector_assign(builder: SegmentBuilder, node: VectorAssign) -> None:
         return
     count = quantity.shape[0]
     mask = _mask(builder, node, node.mask, (count,))
-    context.assigned_slots = (quantity.slot, count)
+    context.assigned_slots, context.assigned_array = (quantity.slot, count), quantity.name
     if node.delta:
         context.flow.read_range(quantity.slot, count)
     value = context.lower(node.value, (count,))
@@ -76,7 +76,7 @@ def matrix_assign(builder: SegmentBuilder, node: MatrixAssign) -> None:
     rows, cols = quantity.shape
     size = size_of(quantity)
     mask = _mask(builder, node, node.mask, (rows, cols))
-    context.assigned_slots = (quantity.slot, size)
+    context.assigned_slots, context.assigned_array = (quantity.slot, size), quantity.name
     if node.delta or mask is not None:
         context.flow.read_range(quantity.slot, size)
     value = context.lower(node.value, (rows, cols))

@@ -109,6 +109,8 @@ class LoweringContext(ABC):
         """The scalar that the present statement assigns."""
         self.assigned_slots: tuple[int, int] | None = None
         """Slots of the array that the present statement assigns; None where it may be read freely."""
+        self.assigned_array = ""
+        """Its name."""
         self.reported: set[str] = set()
         self.reads: list[str] = []
         """Names that the expression being lowered has read; "" for what is more than reading a name."""

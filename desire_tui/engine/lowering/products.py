@@ -1,8 +1,8 @@
 """Whole arrays in vector and matrix expressions: conformability, matrix products, outer products, recursion.
 
-Elements are assigned from the last to the first, as if every right-hand side used old values. What would
-read an element already replaced is error 85: the target in its own matrix product, or shifted by k > 0
-(language.md 9.3).
+Elements are assigned in place, from the last to the first, each seeing what stands in memory then. For an
+array that overlays the target this is meant so (a recurrent net: `Vector v = tanh(W*xx)` with v a part of
+xx); the target itself in its own matrix product, or shifted by k > 0, is error 85 (compatibility.md).
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ def nonconformable(
 
 
 def note_read(context: LoweringContext, node: Expr, slot: int, count: int, shift: int | None) -> None:
-    """Note that an array is read; error 85 where elements would be read after their replacement.
+    """Note that an array is read; error 85 where the target's own elements would be read once replaced.
 
     `shift`: element i reads element i + shift; None: every element reads the whole array.
     """
@@ -147,7 +147,8 @@ def note_read(context: LoweringContext, node: Expr, slot: int, count: int, shift
     if context.assigned_slots is None:
         return
     start, size = context.assigned_slots
-    if slot < start + size and start < slot + count and (shift is None or slot + shift > start):
+    own = isinstance(node, Name | ShiftedNode) and context.actual(node.name) == context.assigned_array
+    if own and slot < start + size and start < slot + count and (shift is None or slot + shift > start):
         context.report("vector-recursion", node)
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, assert_never
 
-from desire_tui.engine.lowered.effects import role
+from desire_tui.engine.lowered.effects import reads_replaced, role
 from desire_tui.engine.lowered.expressions import (
     Const,
     Load,
@@ -105,7 +105,7 @@ class _Differentiator:
                 body, orelse = tuple(self.actions(action.body)), tuple(self.actions(action.orelse))
                 made.append(Guard("if", body, action.where, action.condition, orelse, action.every))
             case Set() | SetVec() | SetMat() | SetDot():
-                if role(action) != "definition":
+                if role(action) != "definition" or reads_replaced(action):
                     raise NotDifferentiable(action)
                 made.extend(self._assignment(action))
                 made.append(action)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, assert_never
 
 import numpy as np
 
-from desire_tui.engine.lowered.effects import memory, reads, writes
+from desire_tui.engine.lowered.effects import memory, reads, reads_replaced, writes
 from desire_tui.engine.lowered.expressions import (
     Const,
     Load,
@@ -88,11 +88,11 @@ class _Finder:
                 self._assign(action, certain=certain)
 
     def _assign(self, action: Action, *, certain: bool) -> None:
-        if isinstance(action, Set | SetVec):
+        if isinstance(action, Set | SetVec) and not reads_replaced(action):
             dependencies = self.of(action.value)
             adds = isinstance(action, SetVec) and action.mode == "add"
             certain = certain and not action.persistent and not adds
-        else:  # sums, matrices and whatever else: everything depends on everything that is read
+        else:  # sums, matrices, recursion and whatever else: everything depends on everything that is read
             dependencies = _block(self._read(slot, count) for slot, count in reads(action))
         for slot, count in writes(action):
             dependencies = _spread(dependencies, count)

@@ -58,10 +58,14 @@ class ExpressionClosures:
 
     def begin(self) -> None:
         """Forget shared results and draw the random numbers of this evaluation."""
-        for cache in self._caches:
-            cache.clear()
+        self.forget()
         if self.element_draws is not None:
             self.element_draws.fill()
+
+    def forget(self) -> None:
+        """Forget shared results: what was read has changed."""
+        for cache in self._caches:
+            cache.clear()
 
     def compile(self, value: Value) -> Thunk:
         """Return a closure for the whole expression."""

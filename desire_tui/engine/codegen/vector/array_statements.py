@@ -8,11 +8,12 @@ from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
 from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_footprint
+from desire_tui.engine.codegen.vector.in_place import write_in_place
 from desire_tui.engine.codegen.vector.learning import write_learning
 from desire_tui.engine.codegen.vector.matrices import write_dot, write_matrix
 from desire_tui.engine.codegen.vector.operands import ArrayOperands
 from desire_tui.engine.codegen.vector.rerolled_loops import write_rolled
-from desire_tui.engine.lowered.effects import count_draws
+from desire_tui.engine.lowered.effects import count_draws, reads_replaced
 from desire_tui.engine.lowered.expressions import ElementOperand, ShiftedVec
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, LearningStep, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.lowered.walk import walk_values
@@ -32,7 +33,7 @@ class ArrayStatements(ArrayOperands):
         for group in groups(actions):
             if isinstance(group[0], Rolled):
                 write_rolled(self, group[0])
-            elif isinstance(group[0], SetVec | DerivVec):
+            elif isinstance(group[0], SetVec | DerivVec) and not reads_replaced(group[0]):
                 self.scalars.forget()
                 self._fused([a for a in group if isinstance(a, SetVec | DerivVec)])
             else:
@@ -41,6 +42,8 @@ class ArrayStatements(ArrayOperands):
     def arrays(self, action: ArrayAction) -> None:
         """Write a statement that has its own loops."""
         match action:
+            case SetVec() | SetMat() if reads_replaced(action):
+                write_in_place(self, action)
             case SetMat():
                 write_matrix(self, action)
             case SetDot():
