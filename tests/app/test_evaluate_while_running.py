@@ -33,7 +33,7 @@ async def test_expressions_are_written_while_the_run_goes_on(program):
         assert x * x + v * v == pytest.approx(1, abs=0.01)
         assert 0 <= square <= 1.01  # of the last sample: a run computes it only there
         assert float(await answer(desk, "write t")) > 1
-        assert "k = 3\n" in await answer(desk, "dump")
+        assert " k = 3 " in (await answer(desk, "dump")).replace("\n", " ") + " "
         assert desk.app.session.status.state.value == "running"
         cells, find = desk.app.session.values.cells, desk.app.session.values.find
         assert cells[find("k").slot] == 3

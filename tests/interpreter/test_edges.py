@@ -23,7 +23,7 @@ def test_the_value_of_each_pass_is_computed_anew():
 
 @pytest.mark.parametrize(
     ("written", "shown"),
-    [("%%(-32768)", "8000"), ("%%(-32769)", "FFFFFFFFFFFF7FFF"), ("%%32767", "7FFF"), ("%(-1)", "177777")],
+    [("%%(-32768)", "8000"), ("%%(-32769)", "ffffffffffff7fff"), ("%%32767", "7fff"), ("%(-1)", "177777")],
 )
 def test_negative_numbers_in_hexadecimal_and_octal(written, shown):
     assert run(f"write {written}").text == f"{shown}\n"

@@ -22,7 +22,7 @@ from tests.interpreter.stand_in import RecordingHost, error_of, run
         ("COMPLEX z | z = 1.5 - j*2 | write z", "1.5 + j*( -2)\n"),
         ("write $65; $66", "AB\n"),
         ("write %12918, %%12918", "31166\t3276\n"),
-        ("write %%(-1)", "FFFF\n"),
+        ("write %%(-1)", "ffff\n"),
         ('write "it\'s"', "it's\n"),
         ("kk = 7 | write kk; ' runs'", "7 runs\n"),
         ("write 2 > 1", None),
@@ -35,13 +35,19 @@ def test_write(script, text):
         assert run(script).text == text
 
 
-def test_arrays_are_written_five_in_a_line():
-    host = run("ARRAY A[2,3]\nfor i = 1 to 2 | for k = 1 to 3 | A[i,k] = -i*k/7 | next | next\nwrite A")
-    lines = host.text.split("\n")
-    assert lines[:2] == ["", "A[2,3]  : REAL ARRAY (in ROW major sequence)"]
-    assert len(lines[2].split()) == 5
-    assert lines[3:] == ["-8.571429e-01", ""]
-    assert lines[2].split()[0] == "-1.428571e-01"
+def test_arrays_are_written_five_in_a_line_and_row_by_row():
+    host = run("ARRAY A[2,6]\nfor i = 1 to 2 | for k = 1 to 6 | A[i,k] = -i*k/8 | next | next\nwrite A")
+    rows = [[f"{-i * k / 8:12.6e}   " for k in range(1, 7)] for i in (1, 2)]
+    body = "".join("".join(row[:5]) + "\n" + row[5] + "\n\n" for row in rows)
+    assert host.text == "\nA[2,6]  : REAL ARRAY (in ROW major sequence)\n" + body
+
+
+def test_vectors_and_whole_numbers_have_no_line_behind_them():
+    host = run("ARRAY v[2]\nv[1] = -1.5\nwrite v")
+    assert host.text == "\nv[2]  : REAL ARRAY (in ROW major sequence)\n-1.500000e+00   0.000000e+00   \n"
+    host = run("INTEGER K[2,2]\nK[1,2] = -12\nwrite K")
+    heading = "\nK[2,2]  : INTEGER ARRAY  (in ROW major sequence)\n"
+    assert host.text == heading + "     0      -12   \n\n     0        0   \n\n"
 
 
 def test_a_long_array_comes_in_pieces_and_can_be_broken_off():
@@ -126,10 +132,24 @@ def test_input_is_broken_off_by_an_exclamation_mark():
 
 def test_dump_lists_scalars_then_arrays():
     host = run("alpha = 2.5 | ARRAY v[2] | v[1] = 1\nINTEGER n | n = 12345678\ndump")
-    assert "alpha = 2.5\n" in host.text
-    assert "n = 12345678\n" in host.text
-    assert host.text.index("scale = 1\n") < host.text.index("v[2]  : REAL ARRAY")
-    assert "TMAX" not in host.text  # has no value
+    settings = [
+        "t",
+        "DT",
+        "TMAX",
+        "NN",
+        "MM",
+        "ERMAX",
+        "ERMIN",
+        "DTMAX",
+        "DTMIN",
+        "CHECKN",
+        "iRow",
+        "scale",
+        "PI",
+    ]
+    assert [word for word in host.text.split("alpha")[0].split() if word[0].isalpha()] == settings
+    assert host.text.split("\n")[4] == "alpha = 2.5             n = 12345678"
+    assert host.text.index("scale = 1") < host.text.index("v[2]  : REAL ARRAY")
 
 
 def test_notes_and_shell_and_commands_go_to_the_host():

@@ -33,9 +33,9 @@ def test_difference_equations_listing():
     )
     lines = kept.text.split("\n")
     assert lines[0] == "t,   xx,yy,p"
-    expected = [f"{k:<13.5e}{5 + 3 * (k - 1):13.5e}{9 + k:13.5e}{2 + 3 * k:13.5e}" for k in range(1, 11)]
+    expected = [f"{k:<13.5e}{5 + 3 * (k - 1):13.5e} {9 + k:13.5e} {2 + 3 * k:13.5e} " for k in range(1, 11)]
     assert lines[1:11] == expected
-    assert lines[10] == "1.00000e+01    3.20000e+01  1.90000e+01  3.20000e+01"
+    assert lines[10] == "1.00000e+01    3.20000e+01   1.90000e+01   3.20000e+01 "
     assert (value(session, "x"), value(session, "y")) == (35, 20)
 
 
@@ -47,7 +47,7 @@ def test_a_listing_may_go_to_a_channel(tmp_path):
     assert kept.text == ""
     assert (
         tmp_path / "out.txt"
-    ).read_text() == "t,   x\n1.00000e+00    1.00000e+00\n2.00000e+00    2.00000e+00\n"
+    ).read_text() == "t,   x\n1.00000e+00    1.00000e+00 \n2.00000e+00    2.00000e+00 \n"
 
 
 def test_continued_runs_go_on_and_reset_returns_to_the_last_start():

@@ -40,13 +40,17 @@ def _g(value: float) -> str:
 
 
 def array_text(values: Values, quantity: Quantity, name: str) -> Iterator[str]:
-    """Yield the lines that show an array, each with its line end."""
+    """Yield the lines that show an array, each with its line end: a row begins one, an empty one ends it."""
     size = ",".join(map(str, quantity.shape))
-    word = quantity.kind.name
-    yield f"\n{name}[{size}]  : {word} ARRAY (in ROW major sequence)\n"
-    for first in range(0, quantity.size, _PER_LINE):
-        numbers = elements(values, quantity, first, _PER_LINE)
-        yield "  ".join(_element_text(v, quantity.kind) for v in numbers) + "\n"
+    blanks = "  " if quantity.kind is Kind.INTEGER else " "
+    yield f"\n{name}[{size}]  : {quantity.kind.name} ARRAY{blanks}(in ROW major sequence)\n"
+    row = quantity.shape[-1]
+    ending = "\n\n" if len(quantity.shape) > 1 else "\n"
+    for start in range(0, quantity.size, row):
+        for first in range(start, start + row, _PER_LINE):
+            numbers = elements(values, quantity, first, min(_PER_LINE, start + row - first))
+            is_last = first + _PER_LINE >= start + row
+            yield "".join(_element_text(v, quantity.kind) for v in numbers) + (ending if is_last else "\n")
 
 
 def raw_array_text(values: Values, quantity: Quantity) -> Iterator[str]:
@@ -70,8 +74,8 @@ def elements(values: Values, quantity: Quantity, first: int, count: int) -> Sequ
 
 def _element_text(value: complex, kind: Kind) -> str:
     if kind is Kind.COMPLEX:
-        return f"{value.real:12.6e} + j*( {value.imag:12.6e})"
-    return f"{value.real:12.0f}" if kind is Kind.INTEGER else f"{value.real:12.6e}"
+        return f"{value.real:12.6e} + j*( {value.imag:12.6e})   "
+    return f"{value.real:6.0f}   " if kind is Kind.INTEGER else f"{value.real:12.6e}   "
 
 
 def octal(value: float) -> str:
@@ -81,7 +85,7 @@ def octal(value: float) -> str:
 
 def hexadecimal(value: float) -> str:
     """Return a whole number in hexadecimal; negative ones in 16 bits."""
-    return f"{_bits(value):X}"
+    return f"{_bits(value):x}"
 
 
 def _bits(value: float) -> int:

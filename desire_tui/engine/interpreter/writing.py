@@ -28,6 +28,11 @@ if TYPE_CHECKING:
     Piece = Callable[[], Iterator[str]]
 
 _SEPARATORS = {",": "\t", ";": "", "": ""}
+_SETTINGS = (
+    "t", "DT", "TMAX", "NN", "MM", "ERMAX", "ERMIN", "DTMAX", "DTMIN", "CHECKN", "iRow", "scale", "PI"
+)  # fmt: skip
+_COLUMNS, _COLUMN = 4, 24
+"""Of `dump`: how many scalars a line, and their width; longer ones push the others on."""
 
 
 def write(context: StatementContext, node: Write) -> Operation:
@@ -134,11 +139,17 @@ def dump(context: StatementContext, node: Dump) -> Operation:
 
 
 def all_text(values: Values) -> Iterator[str]:
-    """Yield all quantities with a value: scalars first, one a line, then arrays."""
+    """Yield the settings, set or not, all other scalars with a value, in columns, then the arrays."""
     known = [q for q in values if values.is_defined(q)]
-    for quantity in known:
-        if not quantity.shape:
-            yield f"{quantity.name} = {value_text(values, quantity)}\n"
+    settings = [values.names[name] for name in _SETTINGS]
+    others = [q for q in known if not q.shape and q.name not in _SETTINGS]
+    for scalars in (settings, others):
+        cells = [f"{q.name} = {value_text(values, q)}" for q in scalars]
+        for first in range(0, len(cells), _COLUMNS):
+            yield (
+                "".join((cell + " ").ljust(_COLUMN) for cell in cells[first : first + _COLUMNS]).rstrip()
+                + "\n"
+            )
     for quantity in known:
         if quantity.shape:
             yield from array_text(values, quantity, quantity.name)

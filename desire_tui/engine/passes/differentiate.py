@@ -105,7 +105,9 @@ class _Differentiator:
                 body, orelse = tuple(self.actions(action.body)), tuple(self.actions(action.orelse))
                 made.append(Guard("if", body, action.where, action.condition, orelse, action.every))
             case Set() | SetVec() | SetMat() | SetDot():
-                if role(action) != "definition" or reads_replaced(action):
+                if role(action) != "definition":
+                    raise NotDifferentiable(action)
+                if reads_replaced(action):
                     raise NotDifferentiable(action)
                 made.extend(self._assignment(action))
                 made.append(action)

@@ -18,6 +18,6 @@ def header(request: SampleRequest) -> str:
 
 def lines(rows: NDArray[np.float64], first: int, count: int) -> str:
     """Return one line for each sample: t left-justified, then `count` columns from number `first` on."""
-    form = "%-13.5e" + "%13.5e" * count + "\n"
+    form = "%#-13.5e" + "%#13.5e " * count + "\n"
     wanted = rows[:, [0, *range(1 + first, 1 + first + count)]]
     return "".join(form % tuple(row) for row in wanted.tolist())
