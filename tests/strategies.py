@@ -12,7 +12,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Declared, DeclaredGroup, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show
+from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import (
     Binary,
     Call,
@@ -167,7 +167,9 @@ def matrices(draw):
 def vectors(draw):
     delta = draw(st.booleans())
     largest = not delta and draw(st.booleans())
-    return VectorAssign(draw(names), draw(expressions), delta, largest, draw(st.none() | names))
+    bounded = delta and draw(st.booleans())
+    lower, upper = draw(st.tuples(expressions, expressions)) if bounded else (None, None)
+    return VectorAssign(draw(names), draw(expressions), delta, largest, draw(st.none() | names), lower, upper)
 
 
 @st.composite
@@ -207,6 +209,7 @@ SIMPLE = [
     *["erun", "run", "bye", "new", "NEW", "list", "list+", "ed", "edit", "reload", "end if", "end while"],
 ]
 
+line_lists = st.lists(st.sampled_from(["210", "300-320", "70"]), min_size=1, max_size=3).map(",".join)
 script_statements = st.one_of(
     st.builds(If, conditions, st.none()),
     st.builds(For, targets, expressions, expressions, maybe),
@@ -242,6 +245,8 @@ script_statements = st.one_of(
     displays(),
     st.builds(Plot, _some(expressions)),
     st.builds(Show, names, maybe),
+    st.builds(ShowArea, st.booleans()),
+    st.builds(FileCommand, st.sampled_from(["edit", "ed", "list", "list+", "auto", "note"]), line_lists),
 )  # fmt: skip
 shared_statements = st.one_of(
     st.builds(Assign, targets, expressions),

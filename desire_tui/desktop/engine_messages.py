@@ -110,6 +110,14 @@ class Stopped(EngineMessage):
         self.place = place
 
 
+class LineWanted(EngineMessage):
+    """A row of the active program is to be seen: counted from 1."""
+
+    def __init__(self, row: int) -> None:
+        super().__init__()
+        self.row = row
+
+
 class GraphChanged(EngineMessage):
     """Another graph, or something on it that is not a run's sample."""
 

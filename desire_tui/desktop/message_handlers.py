@@ -163,6 +163,13 @@ class MessageHandlers(Controller):
         app.quantities.show(app.session.values)
 
     @handle.register
+    def _line(self, message: engine_messages.LineWanted) -> None:
+        """Show a line where the program is on the screen; the focus stays where it is."""
+        editor = self.app.editor
+        if editor.active is not None and editor.front.tab is editor.active:
+            editor.front.go_to(_row_now(editor.active, message.row - 1))
+
+    @handle.register
     def _graph(self, message: engine_messages.GraphChanged) -> None:
         del message
         self.app.graph.follow_newest(self.app.session.graph)

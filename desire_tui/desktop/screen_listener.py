@@ -120,6 +120,10 @@ class ScreenListener(Listener):
         """Report to the screen."""
         self._post(engine_messages.NoteWritten(text))
 
+    def line_wanted(self, row: int) -> None:
+        """Report to the screen."""
+        self._post(engine_messages.LineWanted(row))
+
     def front_source(self) -> Source | None:
         """Return the front tab's text."""
         return self.front

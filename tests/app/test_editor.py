@@ -103,8 +103,8 @@ def test_commenting_twice_gives_the_lines_back(lines: list[str]):
 
 
 def test_numbered_lines():
-    assert numbered(ProgramLines("x = 1\ny = 2\n")) == "10 x = 1\n20 y = 2\n"
-    assert numbered(ProgramLines("x = 1\ry = 2")) == "10 x = 1\r20 y = 2\r"
+    assert numbered(ProgramLines("x = 1\ny = 2\n")) == "210 x = 1\n220 y = 2\n"
+    assert numbered(ProgramLines("x = 1\ry = 2")) == "210 x = 1\r220 y = 2\r"
 
 
 def test_completion_offers_own_names_functions_and_statements():
@@ -338,7 +338,7 @@ async def test_keep_under_a_name_and_load(program, tmp_path):
         assert desk.app.editor.front.buffer.name == "copy.src"
         await desk.line("keep+ 'num'")
         await desk.until((tmp_path / "num.src").exists)
-        assert (tmp_path / "num.src").read_text() == "10 x = 1\n"
+        assert (tmp_path / "num.src").read_text() == "210 x = 1\n"
         await desk.line("load 'osc'")
         await desk.until(lambda: desk.app.editor.front.buffer.name == "osc.src")
         await desk.line("ed")

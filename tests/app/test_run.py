@@ -62,6 +62,18 @@ async def test_curves_grow_while_the_run_goes_on_and_it_can_be_paused_resumed_an
         assert desk.output.rstrip().endswith("ended")
 
 
+async def test_a_script_brings_lines_into_view_and_leaves_the_focus(program):
+    text = "x = 1\n\ny = 2\nedit 220-230\nz = 3\n"
+    async with desktop(program(text)) as desk:
+        await desk.line("zz")
+        await desk.idle()
+        await desk.until(lambda: desk.app.editor.front.cursor_location == (2, 0))
+        assert desk.app.focused is desk.app.command.prompt
+        await desk.line("edit 240")
+        await desk.until(lambda: desk.app.editor.front.cursor_location == (4, 0))
+        assert desk.app.editor.front.text == text
+
+
 async def test_a_double_click_on_the_graph_pauses(program):
     async with desktop(program(LONG)) as desk:
         await desk.press("f5")

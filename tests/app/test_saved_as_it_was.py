@@ -80,7 +80,7 @@ async def test_numbered_lines_and_copies_keep_encoding_and_ends(tmp_path):
     async with desktop(path) as desk:
         await desk.line("keep+ 'num'")
         await desk.until((tmp_path / "num.src").exists)
-        assert (tmp_path / "num.src").read_bytes() == b"10 -- caf\xe9\r\n20 x = 1\r30 y = 2\r\n"
+        assert (tmp_path / "num.src").read_bytes() == b"210 -- caf\xe9\r\n220 x = 1\r230 y = 2\r\n"
         for command, expected in (("ed", path.read_bytes()), ("edit", (tmp_path / "num.src").read_bytes())):
             await desk.line(command)
             await desk.until(lambda: desk.app.editor.front.buffer.path is None)

@@ -80,13 +80,20 @@ def test_a_channel_that_cannot_be_read(tmp_path) -> None:
     assert render(problem).startswith("program.src:2:1: error 18: cannot read '/proc/")
 
 
-def test_a_shell_command_that_fails(tmp_path) -> None:
-    session = Session(Listener(), folder=tmp_path, permissions=Permissions(shell=True))
-    problem = problem_of(session, "x = 1", "sh exit 3")
-    assert problem.key == "shell-failed"
-    assert render(problem) == (
-        "program.src:2:1: error 452: the shell command `exit 3` ended with status 3\n    sh exit 3\n    ^^^^^^^^^"
-    )
+def test_a_shell_command_that_fails_prints_its_status_and_the_program_goes_on(tmp_path, monkeypatch) -> None:
+    shown: list[str] = []
+    listener = Listener()
+    monkeypatch.setattr(listener, "console_text", shown.append)
+    session = Session(listener, folder=tmp_path, permissions=Permissions(shell=True))
+    session.erun(Source("sh exit 3\nwrite 'on' | sh true", "program.src"))
+    assert "".join(shown) == "the shell command `exit 3` ended with status 3\non\n"
+
+
+def test_a_help_page_that_is_not_there() -> None:
+    with pytest.raises(DesireError) as caught:
+        Session(Listener()).help("nothing at all")
+    assert caught.value.diagnostics[0].key == "no-help"
+    assert caught.value.diagnostics[0].code == 403
 
 
 @pytest.mark.parametrize("command", ["run", "zz", "list"])

@@ -13,6 +13,7 @@ from tests.messages.test_messages import FILES, spoken
 
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {
+    "no-help": "tests/messages/test_machine_messages.py::test_a_help_page_that_is_not_there",
     "line-too-long": "tests/syntax/test_limits.py::test_hostile_text_gets_a_message_at_once",
     "too-many-lines": "tests/messages/test_machine_messages.py::test_submodels_that_become_too_many_lines",
     "no-program": "tests/messages/test_machine_messages.py::test_no_program",
@@ -21,7 +22,6 @@ ELSEWHERE = {
     "memory-exhausted": "tests/messages/test_machine_messages.py::test_memory_that_ends_in_the_middle",
     "cannot-read": "tests/messages/test_machine_messages.py::test_a_channel_that_cannot_be_read",
     "cannot-write": "tests/messages/test_machine_messages.py::test_a_channel_whose_disk_is_full",
-    "shell-failed": "tests/messages/test_machine_messages.py::test_a_shell_command_that_fails",
     "solver-error-test": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
     "solver-corrector": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
     "solver-singular": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",

@@ -9,7 +9,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show
+from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import (
     Binary,
     Call,
@@ -72,7 +72,7 @@ FUNCTIONS = tuple(f"{name}()" for name in LIBRARY)
 _ONE = {
     Until: "until", While: "while", Label: "label", Procedure: "PROCEDURE", CallProcedure: "call",
     Submodel: "SUBMODEL", Function: "FUNCTION", Data: "data", Read: "read", Disconnect: "disconnect",
-    Note: "note", Seed: "SEED", Show: "SHOW", Pair: "[a, b]", Store: "store", Get: "get",
+    Note: "note", Seed: "SEED", Show: "SHOW", ShowArea: "SHOW alone", Pair: "[a, b]", Store: "store", Get: "get",
     TrackHold: "trkhld", Invoke: "invoke", Term: "term", Sample: "SAMPLE", RowOf: "P#", Shifted: "x{k}",
     VectorDerivative: "Vectr d/dt", Not: "not", Transposed: "A%",
 }  # fmt: skip

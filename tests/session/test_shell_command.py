@@ -14,7 +14,6 @@ import pytest
 
 from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.batch.runner import Runner, RunOptions
-from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.session import shell_command
 from desire_tui.engine.session.shell_command import run_shell
@@ -37,11 +36,8 @@ class EndedOnce:
 def printed(command, folder, ending=lambda: False):
     """Return what a command prints, and its status."""
     parts = []
-    try:
-        run_shell(command, folder, parts.append, ending)
-    except DesireError as error:
-        return "".join(parts), error.diagnostics[0].facts["status"]
-    return "".join(parts), 0
+    status = run_shell(command, folder, parts.append, ending)
+    return "".join(parts), status
 
 
 def is_alive(pid: int) -> bool:

@@ -38,6 +38,8 @@ APART = {
     "write '+'\ny = 3": ["write '+'", "y = 3"],
     "x = 1 --\ny = 3": ["x = 1", "y = 3"],
     "drun *\ny = 3": ["drun *", "y = 3"],
+    "drunr *\nfor i = 0 to _\n3": ["drunr *", "for i = 0 to 3"],
+    "SHOW *\nfor i = 0 to +\n3": ["SHOW *", "for i = 0 to +3"],
     "list+\ny = 3": ["list+", "y = 3"],
     "x = 3 _ \n\ny = 3": ["x = 3", "y = 3"],
 }

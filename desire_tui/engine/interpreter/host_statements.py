@@ -159,7 +159,10 @@ def trace(context: StatementContext) -> Operation:
     return lambda: context.machine.toggle_tracing(following)
 
 
-_IN_SCRIPTS = {"snapshot", "notebook", "help", "sh", "list", "list+", "compare", "bye"}
+_IN_SCRIPTS = {
+    "snapshot", "notebook", "help", "sh", "list", "list+", "compare", "bye", "ed", "edit", "auto", "note",
+}  # fmt: skip
+_LOOKS = {"ed", "edit", "auto"}
 
 
 def host_command(context: StatementContext, node: FileCommand | Simple) -> Operation:
@@ -168,6 +171,8 @@ def host_command(context: StatementContext, node: FileCommand | Simple) -> Opera
     argument = node.argument if isinstance(node, FileCommand) else None
     if not context.code.is_command and node.word not in _IN_SCRIPTS:
         raise ScriptFault("command-only", node, word=node.word)
+    if node.word in _LOOKS and argument is None and not context.code.is_command:
+        return context.then(lambda: None)  # the original asks its user for lines: here they are on the screen
     if node.word == "sh":
         return context.then(lambda: host.shell(argument or ""))
     if node.word == "bye" and not context.code.is_command:

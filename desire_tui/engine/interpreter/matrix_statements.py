@@ -14,6 +14,8 @@ from desire_tui.engine.nodes.expressions import Expr, Name, Number, Transposed
 from desire_tui.engine.nodes.signs import unsigned
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from desire_tui.engine.interpreter.code_table import Operation
@@ -35,7 +37,7 @@ def matrix(context: StatementContext, node: MatrixAssign) -> Operation:
     rows, columns = target.shape
     expressions = ArrayExpressions(context, true_products=True)
     value = expressions.assigned(node.value, target.shape)
-    bounds = [context.real(b) if b is not None else None for b in (node.lower, node.upper)]
+    bounded = _bounded(context, node)
     mask = context.numbers(context.array(Name(node.mask))) if node.mask else None
     view = context.numbers(target)
     identity = isinstance(node.value, Number) and node.value.value == 1.0 and not node.delta
@@ -49,10 +51,7 @@ def matrix(context: StatementContext, node: MatrixAssign) -> Operation:
         if np.ndim(result) == 0 and not identity and not node.delta and result != 0.0:
             raise ScriptFault("matrix-from-number", node.value, name=node.name)
         result = conform(result, target.shape, node, node.name)
-        result = view + result if node.delta else result
-        if bounds != [None, None]:
-            lower, upper = (b() if b is not None else None for b in bounds)
-            result = np.clip(result, lower, upper)
+        result = bounded(view + result if node.delta else result)
         if mask is not None:
             np.copyto(view, result, where=conform(mask, target.shape, node, node.name) != 0.0)
         else:
@@ -67,6 +66,7 @@ def vector(context: StatementContext, node: VectorAssign) -> Operation:
     if len(target.shape) != 1:
         raise ScriptFault("not-a-vector", Name(node.name, node.start, node.end), name=node.name)
     value = ArrayExpressions(context, true_products=False).assigned(node.value, target.shape)
+    bounded = _bounded(context, node)
     mask = context.numbers(context.array(Name(node.mask))) if node.mask else None
     view = context.numbers(target)
 
@@ -75,7 +75,7 @@ def vector(context: StatementContext, node: VectorAssign) -> Operation:
         context.require_memory(TEMPORARIES * target.size, node)
         result = conform(value(), target.shape, node, node.name)
         if node.delta:
-            result = view + result
+            result = bounded(view + result)
         if node.largest:
             result = _largest_only(result)
         if mask is not None:
@@ -83,6 +83,14 @@ def vector(context: StatementContext, node: VectorAssign) -> Operation:
         view[...] = result
 
     return context.then(action)
+
+
+def _bounded(context: StatementContext, node: MatrixAssign | VectorAssign) -> Callable[[Array], Array]:
+    """Return what keeps elements between the two numbers behind a statement's `;`, if there are any."""
+    if node.lower is None or node.upper is None:
+        return lambda array: array
+    lower, upper = context.real(node.lower), context.real(node.upper)
+    return lambda array: np.clip(array, lower(), upper())
 
 
 def _largest_only(vector: Array) -> Array:

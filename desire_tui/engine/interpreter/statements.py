@@ -22,7 +22,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple, Word
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Show
+from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.files import (
     Connect,
@@ -115,6 +115,8 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
             return host_statements.display(context, node)
         case Plot():
             return host_statements.plot(context, node)
+        case ShowArea():
+            return control.nothing(context)
         case Show():
             return host_statements.show(context, node)
         case MatrixAssign():
@@ -159,7 +161,9 @@ def _make_word(context: StatementContext, node: Simple) -> Operation:
             return host_statements.trace(context)
         case "OUT" | "step" | "JACOBIAN" | "end if" | "DYNAMIC":
             raise ScriptFault("not-in-script", node)
-        case "erun" | "run" | "bye" | "new" | "NEW" | "list" | "list+" | "ed" | "edit" | "reload" | "keep+":
+        case "erun" | "run" | "bye" | "new" | "NEW" | "list" | "list+" | "reload" | "keep+":
+            return host_statements.host_command(context, node)
+        case "ed" | "edit" | "auto":
             return host_statements.host_command(context, node)
     assert_never(node.word)
 

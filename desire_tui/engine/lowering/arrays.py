@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.left_chains import signed_terms
-from desire_tui.engine.lowered.expressions import Vec
+from desire_tui.engine.lowered.expressions import Op, Vec
 from desire_tui.engine.lowered.statements import DotTerm, SetDot, SetMat, SetVec
 from desire_tui.engine.lowering.products import array, matrix_vector, nonconformable, note_read
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def vector_assign(builder: SegmentBuilder, node: VectorAssign) -> None:
-    """`Vector y = v`, `Vectr delta x = v`, `Vector y^ = v`, `Vector y = [m] v`."""
+    """`Vector y = v`, `Vectr delta x = v; min, max`, `Vector y^ = v`, `Vector y = [m] v`."""
     context = builder.context
     quantity = _target(context, node)
     if quantity is None:
@@ -35,8 +35,12 @@ def vector_assign(builder: SegmentBuilder, node: VectorAssign) -> None:
     if node.delta:
         context.flow.read_range(quantity.slot, count)
     value = context.lower(node.value, (count,))
-    context.assigned_slots = None
     mode: Literal["set", "add", "largest"] = "add" if node.delta else "largest" if node.largest else "set"
+    if node.lower is not None and node.upper is not None:
+        lower, upper = context.lower(node.lower, (count,)), context.lower(node.upper, (count,))
+        added = Op("add", (Vec(quantity.slot, count), value))
+        value, mode = Op("min", (Op("max", (added, lower)), upper)), "set"
+    context.assigned_slots = None
     made = SetVec(quantity.slot, count, value, context.where(node), mode, mask)
     builder.body.append(made)
     context.flow.assignments.append(made)

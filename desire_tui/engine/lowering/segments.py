@@ -24,7 +24,7 @@ from desire_tui.engine.lowering.submodels import expand
 from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import If
-from desire_tui.engine.nodes.display import Request, Show
+from desire_tui.engine.nodes.display import Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.nodes.segment import (
@@ -143,6 +143,8 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
             return statements.sample(builder, node)
         case Request():
             return requests.request(builder, node)
+        case ShowArea():
+            return None
         case Show():
             return requests.show(builder, node)
         case Learn():

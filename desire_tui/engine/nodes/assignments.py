@@ -45,13 +45,15 @@ class MatrixAssign(Node):
 
 @node
 class VectorAssign(Node):
-    """`Vector y = [m] v`, `Vector y^ = v` (`largest`), `Vectr delta x = v` (`delta`)."""
+    """`Vector y = [m] v`, `Vector y^ = v` (`largest`), `Vectr delta x = v; lower, upper` (`delta`)."""
 
     name: str
     value: Expr
     delta: bool
     largest: bool
     mask: str | None
+    lower: Expr | None = None
+    upper: Expr | None = None
     start: int = 0
     end: int = 0
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 Word = Literal[
     "else", "proceed", "end if", "next", "end while", "repeat", "exit", "end", "STOP", "go", "reset", "clear",
     "time", "trace", "DYNAMIC", "OUT", "step", "JACOBIAN",
-    "erun", "run", "bye", "new", "NEW", "list", "list+", "ed", "edit", "reload", "keep+",
+    "erun", "run", "bye", "new", "NEW", "list", "list+", "ed", "edit", "auto", "reload", "keep+",
 ]  # fmt: skip
 
 
@@ -28,9 +28,15 @@ class Simple(Node):
 
 @node
 class FileCommand(Node):
-    """`keep 'f'`, `load 'f'`, `snapshot 'f'`, `notebook 'f'|on|off`, `help x`, `sh …`, `compare …`."""
+    """`keep 'f'`, `load 'f'`, `snapshot 'f'`, `notebook 'f'|on|off`, `help x`, `sh …`, `compare …`.
 
-    word: Literal["keep", "keep+", "load", "snapshot", "notebook", "help", "sh", "compare"]
+    Also those that name lines of the program: `edit 210-240,260`, `list 300`, `note #210-230`.
+    """
+
+    word: Literal[
+        "keep", "keep+", "load", "snapshot", "notebook", "help", "sh", "compare",
+        "list", "list+", "ed", "edit", "auto", "note",
+    ]  # fmt: skip
     argument: str | None
     start: int = 0
     end: int = 0

@@ -40,6 +40,15 @@ class Show(Node):
 
 
 @node
+class ShowArea(Node):
+    """`SHOW` and `SHOW *` (`by_size`), which start the original's picture area: there is one here always."""
+
+    by_size: bool
+    start: int = 0
+    end: int = 0
+
+
+@node
 class Request(Node):
     """`dispt`, `dispxy`, `DISPXY`, `type [#n,]`, `stash`, `recover`."""
 

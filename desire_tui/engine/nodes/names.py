@@ -8,7 +8,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show
+from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Call, Element, Name
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
 from desire_tui.engine.nodes.segment import (
@@ -72,7 +72,7 @@ def assigned(node: Statement) -> Assigned:
             return _NOTHING
         case Declare() | Function() | Submodel() | Bare() | Invoke():
             return _NOTHING
-        case Term() | Sample() | Show() | Plot() | Display() | Drun() | Irule() | Seed():
+        case Term() | Sample() | Show() | ShowArea() | Plot() | Display() | Drun() | Irule() | Seed():
             return _NOTHING
         case Data() | Restore() | Write() | Note() | Dump() | Connect() | Disconnect() | FileCommand():
             return _NOTHING

@@ -48,6 +48,8 @@ class Program:
     script: tuple[Placed, ...]
     segments: tuple[SegmentText, ...]
     problems: tuple[Diagnostic, ...] = ()
+    lines: tuple[tuple[int, int], ...] = ()
+    """Numbers of lines and where they begin, if the script jumps to any by its number."""
 
     def segment(self, label: str | None) -> SegmentText | None:
         """Return the unlabelled segment (None) or the one with that label."""

@@ -72,6 +72,9 @@ class Listener:
     def noted(self, text: str) -> None:
         """Note that a line went into the notebook."""
 
+    def line_wanted(self, row: int) -> None:
+        """Bring a row of the active program into view (from 1): the script came to `edit 210-240`."""
+
     def front_source(self) -> Source | None:
         """Return the text of the editor in front: what `erun` takes. None: run the active program again."""
         return None

@@ -130,11 +130,13 @@ class ScriptHost:
     # ------------------------------------------------------------------ the machine
 
     def shell(self, command: str) -> None:
-        """Run a shell command, its output to the console; Ctrl-C ends it."""
+        """Run a shell command, its output to the console, and its status if it fails; Ctrl-C ends it."""
         from desire_tui.engine.session.shell_command import run_shell
 
         self._workspace.permissions.shell_command(command, self._workspace.asker, self._listener.permit)
-        run_shell(command, self._workspace.folder, self.write, lambda: self._activity.ending)
+        status = run_shell(command, self._workspace.folder, self.write, lambda: self._activity.ending)
+        if status:
+            self.write(f"the shell command `{command}` ended with status {status}\n")
 
     def permit(self, path: Path, mode: Literal["read", "write"]) -> Path:
         """Return the resolved path if the program may open it."""

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.source import Source
 
 _OWN_WORDS = frozenset(
-    {"erun", "run", "go", "list", "list+", "bye", "new", "NEW", "ed", "edit", "reload", "keep+"}
+    {"erun", "run", "go", "list", "list+", "bye", "new", "NEW", "ed", "edit", "auto", "reload", "keep+"}
 )
 
 
@@ -113,7 +113,11 @@ class SessionCommands:
             case "go":
                 programs.go()
             case "list" | "list+":
-                write(self._listing(numbered=word == "list+"))
+                write(self._listing(argument, numbered=word == "list+"))
+            case "note":
+                self._workspace.notebook.note(self._listing(argument, numbered=True))
+            case "ed" | "edit" | "auto" if argument is not None or word == "auto":
+                self._bring_into_view(argument or "")
             case "dump":
                 if not self._runs.kept:
                     raise DesireError(Diagnostic("no-run"))
@@ -125,7 +129,7 @@ class SessionCommands:
             case "notebook":
                 self._notebook(argument)
             case "help" if not self._listener.command(word, argument):
-                write(self.help_page(argument or "") + "\n")
+                write(self._help(argument or "") + "\n")
             case "new" | "NEW":
                 if not self._listener.command(word, argument):
                     programs.new()
@@ -149,16 +153,32 @@ class SessionCommands:
             raise DesireError(Diagnostic("no-help", facts={"topic": topic}))
         return found.markdown
 
-    def _listing(self, *, numbered: bool) -> str:
+    def _help(self, topic: str) -> str:
+        """Return a help page, or that there is none: a program goes on."""
+        try:
+            return self.help_page(topic)
+        except DesireError as error:
+            return f"{error.diagnostics[0].message}: {error.diagnostics[0].hint}"
+
+    def _bring_into_view(self, lines: str) -> None:
+        """Show lines of the program in a desktop's editor; without a screen, and without lines, nothing."""
+        from desire_tui.engine.syntax.line_numbers import rows_named
+
+        program = self._workspace.program
+        found = rows_named(program.source.text, lines) if program is not None else []
+        if found:
+            self._listener.line_wanted(found[0].rows.start + 1)
+
+    def _listing(self, lines: str | None, *, numbered: bool) -> str:
         program = self._workspace.program
         if program is None:
             raise DesireError(Diagnostic("no-program"))
         text = program.source.text.rstrip("\n") + "\n"
-        if not numbered:
-            return text
-        from desire_tui.engine.syntax.line_numbers import with_numbers
+        from desire_tui.engine.syntax.line_numbers import listing, with_numbers
 
-        return with_numbers(text)
+        if lines is not None:
+            return listing(text, lines)
+        return with_numbers(text) if numbered else text
 
     def _compare(self, argument: str | None) -> None:
         change = Variation.parse(argument or "")

@@ -14,7 +14,6 @@ import subprocess
 from time import monotonic, sleep
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.session.process_groups import ended_at_exit, send
 
@@ -32,8 +31,8 @@ _REST_PIECES = 16
 """More than any pipe holds."""
 
 
-def run_shell(command: str, folder: Path, write: Callable[[str], object], ending: Callable[[], bool]) -> None:
-    """Run a command in `folder`. Interrupted: the user ended it; DesireError 452: its status was not 0.
+def run_shell(command: str, folder: Path, write: Callable[[str], object], ending: Callable[[], bool]) -> int:
+    """Run a command in `folder` and return its status. Interrupted: the user ended it.
 
     It is over when its shell is: what it left in the background goes on, but is no longer listened to.
     """
@@ -52,10 +51,7 @@ def run_shell(command: str, folder: Path, write: Callable[[str], object], ending
                 _end(process)
     if ending():
         raise Interrupted
-    if process.returncode:
-        raise DesireError(
-            Diagnostic("shell-failed", facts={"command": command, "status": process.returncode})
-        )
+    return process.returncode
 
 
 class _Shown:

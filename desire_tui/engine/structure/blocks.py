@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, assert_never
 
@@ -11,7 +12,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Show
+from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Call
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
 from desire_tui.engine.nodes.names import dummies
@@ -77,6 +78,14 @@ class BlockSurvey:
         for block in reversed(self.open):
             self._unclosed(block)
 
+    def find_line_numbers(self, lines: tuple[tuple[int, int], ...]) -> None:
+        """Give lines without statements, or all of a program without numbers, the places that jumps need."""
+        offsets = [placed.at for placed in self.statements]
+        for number, start in lines:
+            place = bisect_left(offsets, start)
+            if place < len(offsets):
+                self.found.numbers.setdefault(number, place)
+
     def _statement(self, place: int, placed: Placed) -> None:
         """Note what a statement opens, closes or defines; segments' own statements do nothing of it."""
         node = placed.node
@@ -113,7 +122,7 @@ class BlockSurvey:
                 return None  # where they lead is checked when all is known
             case Read() | Input() | Write() | Connect() | Disconnect() | Dump() | Note() | FileCommand():
                 return None
-            case Irule() | Seed() | Fft() | Display() | Plot() | Show():
+            case Irule() | Seed() | Fft() | Display() | Plot() | Show() | ShowArea():
                 return None
         if isinstance(node, SegmentOnlyStatement):
             return None

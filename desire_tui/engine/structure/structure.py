@@ -28,6 +28,7 @@ def structure(program: Program) -> Structure:
     broken = any(p.facts.get(fact) in _BLOCK_WORDS for p in program.problems for fact in ("word", "close"))
     survey = BlockSurvey(program.script, program.source, broken)
     survey.script()
+    survey.find_line_numbers(program.lines)
     known = {segment.label for segment in program.segments}
     check_jumps(survey, known)
     match_segments(survey, program.segments)

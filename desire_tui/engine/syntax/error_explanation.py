@@ -31,6 +31,7 @@ _OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%
 _REQUESTS = frozenset({"dispt", "dispxy", "DISPXY", "type", "stash", "recover"})
 _DEFINITIONS = frozenset({"PROCEDURE", "SUBMODEL", "FUNCTION", "call", "invoke"})
 _WHOLE_ARRAYS = frozenset({"Vector", "MATRIX", "DELTA", "Delta", "store"})
+_LISTERS = frozenset({"edit", "ed", "list", "list+", "auto"})
 _LABELS = frozenset({"label", "go to", "restore"})
 
 
@@ -123,6 +124,15 @@ def _own_form(s: _Stuck) -> str:
         return "element-illegal"
     if word in _DEFINITIONS and not s.wants_operand:
         return "definition-form"
+    if word in _LISTERS or (word == "note" and s.kind == "#"):
+        s.facts["word"] = "note #" if word == "note" else word
+        return "lines-form"
+    if word in ("tdelay", "delay") and s.opened == "" and s.after_operand and "=" in s.kinds[: s.at]:
+        return "delay-form"
+    if word in ("CLEARN", "PLEARN", "INTP") and not s.wants_operand and "=" in s.kinds[: s.at]:
+        return "learn-form"
+    if word in _WHOLE_ARRAYS and s.opened == "" and s.after_operand and ";" in s.kinds[: s.at]:
+        return "bounds-form"
     if word == "trkhld" and (s.kind == "=" or s.ended) and s.after_operand:
         return "track-hold-form"
     if word == "ARRAY" and s.kind == "(":

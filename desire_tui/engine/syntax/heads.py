@@ -18,7 +18,16 @@ _SECOND_WORD = {
 }
 _D_DT = re.compile(r"[ \t]*(d/dt)(?![A-Za-z0-9$_])")
 _DELTA = re.compile(r"[ \t]*(delta)(?=[ \t]+[A-Za-z])")
+_NAMED = re.compile(r"[ \t]+[A-Za-z]")
+_OF_ARRAYS = frozenset({"delta", "UPDATE"})
+"""Likely names of variables: keywords only where a name follows."""
 _RUN = re.compile(r"[ \t]+(run)(?![A-Za-z0-9$_])")
+_LINES = re.compile(
+    r"[ \t]*([0-9]+(?:[ \t]*[-\u2013,;][ \t]*[0-9]+)*)(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed))"
+)
+_COPIED = re.compile(r"[ \t]*#(?=[ \t]*[0-9])")
+_ABOUT_LINES = frozenset({"edit", "ed", "list", "list+", "auto"})
+"""Commands that may name lines of the program: `edit 210-240,260`."""
 _ASSIGNED = re.compile(r"[ \t]*=")
 _SUBSCRIPTED = re.compile(r"[ \t]*\[")
 _BRACKETS = re.compile(r"[\[\]|\n]")
@@ -35,7 +44,11 @@ def add_head(chunk: StatementTokens, text: str, lexeme: str, start: int, pos: in
     if lexeme == "d" and (found := _D_DT.match(text, start)):
         chunk.add("d/dt", "d/dt", start, found.end())
         return found.end()
-    if kind is None or _is_variable(text, lexeme, pos):
+    if (
+        kind is None
+        or _is_variable(text, lexeme, pos)
+        or (lexeme in _OF_ARRAYS and not _NAMED.match(text, pos))
+    ):
         chunk.add(NAME, lexeme, start, pos)
         return pos
     second = _SECOND_WORD.get(lexeme)
@@ -59,6 +72,13 @@ def add_head(chunk: StatementTokens, text: str, lexeme: str, start: int, pos: in
     elif kind == "FFT":
         if found := _FFT_KIND.match(text, pos):
             chunk.add(LETTER, found[1], found.start(1), found.end(1))
+            return found.end(1)
+    elif kind in _ABOUT_LINES or kind == "note":
+        copied = _COPIED.match(text, pos)
+        if (found := _LINES.match(text, copied.end() if copied else pos)) and (kind == "note") == bool(
+            copied
+        ):
+            chunk.add(RAW, found[1], found.start(1), found.end(1))
             return found.end(1)
     elif kind == "dump" and (found := _RUN.match(text, pos)):
         chunk.add("run", "run", found.start(1), found.end())

@@ -6,15 +6,16 @@ Lines are cached by their text: an edit parses one line anew, a second run none.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.cancellation import cancellation_point, handing_over
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.nodes.assignments import Bare
 from desire_tui.engine.nodes.commands import Simple
-from desire_tui.engine.nodes.control import Label
+from desire_tui.engine.nodes.control import GoTo, Label
 from desire_tui.engine.nodes.expressions import Call, Name
+from desire_tui.engine.nodes.files import Restore
 from desire_tui.engine.nodes.program import Placed, Program, SegmentText
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.source import Source, Span
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 
 ROOM = 1_000_000
 """Characters of lines of earlier programs that are cached; their nodes take ten times as many bytes."""
+FIRST_NUMBER, NUMBER_STEP = 210, 10
+"""How the lines of a program without numbers count."""
 LINE_COST = 100
 """What a line adds to that beside its characters."""
 
@@ -105,7 +108,7 @@ def parse(source: Source) -> Program:
     if alone and not is_numbered:
         problems += [Diagnostic("expression-alone", span, {}, source) for span in alone]
         problems.sort(key=lambda problem: problem.span or (0, 0))
-    return Program(source, tuple(script), tuple(segments), tuple(problems))
+    return Program(source, tuple(script), tuple(segments), tuple(problems), _line_places(source, script))
 
 
 def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic, ...]]:
@@ -143,7 +146,8 @@ def _swallowed(line: str, whole: Entry, parts: list[str]) -> bool:
     """Whether a line that only seems to go on (`x =`) would spoil a good statement in the next one."""
     if line.rstrip().endswith("_") or not _has_fault(whole):
         return False
-    following = _lines[parts[1]] or _parse_line(parts[1])
+    rest = "\n".join(parts[1:])
+    following = _lines[rest] or _parse_line(rest)
     return bool(following[0]) and not _has_fault(following) and not isinstance(following[0][0][0], Bare)
 
 
@@ -233,6 +237,43 @@ def goes_on(row: str, before: str = "") -> str:
     if before and row.lstrip().startswith("--"):
         return before  # a comment may stand between
     return (_lines[row] or _parse_line(row))[1]
+
+
+class NumberedLine(NamedTuple):
+    """A line's number and its rows, counted from 0."""
+
+    number: int
+    rows: range
+
+
+def numbered_lines(text: str) -> list[NumberedLine]:
+    """Return the lines of a program by their numbers, in the order of the text."""
+    rows = text.split("\n")
+    own: list[NumberedLine] = []
+    joined = {}
+    for _, _, number, lines in logical_lines(text):
+        joined[lines.start] = lines
+        if number is not None:
+            own.append(NumberedLine(number, lines))
+    if own:
+        return own
+    counted: list[NumberedLine] = []
+    at = 0
+    while at < len(rows):
+        lines = joined.get(at, range(at, at + 1))
+        if rows[at].strip() and not is_header(rows[at]):
+            counted.append(NumberedLine(FIRST_NUMBER + NUMBER_STEP * len(counted), lines))
+        at = lines.stop
+    return counted
+
+
+def _line_places(source: Source, script: list[Placed]) -> tuple[tuple[int, int], ...]:
+    """Return numbers and offsets of lines if the script jumps to any; else nothing, which costs nothing."""
+    targets = (placed.node.target for placed in script if isinstance(placed.node, GoTo | Restore))
+    if not any(target is not None and target.isdigit() for target in targets):
+        return ()
+    starts = source.line_starts
+    return tuple((line.number, starts[line.rows.start]) for line in numbered_lines(source.text))
 
 
 def _parse_line(line: str) -> Entry:

@@ -35,6 +35,8 @@ INFINITE_MIN = len("1e309")
 
 CONTINUES = frozenset("+*/^=-_")
 """What a row ends with that goes on in the next one."""
+_STARRED = frozenset({"drun", "drunr", "SHOW"})
+"""Statements that may end in `*`."""
 _OPEN = frozenset(OPENERS.values())
 
 _TOKEN = re.compile(
@@ -174,4 +176,4 @@ def _is_over(chunk: StatementTokens) -> bool:
 
 def _wants_more(chunk: StatementTokens) -> bool:
     kinds = chunk.kinds
-    return bool(kinds) and kinds[-1] in CONTINUES
+    return bool(kinds) and kinds[-1] in CONTINUES and not (kinds[-1] == "*" and kinds[0] in _STARRED)

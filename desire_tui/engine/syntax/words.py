@@ -12,11 +12,12 @@ KEYWORDS = {
     DELTA Vector Delta DOT AVG FFT display plot SHOW edit ed list keep load else proceed DYNAMIC OUT SAMPLE
     step term dispt dispxy DISPXY type stash recover CLEARN PLEARN INTP JACOBIAN store get tdelay delay
     trkhld func func2 invoke ARRAY STATE INTEGER COMPLEX erun run bye new NEW reload snapshot notebook
-    compare
+    compare auto
     """.split()  # noqa: SIM905 - a list of words reads better than a wall of quotes
 } | {
     "dimension": "ARRAY", "LEARN": "DELTA", "zz": "erun", "rld": "reload", "MACRO": "SUBMODEL", "quit": "bye",
-    "VECTOR": "Vector", "Vectr": "Vector", "MAT": "MATRIX", "Mat": "MATRIX", "old": "load",
+    "VECTOR": "Vector", "Vectr": "Vector", "VECTR": "Vector", "MAT": "MATRIX", "Mat": "MATRIX",
+    "Matrix": "MATRIX", "delta": "Delta", "UPDATE": "Delta", "old": "load",
 }  # fmt: skip
 """Each keyword with its kind: itself, or the word that it is another spelling of."""
 
@@ -35,7 +36,7 @@ RAW_AFTER = frozenset({"sh", "help", "keep", "keep+", "load", "snapshot", "noteb
 STAND_ALONE = frozenset(
     """
     exit STOP go reset clear time trace next repeat end write drun drunr irule restore dump note erun run
-    bye new NEW reload list ed edit
+    bye new NEW reload list ed edit auto SHOW
     """.split()  # noqa: SIM905 - as above
 ) | {"list+", "end while"}
 """Words that can be a whole statement: behind a `then`, `else` and `proceed` may follow them directly."""

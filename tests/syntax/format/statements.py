@@ -8,7 +8,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show
+from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.files import (
     Connect,
     Data,
@@ -110,6 +110,8 @@ def format_statement(node: Statement) -> str:
             return f"plot {listed(node.args)}"
         case Show():
             return f"SHOW {node.name}" + (f", {expression(node.columns)}" if node.columns is not None else "")
+        case ShowArea():
+            return "SHOW *" if node.by_size else "SHOW"
         case MatrixAssign():
             return _matrix(node)
         case VectorAssign():
@@ -203,6 +205,10 @@ def _file(node: FileCommand) -> str:
     argument = node.argument
     if argument is None:
         return node.word
+    if node.word in ("edit", "ed", "list", "list+", "auto"):
+        return f"{node.word} {argument}"
+    if node.word == "note":
+        return f"note #{argument}"
     return f"{node.word} {quoted(argument)}"
 
 
@@ -215,16 +221,19 @@ def _mask(mask: str | None) -> str:
 
 
 def _matrix(node: MatrixAssign) -> str:
-    bounds = ""
-    if node.lower is not None and node.upper is not None:
-        bounds = f"; {expression(node.lower)}, {expression(node.upper)}"
     word = "DELTA" if node.delta else "MATRIX"
-    return f"{word} {node.name} = {_mask(node.mask)}{expression(node.value)}{bounds}"
+    return f"{word} {node.name} = {_mask(node.mask)}{expression(node.value)}{_bounds(node)}"
+
+
+def _bounds(node: MatrixAssign | VectorAssign) -> str:
+    if node.lower is None or node.upper is None:
+        return ""
+    return f"; {expression(node.lower)}, {expression(node.upper)}"
 
 
 def _vector(node: VectorAssign) -> str:
     head = "Vectr delta" if node.delta else "Vector"
-    return f"{head} {node.name}{'^' if node.largest else ''} = {_mask(node.mask)}{expression(node.value)}"
+    return f"{head} {node.name}{'^' if node.largest else ''} = {_mask(node.mask)}{expression(node.value)}{_bounds(node)}"
 
 
 def _delay(node: Delay) -> str:

@@ -76,7 +76,19 @@ _SENTENCES: dict[str, Wording] = {
     ),
     "go-where": Wording(62, "only a comment may follow 'go'", "a jump is written: go to {text}"),
     "label-expected": Wording(79, "a label is missing behind '{word}'", "write: {word} name"),
-    "show-form": Wording(112, "SHOW is not written like this", "write: SHOW A, or: SHOW A, columns"),
+    "lines-form": Wording(62, "lines of the program are not named like this", "write: {word} 210-240, 260"),
+    "delay-form": Wording(
+        33, "{word} is not written like this", "write: {word} y = D(x, tau), or: {word} y = D, x, tau"
+    ),
+    "learn-form": Wording(
+        33,
+        "{word} is not written like this",
+        "write: CLEARN y = W(x) lrate, crit, PLEARN y = W*x; lrate, INTP y = W*x; thresh",
+    ),
+    "bounds-form": Wording(33, "two bounds stand behind the semicolon", "write: …; least, greatest"),
+    "show-form": Wording(
+        112, "SHOW is not written like this", "write: SHOW A, SHOW A, columns, SHOW or SHOW *"
+    ),
     "element-illegal": Wording(209, "{first} assigns a whole array", "leave the subscripts out"),
     "nested-too-deep": Wording(400, "more than {limit} brackets are open", "use intermediate variables"),
     "expression-too-deep": Wording(

@@ -88,7 +88,6 @@ MESSAGES: dict[str, Wording] = {
         "the program wants to run the shell command `{command}`, which is not allowed",
         "if you trust it: desire run --allow-shell",
     ),
-    "shell-failed": Wording(452, "the shell command `{command}` ended with status {status}"),
     "file-refused": Wording(
         451,
         "the program wants to {mode} {path}, {reason}: that is not allowed",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Declared, DeclaredGroup, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Show
+from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
 from desire_tui.engine.nodes.files import (
     Connect,
     Data,
@@ -182,6 +182,9 @@ class ScriptProductions:
 
     def show(self, kids: Kids, first: int, last: int) -> Statement:
         return Show(kids[1], plain(kids[3]) if len(kids) > 3 else None, first, last)
+
+    def show_area(self, kids: Kids, first: int, last: int) -> Statement:
+        return ShowArea(len(kids) > 1, first, last)
 
     def file_command(self, kids: Kids, first: int, last: int) -> Statement:
         return FileCommand(kids[0].kind, kids[1] if len(kids) > 1 else None, first, last)

@@ -24,7 +24,13 @@ from desire_tui.engine.nodes.segment import (
 from desire_tui.engine.syntax.build.children import Kids, Token, channel_of, mask_of, nodes_in, plain
 
 if TYPE_CHECKING:
+    from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.statements import Statement
+
+
+def _bounds(rest: Kids) -> tuple[Expr | None, Expr | None]:
+    """Return what stands behind the `;` of a sum."""
+    return (plain(rest[2]), plain(rest[4])) if len(rest) > 1 else (None, None)
 
 
 class Dynamic:
@@ -41,11 +47,12 @@ class Dynamic:
         largest = not delta and kids[2].kind == "^"
         at = 2 if kids[1].kind == "delta" else 1
         mask, rest = mask_of(kids[kids.index("=") + 1 :])
-        return VectorAssign(kids[at], plain(rest[0]), delta, largest, mask, first, last)
+        lower, upper = _bounds(rest)
+        return VectorAssign(kids[at], plain(rest[0]), delta, largest, mask, lower, upper, first, last)
 
     def matrix(self, kids: Kids, first: int, last: int) -> Statement:
         mask, rest = mask_of(kids[3:])
-        lower, upper = (plain(rest[2]), plain(rest[4])) if len(rest) > 1 else (None, None)
+        lower, upper = _bounds(rest)
         return MatrixAssign(kids[1], plain(rest[0]), kids[0].kind == "DELTA", mask, lower, upper, first, last)
 
     def dot(self, kids: Kids, first: int, last: int) -> Statement:
