@@ -21,6 +21,8 @@ _DELTA = re.compile(r"[ \t]*(delta)(?=[ \t]+[A-Za-z])")
 _NAMED = re.compile(r"[ \t]+[A-Za-z]")
 _OF_ARRAYS = frozenset({"delta", "UPDATE"})
 """Likely names of variables: keywords only where a name follows."""
+_BEYOND = frozenset({"compare", "notebook", "snapshot"})
+"""Words that the original does not have: a program's own submodels of these names win."""
 _RUN = re.compile(r"[ \t]+(run)(?![A-Za-z0-9$_])")
 _LINES = re.compile(
     r"[ \t]*([0-9]+(?:[ \t]*[-\u2013,;][ \t]*[0-9]+)*)(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed))"
@@ -44,11 +46,7 @@ def add_head(chunk: StatementTokens, text: str, lexeme: str, start: int, pos: in
     if lexeme == "d" and (found := _D_DT.match(text, start)):
         chunk.add("d/dt", "d/dt", start, found.end())
         return found.end()
-    if (
-        kind is None
-        or _is_variable(text, lexeme, pos)
-        or (lexeme in _OF_ARRAYS and not _NAMED.match(text, pos))
-    ):
+    if kind is None or _is_variable(text, lexeme, pos) or _gives_way(text, lexeme, pos):
         chunk.add(NAME, lexeme, start, pos)
         return pos
     second = _SECOND_WORD.get(lexeme)
@@ -84,6 +82,13 @@ def add_head(chunk: StatementTokens, text: str, lexeme: str, start: int, pos: in
         chunk.add("run", "run", found.start(1), found.end())
         return found.end()
     return pos
+
+
+def _gives_way(text: str, lexeme: str, pos: int) -> bool:
+    """Whether a word that is a likely name is one: `delta` alone, or a submodel's call `compare(a, b)`."""
+    if lexeme in _OF_ARRAYS:
+        return not _NAMED.match(text, pos)
+    return lexeme in _BEYOND and text.startswith("(", pos)
 
 
 def _is_variable(text: str, lexeme: str, pos: int) -> bool:
