@@ -181,7 +181,7 @@ def test_carriage_returns_end_lines():
     """`\\n`, `\\r\\n` and `\\r` alone, mixed; rows and columns count them alike."""
     source = Source("x = 1\ry = 2 -- a\r\nwrite x\n\r z = )")
     program = parse(source)
-    assert [placed.at for placed in program.script] == [0, 6, 18]
+    assert [placed.at for placed in program.script] == [0, 6, 18, 28]  # the last one is faulty
     (problem,) = program.problems
     assert source.position(problem.span.start) == (5, 6)
     assert source.line(2) == "y = 2 -- a"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import OutOfTime, handing_over
@@ -11,15 +10,13 @@ from desire_tui.engine.check.unknown import misplaced, unknown_names
 from desire_tui.engine.check.uses import unfit_uses
 from desire_tui.engine.diagnostics.spelling import few_hints
 from desire_tui.engine.gc_pause import undisturbed_allocation
-from desire_tui.engine.lowering.lowering import functions_of, in_order
+from desire_tui.engine.lowering.lowering import functions_of, in_order, without_consequences
 from desire_tui.engine.lowering.segments import lower_segment
 from desire_tui.engine.structure.structure import structure as find_structure
 
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.nodes.program import Program
-
-_WORD = re.compile(r"[A-Za-z][\w$]*")
 
 
 @undisturbed_allocation
@@ -48,27 +45,13 @@ def _all_problems(program: Program) -> list[Diagnostic]:
         for text in program.segments:
             at = text.at
             scope = survey.scope_for(text)
-            problems.extend(lower_segment(text, scope, program.source, functions, found.submodels)[1])
+            problems.extend(lower_segment(text, scope, program.source, functions, found)[1])
         at = len(program.source.text)
         problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
         problems.extend(unfit_uses(program, found))
     return problems
 
 
-_MISSING = frozenset({19, 59, 70, 200, 201, 215})
-"""A name is unknown."""
-
-
 def _without_echoes(problems: list[Diagnostic], program: Program) -> list[Diagnostic]:
-    """Leave out names that seem to be missing because their lines could not be read."""
-    broken = _names_in_broken_lines(program)
-    return in_order(p for p in problems if p.code not in _MISSING or p.facts.get("name") not in broken)
-
-
-def _names_in_broken_lines(program: Program) -> set[str]:
-    """Return the names on lines that could not be parsed; they may be declared there: no second mistake."""
-    source, names = program.source, set[str]()
-    for problem in program.problems:
-        if problem.span is not None:
-            names.update(_WORD.findall(source.line(source.position(problem.span.start).row)))
-    return names
+    """Leave out names that seem to be missing because their lines are wrong."""
+    return in_order(without_consequences(problems, program, problems))

@@ -5,13 +5,15 @@ from __future__ import annotations
 from bisect import bisect_left
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.nodes.files import Data
 from desire_tui.engine.nodes.signs import literal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.program import Placed
 
@@ -21,14 +23,18 @@ if TYPE_CHECKING:
 class DataList:
     """All `data` items of a script, and the next one to be read.
 
-    `places` are those of the data statements. `make` makes the function that evaluates an expression in the
-    statement at a place.
+    `places` are those of the data statements, `faults` says by its offset what is wrong with one. `make`
+    makes the function that evaluates an expression in the statement at a place.
     """
 
     def __init__(
-        self, script: Sequence[Placed], places: Sequence[int], make: Callable[[int, Expr], Evaluator]
+        self,
+        script: Sequence[Placed],
+        places: Sequence[int],
+        faults: Mapping[int, Diagnostic],
+        make: Callable[[int, Expr], Evaluator],
     ) -> None:
-        self._script, self._places, self._make = script, places, make
+        self._script, self._places, self._faults, self._make = script, places, faults, make
         self._list = 0
         self._item = 0
         self._evaluators: dict[tuple[int, int], Evaluator] = {}
@@ -46,7 +52,8 @@ class DataList:
         while self._list < len(self._places):
             place = self._places[self._list]
             node = self._script[place].node
-            assert isinstance(node, Data)
+            if not isinstance(node, Data):  # a line that cannot be read
+                raise DesireError(self._faults[self._script[place].at])
             if self._item < len(node.items):
                 item, self._item = self._item, self._item + 1
                 value = literal(node.items[item])

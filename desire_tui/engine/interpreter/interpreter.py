@@ -71,8 +71,6 @@ class Interpreter:
 
     def run(self) -> None:
         """Run the script from the top; files still connected are closed first."""
-        if self.structure.problems:
-            raise DesireError(*self.structure.problems)
         self._machine.stopped = None
         self._machine.data.rewind()
         self.channels.close()

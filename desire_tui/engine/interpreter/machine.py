@@ -81,7 +81,7 @@ class ScriptMachine:
         self.scope = NameScope(values, functions, structure.procedures)
         self.functions = UserFunctions(functions, self.scope, self.build, program.source)
         self.code_table = CodeTable(partial(make, self), self._halt)
-        self.data = DataList(program.script, structure.data, partial(data_item, self))
+        self.data = DataList(program.script, structure.data, structure.faults, partial(data_item, self))
         self.procedures: dict[tuple[object, ...], ScriptCode] = {}
         text = StatementList(program.script, structure, program.source)
         self.script = self.link(text, self.scope, 0, len(program.script))

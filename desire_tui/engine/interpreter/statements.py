@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never, get_args
 
-from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.diagnostics import DesireError, closest
 from desire_tui.engine.interpreter import (
     control,
     data_and_input,
@@ -24,6 +24,7 @@ from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label,
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import (
     Connect,
     Data,
@@ -62,6 +63,9 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
     node = context.node
     if code.is_command:
         _must_be_command(node)
+    elif (fault := code.text.structure.faults.get(context.placed.at)) is not None:
+        others = (other for other in code.text.structure.faults.values() if other is not fault)
+        raise DesireError(fault, *others)  # the others are known as well: all may be mended at once
     match node:
         case Assign():
             return assign(context, node)
@@ -129,6 +133,7 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
             return host_statements.host_command(context, node)
     if isinstance(node, SegmentOnlyStatement):
         raise ScriptFault("not-in-script", node)
+    assert not isinstance(node, Faulty)  # it has a fault
     assert_never(node)
 
 

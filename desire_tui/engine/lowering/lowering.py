@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -43,9 +44,9 @@ def lower(
         raise DesireError(Diagnostic(key, facts={"label": label}, source=program.source))
     found = structure if structure is not None else find_structure(program)
     scope = LiveScope(values)
-    segment, problems = lower_segment(text, scope, program.source, functions_of(found), found.submodels, rule)
+    segment, problems = lower_segment(text, scope, program.source, functions_of(found), found, rule)
     if problems:
-        raise DesireError(*in_order(problems))
+        raise DesireError(*in_order(without_consequences(problems, program, found.problems)))
     return replace(segment, constants=tuple(scope.constants.items())) if scope.constants else segment
 
 
@@ -56,6 +57,31 @@ def functions_of(structure: Structure) -> dict[str, FunctionText]:
         for name, placed in structure.functions.items()
         if isinstance(placed.node, Function)
     }
+
+
+def without_consequences(
+    problems: Iterable[Diagnostic], program: Program, others: Iterable[Diagnostic]
+) -> list[Diagnostic]:
+    """Leave out that names are unknown which may get their meaning on lines that are wrong themselves.
+
+    Those are what could not be read, and definitions among `others`.
+    """
+    causes = [*program.problems, *(p for p in others if p.key in _UNUSABLE)]
+    if not causes:
+        return list(problems)
+    names = set[str]()
+    for cause in causes:
+        if cause.span is not None:
+            line = program.source.line(program.source.position(cause.span.start).row)
+            names.update(_WORD.findall(line))
+    return [p for p in problems if p.code not in _MISSING or p.facts.get("name") not in names]
+
+
+_WORD = re.compile(r"[A-Za-z][\w$]*")
+_MISSING = frozenset({19, 59, 70, 200, 201, 215})
+"""A name is unknown."""
+_UNUSABLE = frozenset({"dummy-twice", "nested-definition", "unclosed-definition", "system-variable-declared"})
+"""What a definition is wrong by that nobody can use."""
 
 
 def in_order(problems: Iterable[Diagnostic]) -> list[Diagnostic]:

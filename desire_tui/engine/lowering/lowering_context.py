@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -150,12 +150,16 @@ class LoweringContext(ABC):
         span = part if isinstance(part, Span) else self.span(part)
         if isinstance(part, Name) and span.end - span.start > len(part.name):
             span = self.source.name_within(span, part.name)  # a statement that keeps the name alone
+        self.add(Diagnostic(key, span, facts, self.source))
+        return BAD
+
+    def add(self, problem: Diagnostic) -> None:
+        """Note a problem of the text being lowered, and the invocations and calls that led there."""
         places = self.frame.invoked[::-1]
         if len(places) > PLACES_MOST:
             places = (*places[: PLACES_MOST - 1], places[-1])
         related = tuple(Diagnostic("expanded-here", s, {}, self.source) for s in places)
-        self.problems.append(Diagnostic(key, span, facts, self.source, related=related))
-        return BAD
+        self.problems.append(replace(problem, related=(*problem.related, *related)) if related else problem)
 
     def first_report(self, name: str) -> bool:
         """Whether no problem with this name has been reported yet; from now on one has."""

@@ -26,6 +26,7 @@ from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import If
 from desire_tui.engine.nodes.display import Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Element, Name
+from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.nodes.segment import (
     Delay,
@@ -54,7 +55,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowering.submodels import Line
     from desire_tui.engine.nodes.program import SegmentText
     from desire_tui.engine.source import Source
-    from desire_tui.engine.structure.structure import SubmodelText
+    from desire_tui.engine.structure.structure import Structure
 
 _ASSIGN_NOTHING_IN_A_PASS = frozenset({Derivative, VectorDerivative, *get_args(ScriptOnlyStatement)})
 """States change between passes, statements of the script are refused."""
@@ -65,14 +66,17 @@ def lower_segment(
     scope: SegmentScope,
     source: Source,
     functions: Mapping[str, FunctionText],
-    submodels: Mapping[str, SubmodelText],
+    structure: Structure,
     rule: int | None = None,
 ) -> tuple[Segment, list[Diagnostic]]:
     """Return the lowered segment and every problem found in it."""
+    submodels, faults = structure.submodels, structure.faults
     lowering_cache.age()
     context = ExpressionLowering(scope, source, functions)
     lines = expand(context, text.body, submodels)
     jacobian_lines = expand(context, text.jacobian, submodels)
+    if faults:
+        lines, jacobian_lines = _sound(context, lines, faults), _sound(context, jacobian_lines, faults)
     _collect_targets(context, lines)
     _collect_targets(context, jacobian_lines)
     builder = SegmentBuilder(context, _states(context, lines), rule)
@@ -107,6 +111,15 @@ def lower_segment(
         breakpoints=_filled_by_script(context.breakpoints, body),
     )  # fmt: skip
     return segment, context.problems
+
+
+def _sound(context: LoweringContext, lines: list[Line], faults: Mapping[int, Diagnostic]) -> list[Line]:
+    """Return the lines that can be lowered; what is wrong with the others is noted."""
+    for _, frame in lines:
+        if frame.at in faults:
+            context.enter(frame)
+            context.add(faults[frame.at])
+    return [line for line in lines if line[1].at not in faults]
 
 
 def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
@@ -154,6 +167,7 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
         word = context.source.word(context.span(node).start)
         context.report("illegal-in-dynamic", node, word=word)
         return None
+    assert not isinstance(node, Faulty)  # those were left out
     assert_never(node)
 
 

@@ -10,6 +10,7 @@ from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label,
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Call, Element, Name
+from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
 from desire_tui.engine.nodes.segment import (
     Delay,
@@ -70,7 +71,7 @@ def assigned(node: Statement) -> Assigned:
             return Assigned((), tuple(part.name for part in args[1:] if isinstance(part, Name)))
         case If() | While() | Until() | Label() | GoTo() | Simple() | Procedure():
             return _NOTHING
-        case Declare() | Function() | Submodel() | Bare() | Invoke():
+        case Declare() | Function() | Submodel() | Bare() | Invoke() | Faulty():
             return _NOTHING
         case Term() | Sample() | Show() | ShowArea() | Plot() | Display() | Drun() | Irule() | Seed():
             return _NOTHING

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.nodes.record import node
 from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.nodes.record import Node
     from desire_tui.engine.nodes.statements import Statement
@@ -41,7 +43,8 @@ class SegmentText:
 class Program:
     """A parsed program. `script` is flat: blocks are found by `structure.structure`.
 
-    A program with `problems` can still be looked at (highlighting, completion), but not run.
+    `faults` are those of its `problems` that belong to a `Faulty` statement, by its offset: they stop a
+    program that gets there. The others (`unreadable`) stop it at once: nobody knows what the text was to be.
     """
 
     source: Source
@@ -50,6 +53,13 @@ class Program:
     problems: tuple[Diagnostic, ...] = ()
     lines: tuple[tuple[int, int], ...] = ()
     """Numbers of lines and where they begin, if the script jumps to any by its number."""
+    faults: Mapping[int, Diagnostic] = field(default_factory=dict)
+
+    @property
+    def unreadable(self) -> tuple[Diagnostic, ...]:
+        """Problems with text that is no statement at all."""
+        waiting = {id(fault) for fault in self.faults.values()}
+        return tuple(p for p in self.problems if p.severity == "error" and id(p) not in waiting)
 
     def segment(self, label: str | None) -> SegmentText | None:
         """Return the unlabelled segment (None) or the one with that label."""

@@ -11,10 +11,11 @@ from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
+from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
 from desire_tui.engine.nodes.segment import SegmentOnly
 
-SharedStatement = Assign | Bare | Dot | MatrixAssign | VectorAssign | If | Simple | Show | ShowArea
+SharedStatement = Assign | Bare | Dot | Faulty | MatrixAssign | VectorAssign | If | Simple | Show | ShowArea
 """Statements of both the script and DYNAMIC segments."""
 
 ScriptOnlyStatement = (

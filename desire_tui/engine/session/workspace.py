@@ -76,13 +76,17 @@ class Workspace:
         return self.permit(Path(f"{path.stem if path is not None else 'untitled'}.stash.npy"), mode, ask)
 
     def runnable(self) -> tuple[Program, Structure]:
-        """Return the program and its structure. DesireError 215: there is none; or all its problems."""
+        """Return the program and its structure.
+
+        DesireError 215: there is none; or all its problems, if some of its text is no statement at all. A
+        statement that is wrong stops a program that gets there.
+        """
         if self.program is None or self.structure is None:
             raise DesireError(Diagnostic("no-program"))
-        if any(p.severity == "error" for p in (*self.program.problems, *self.structure.problems)):
+        if self.program.unreadable:
             from desire_tui.engine.check.checker import check
 
-            # the whole text's problems at once, not only those that keep it from starting
+            # the whole text's errors at once, not only those that keep it from starting
             every = (p.within(self.program.source) for p in check(self.program))
             raise DesireError(*(p for p in every if p.severity == "error"))
         return self.program, self.structure

@@ -14,6 +14,7 @@ from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label,
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Call
+from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
 from desire_tui.engine.nodes.names import dummies
 from desire_tui.engine.nodes.statements import SegmentOnlyStatement
@@ -24,6 +25,16 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.commands import Word
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.source import Source
+
+
+CLOSERS = {
+    "if": "proceed", "for": "next", "while": "end while", "repeat": "until", "PROCEDURE": "end",
+    "SUBMODEL": "end",
+}  # fmt: skip
+"""The word that closes what another opens."""
+ENDS = frozenset(CLOSERS.values())
+MISMATCHES = frozenset({"stray-end", "stray-else", "stray-closer", "unclosed-block", "unclosed-definition"})
+"""What is no second mistake of the user where another opener or closer cannot be read."""
 
 
 @dataclass(slots=True)
@@ -57,8 +68,17 @@ class BlockSurvey:
         return replace(self.found, problems=tuple(self.problems))
 
     def report(self, key: str, placed: Placed, *related: Diagnostic, **facts: object) -> None:
-        """Note a problem with a statement."""
-        self.problems.append(Diagnostic(key, placed.span(), facts, self.source, related=related))
+        """Note an error of a statement: a program that gets there is stopped by its first one."""
+        if isinstance(placed.node, Faulty):
+            return  # that it cannot be read has been said
+        problem = Diagnostic(key, placed.span(), facts, self.source, related=related)
+        if key not in MISMATCHES or not self.broken:
+            self.problems.append(problem)
+        self.found.faults.setdefault(placed.at, problem)
+
+    def warn(self, key: str, placed: Placed, **facts: object) -> None:
+        """Note what is legal but hardly meant."""
+        self.problems.append(Diagnostic(key, placed.span(), facts, self.source, "warning"))
 
     def also(self, key: str, place: int) -> Diagnostic:
         """Point at a second place."""
@@ -106,10 +126,13 @@ class BlockSurvey:
                 return self.closes(place, placed, "until")
             case Procedure() | Submodel():
                 return self._definition(place, placed, node)
+            case Faulty(word):
+                return self._faulty(place, placed, word)
             case Function(name):
                 self._not_in_definition(placed, name)
                 self._new_name(place, placed, node)
-                self.found.functions.setdefault(name, placed)
+                if placed.at not in self.found.faults:
+                    self.found.functions.setdefault(name, placed)
                 return None
             case Label(name):
                 return self._label(place, placed, name)
@@ -127,6 +150,19 @@ class BlockSurvey:
         if isinstance(node, SegmentOnlyStatement):
             return None
         assert_never(node)
+
+    def _faulty(self, place: int, placed: Placed, word: str) -> None:
+        """Let a statement that cannot be read open and close what its word does."""
+        if word in CLOSERS:
+            self.opens(place, CLOSERS[word])
+        elif word == "else":
+            self._else(place, placed)
+        elif word in ENDS:
+            self.closes(place, placed, word)
+        elif word == "end if" and self._in_submodel():
+            self.closes(place, placed, "proceed")
+        elif word == "data":
+            self.found.data.append(place)
 
     def _word(self, place: int, placed: Placed, word: Word) -> None:
         match word:
@@ -152,16 +188,16 @@ class BlockSurvey:
     def opens(self, place: int, closer: str) -> None:
         """Begin a block."""
         self.parents[place] = self.found.inside[place]
-        is_submodel = isinstance(self.statements[place].node, Submodel)
+        node = self.statements[place].node
+        is_submodel = isinstance(node, Submodel) or (isinstance(node, Faulty) and node.word == "SUBMODEL")
         self.open.append(_Open(place, closer, is_submodel or self._in_submodel()))
 
     def closes(self, place: int, placed: Placed, word: str) -> None:
         """End the innermost block that `word` can end; blocks left open inside are reported."""
         at = next((i for i in reversed(range(len(self.open))) if self.open[i].closer == word), None)
         if at is None:
-            if not self.broken:
-                key = {"end": "stray-end", "proceed": "stray-else"}.get(word, "stray-closer")
-                self.report(key, placed, word=word)
+            key = {"end": "stray-end", "proceed": "stray-else"}.get(word, "stray-closer")
+            self.report(key, placed, word=word)
             return
         for block in reversed(self.open[at + 1 :]):
             self._unclosed(block)
@@ -173,6 +209,8 @@ class BlockSurvey:
             partner[block.place], partner[block.middle] = block.middle, place
         partner[place] = block.place
         opener = self.statements[block.place]
+        if opener.at in self.found.faults:
+            return  # a definition that is wrong cannot be used
         if isinstance(opener.node, Procedure):
             text = ProcedureText(opener.node, opener, block.place, place)
             self.found.procedures.setdefault(opener.node.name, text)
@@ -182,7 +220,7 @@ class BlockSurvey:
     def _unclosed(self, block: _Open) -> None:
         """Report an open block, unless it is one that may stay open: `if` in a submodel rules its rest."""
         opener = self.statements[block.place]
-        if self.broken or (isinstance(opener.node, If) and opener.node.condition is None):
+        if isinstance(opener.node, If) and opener.node.condition is None:
             return
         key = "unclosed-definition" if block.closer == "end" else "unclosed-block"
         word = self.source.word(opener.at)
@@ -197,8 +235,7 @@ class BlockSurvey:
 
     def _else(self, place: int, placed: Placed) -> None:
         if not self.open or self.open[-1].closer != "proceed":
-            if not self.broken:
-                self.report("stray-else", placed, word="else")
+            self.report("stray-else", placed, word="else")
             return
         block = self.open[-1]
         if block.middle >= 0:

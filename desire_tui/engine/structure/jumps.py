@@ -9,6 +9,7 @@ from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import GoTo, If, Label, Procedure
 from desire_tui.engine.nodes.declarations import Submodel
+from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Restore
 from desire_tui.engine.nodes.program import Placed, SegmentText
 
@@ -73,7 +74,8 @@ def match_segments(survey: BlockSurvey, segments: Sequence[SegmentText]) -> None
     for segment in segments:
         if segment.label is not None and (segment.label in seen or segment.label in survey.found.labels):
             start = Placed(Label(segment.label, 0, len("label ") + len(segment.label)), segment.at)
-            survey.report("label-twice", start, name=segment.label)
+            key = "segment-label-twice" if segment.label in seen else "segment-label-in-script"
+            survey.warn(key, start, name=segment.label)
         seen.setdefault(segment.label, segment)
         partner = survey.found.segment_partner.setdefault(segment.label, {})
         if seen[segment.label] is segment:
@@ -85,14 +87,18 @@ def _segment(survey: BlockSurvey, body: Sequence[Placed], partner: dict[int, int
     for place, placed in enumerate(body):
         cancellation_point()
         node = placed.node
-        if isinstance(node, If):
+        if isinstance(node, Faulty):
+            if node.word == "if":
+                opened.append(place)
+            elif node.word in ("else", "end if", "proceed") and opened:
+                opened.pop()
+        elif isinstance(node, If):
             if node.condition is not None:
                 survey.report("then-in-segment", placed)
             opened.append(place)
         elif isinstance(node, Simple) and node.word in ("else", "end if", "proceed"):
             if not opened:
-                if not survey.broken:
-                    survey.report("stray-else", placed, word=node.word)
+                survey.report("stray-else", placed, word=node.word)
                 continue
             last = opened.pop()
             if node.word == "else" and isinstance(body[last].node, Simple):

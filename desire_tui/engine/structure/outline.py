@@ -41,7 +41,8 @@ class Structure:
     definition, −1 outside of all. `data`: places of the data statements. `segment_partner`: per segment (by
     its label) the same as `partner` for `if`, `else` and `end if` in its body; an `if` without `end if` has
     none and rules the rest of the segment. `labels` and `numbers` (of lines) give places; the definitions go
-    by name.
+    by name. `faults`: by a statement's offset the error that stops a program which gets to it, whether in the
+    script, in a segment or in a submodel.
     """
 
     partner: dict[int, int] = field(default_factory=dict)
@@ -55,6 +56,7 @@ class Structure:
     data: list[int] = field(default_factory=list)
     segment_partner: dict[str | None, dict[int, int]] = field(default_factory=dict)
     problems: tuple[Diagnostic, ...] = ()
+    faults: dict[int, Diagnostic] = field(default_factory=dict)
 
     def place(self, target: str) -> int | None:
         """Return where a label or a line number (digits) stands in the script."""

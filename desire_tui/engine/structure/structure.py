@@ -27,6 +27,7 @@ def structure(program: Program) -> Structure:
     # Where an opener or closer could not be parsed, its partner is not the user's second mistake.
     broken = any(p.facts.get(fact) in _BLOCK_WORDS for p in program.problems for fact in ("word", "close"))
     survey = BlockSurvey(program.script, program.source, broken)
+    survey.found.faults.update(program.faults)
     survey.script()
     survey.find_line_numbers(program.lines)
     known = {segment.label for segment in program.segments}

@@ -15,6 +15,7 @@ from desire_tui.engine.nodes.assignments import Bare
 from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import GoTo, Label
 from desire_tui.engine.nodes.expressions import Call, Name
+from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Restore
 from desire_tui.engine.nodes.program import Placed, Program, SegmentText
 from desire_tui.engine.recently_used import RecentlyUsed
@@ -23,7 +24,7 @@ from desire_tui.engine.syntax import shapes
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
 from desire_tui.engine.syntax.shapes import statement
-from desire_tui.engine.syntax.statement_tokens import TokenFault, shown
+from desire_tui.engine.syntax.statement_tokens import CLASSES, NAME, TokenFault, shown
 from desire_tui.engine.syntax.tokens import CONTINUES, scan
 from desire_tui.engine.syntax.words import keyword_like
 
@@ -47,6 +48,10 @@ _lines: RecentlyUsed[str, Entry] = RecentlyUsed(ROOM, cost=lambda line: len(line
 _NUMBERED = re.compile(r"[ \t]*([0-9]+)(?=[ \t]*(?:\r?\Z|--|—)|[ \t]+[A-Za-z|])")
 _HEADER = re.compile(r"[ \t]*(?:/[ \t]*(?:NEW)?[ \t\r]*\Z|PIC[ \t]*['\"‘’“”])")
 _STARTS_ODD = frozenset("0123456789/P \t")
+_DIVIDERS = frozenset({"DYNAMIC"})
+_PARTS = frozenset({"DYNAMIC", "label", "STOP", "JACOBIAN"})
+"""Words that divide what stands behind DYNAMIC: if one cannot be read, nobody knows what belongs where."""
+_BEHIND_NAMES = frozenset({"=", "[", "("})
 
 
 @undisturbed_allocation
@@ -57,6 +62,7 @@ def parse(source: Source) -> Program:
     script: list[Placed] = []
     segments: list[SegmentText] = []
     problems: list[Diagnostic] = []
+    faults: dict[int, Diagnostic] = {}
     body: list[Placed] | None = script
     jacobian: list[Placed] = []
     opened: tuple[str | None, int] = (None, 0)
@@ -80,7 +86,11 @@ def parse(source: Source) -> Program:
             for item, offset in entry[0]:
                 if isinstance(item, TokenFault):
                     if body is not None:
-                        problems.append(_diagnostic(item, at + offset, source))
+                        problem = _diagnostic(item, at + offset, source)
+                        problems.append(problem)
+                        if item.meant and item.meant not in (_DIVIDERS if body is script else _PARTS):
+                            body.append(Placed(Faulty(item.meant, 0, item.end), at + offset, number))
+                            faults[at + offset] = problem
                     continue
                 if isinstance(item, Bare) and not isinstance(item.value, Call) and body is not None:
                     problems.append(_diagnostic(_no_statement(item), at + offset, source))
@@ -108,7 +118,8 @@ def parse(source: Source) -> Program:
     if alone and not is_numbered:
         problems += [Diagnostic("expression-alone", span, {}, source) for span in alone]
         problems.sort(key=lambda problem: problem.span or (0, 0))
-    return Program(source, tuple(script), tuple(segments), tuple(problems), _line_places(source, script))
+    lines = _line_places(source, script)
+    return Program(source, tuple(script), tuple(segments), tuple(problems), lines, faults)
 
 
 def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic, ...]]:
@@ -285,6 +296,23 @@ def _parse_line(line: str) -> Entry:
 
 
 def _item(chunk: StatementTokens) -> Statement | TokenFault:
+    item = _parsed(chunk)
+    if isinstance(item, TokenFault):
+        item.meant = _meant(chunk, item)
+    return item
+
+
+def _meant(chunk: StatementTokens, fault: TokenFault) -> str:
+    """Return the word by which a faulty statement is known: its keyword, or NAME of one that assigns."""
+    if not chunk.kinds or fault.key == "not-a-statement":
+        return ""
+    head = chunk.kinds[0]
+    if head == NAME:
+        return NAME if chunk.kinds[1:2] and chunk.kinds[1] in _BEHIND_NAMES else ""
+    return "" if head in CLASSES or not head[0].isalpha() else head
+
+
+def _parsed(chunk: StatementTokens) -> Statement | TokenFault:
     if chunk.fault is not None:
         return chunk.fault
     try:

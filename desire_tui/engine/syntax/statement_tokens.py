@@ -17,13 +17,17 @@ QUOTED_MAX = 40
 
 
 class TokenFault:
-    """Something wrong in a statement: wording key, place counted from the statement's start, facts."""
+    """Something wrong in a statement: wording key, place counted from the statement's start, facts.
 
-    __slots__ = ("end", "facts", "key", "start")
+    `meant` is the first word of a statement of which nothing else is known, "" where there is none.
+    """
+
+    __slots__ = ("end", "facts", "key", "meant", "start")
 
     def __init__(self, key: str, start: int, end: int, facts: dict[str, object] | None = None) -> None:
         self.key, self.start, self.end = key, start, end
         self.facts = facts if facts is not None else {}
+        self.meant = ""
 
 
 def shown(text: str) -> str:

@@ -107,6 +107,14 @@ _SENTENCES: dict[str, Wording] = {
     "unclosed-definition": Wording(58, "'{word}' has no 'end'", "add 'end' behind its last statement"),
     "no-such-label": Wording(68, "there is no label '{name}' in the script", "set one with: label NAME"),
     "label-twice": Wording(79, "the label '{name}' is set twice", "choose another name"),
+    "segment-label-twice": Wording(
+        79, "this segment never runs: '{name}' labels an earlier one", "choose another name"
+    ),
+    "segment-label-in-script": Wording(
+        79,
+        "'{name}' labels this segment and a place in the script",
+        "drun {name} runs the segment, go to {name} jumps: two names would be clearer",
+    ),
     "first-label": Wording(79, "the first one is here"),
     "jump-inside": Wording(82, "'go to {name}' would jump into a block", "jump to its beginning instead"),
     "jump-out": Wording(82, "'go to {name}' would jump out of a PROCEDURE", "exit returns to the call"),
