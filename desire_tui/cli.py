@@ -152,7 +152,11 @@ def _run(file: str, **options: Any) -> int:
 @main.command()
 @click.argument("files", nargs=-1, required=True)
 def check(files: tuple[str, ...]) -> None:
-    """Report the problems of programs without running them. Exit status: 0 none, 1 errors."""
+    """Report the problems of programs without running them.
+
+    A folder stands for all programs (.src) below it, and a summary by kind of problem follows. Exit status: 0
+    no errors (warnings, perhaps), 1 errors.
+    """
 
     def work() -> int:
         from desire_tui.batch.cli_commands import check_files

@@ -36,20 +36,34 @@ def source_named(name: str) -> Source:
 
 
 def check_files(names: Sequence[str]) -> int:
-    """Report the problems of programs on standard error; 1 if any is an error or cannot be read."""
+    """Report the problems of programs on standard error; 1 if any is an error or cannot be read.
+
+    A folder stands for all programs below it; then a summary by kind of problem is printed.
+    """
+    from desire_tui.batch.program_folder import Summary, programs_below
     from desire_tui.engine.session.session import Session
 
-    session, status = Session(), DONE
+    session, status, summary = Session(), DONE, Summary()
+    has_folders = False
     for name in names:
-        try:
-            problems = session.check(source_named(name))
-        except DesireError as error:
-            report(error.diagnostics)
+        is_folder = name != _STANDARD_INPUT and Path(name).is_dir()
+        has_folders |= is_folder
+        hidden: list[Diagnostic] = []
+        for program in programs_below(name, hidden) if is_folder else (name,):
+            try:
+                # many programs: without the JACOBIANs, for which scripts are carried out
+                problems = session.check(source_named(program), quick=is_folder)
+            except DesireError as error:
+                problems = error.diagnostics
+            report(problems)
+            summary.add(problems)
+            if any(p.severity == "error" for p in problems):
+                status = FAILED
+        if hidden:
+            report(hidden)
             status = FAILED
-            continue
-        report(problems)
-        if any(p.severity == "error" for p in problems):
-            status = FAILED
+    if has_folders:
+        sys.stdout.write("".join(f"{line}\n" for line in summary.lines()))
     return status
 
 
