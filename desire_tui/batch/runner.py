@@ -130,6 +130,10 @@ class Runner:
                 session.go()
             if session.stopped_at is not None:
                 self.status = "stopped"
+            if session.faulty:
+                facts = {"count": len(session.faulty)}
+                note = Diagnostic("errors-not-reached", None, facts, self._source, "warning")
+                self._listener.problems((note,))
         except DesireError as error:
             self.problems.extend(error.diagnostics)
             ended = any(d.code == _USER_ENDED for d in error.diagnostics)

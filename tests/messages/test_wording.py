@@ -40,6 +40,7 @@ ELSEWHERE = {
     "fast-code-missing": "tests/codegen/test_background_faults.py::test_the_user_is_told_once",
     "check-incomplete": "tests/check/test_time_limit.py::test_a_check_that_is_stopped_tells_what_it_found_and_where_it_stopped",
     "check-too-long": "tests/app/test_live_check.py::test_a_text_that_is_not_checked_is_said",
+    "errors-not-reached": "tests/batch/test_unreached_errors.py::test_a_warning_counts_what_was_not_reached",
     "time-limit": "tests/batch/test_headless.py::test_timeout_is_status_3",
     "set-unknown": "tests/batch/test_headless.py::test_a_setting_the_program_has_no_use_for",
     "set-array": "tests/batch/test_headless.py::test_a_setting_the_program_has_no_use_for",

@@ -93,6 +93,14 @@ class Session:
         return self._workspace.program
 
     @property
+    def faulty(self) -> tuple[Diagnostic, ...]:
+        """Errors of the active program's text that stop it where they are reached, and nowhere else."""
+        program, structure = self._workspace.program, self._workspace.structure
+        if program is None or structure is None:
+            return ()
+        return tuple(p for p in (*program.problems, *structure.problems) if p.severity == "error")
+
+    @property
     def runs(self) -> list[RunRecord]:
         """The runs since the program started, oldest first; old ones go when they fill the memory allowed."""
         return self._runs.kept

@@ -93,5 +93,8 @@ MESSAGES: dict[str, Wording] = {
         "the program wants to {mode} {path}, {reason}: that is not allowed",
         "if you trust it: desire run --allow-write (for reading, too)",
     ),
+    "errors-not-reached": Wording(
+        412, "{count} error(s) stand where the program did not come", "desire check lists them"
+    ),
     "time-limit": Wording(490, "stopped after {seconds:g} second(s), the limit given"),
 }
