@@ -59,6 +59,9 @@ class RecordingHost:
     def show(self, quantity, columns) -> None:
         self.calls.append(("show", quantity.name, columns))
 
+    def show_area(self, *, by_size) -> None:
+        self.calls.append(("show area", by_size))
+
     def note(self, text) -> None:
         self.calls.append(("note", text))
 

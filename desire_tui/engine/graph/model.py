@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+SQUARE_MOST = 0.9
+"""Side of the largest square of a picture that shows sizes, in parts of its cell: a gap parts neighbours."""
 FrameKind = Literal["dispt", "dispxy", "DISPXY", "plot", "picture"]
 
 
@@ -102,6 +104,7 @@ class ShownArray:
     """A picture made by SHOW: values of `name` as rows of `columns` elements, largest magnitude `scale`.
 
     `record` and `number` name the run that makes a film of it (`record.pictures`); `values` stands alone.
+    `by_size`: each element is a square in its cell, whose area is its magnitude.
     """
 
     name: str
@@ -110,6 +113,7 @@ class ShownArray:
     values: Floats | None = None
     record: RunRecord | None = None
     number: int = 0
+    by_size: bool = False
 
     def latest(self) -> Floats | None:
         """Return the newest picture, rows × columns, filled up with nan; None before the first."""
@@ -120,6 +124,11 @@ class ShownArray:
         picture = np.full(rows * self.columns, np.nan)
         picture[: len(values)] = values
         return picture.reshape(rows, self.columns)
+
+    def sides(self, values: Floats) -> Floats:
+        """Return the side of each element's square, largest 1, with its sign: the area is the magnitude."""
+        parts = np.clip(values / (self.scale or 1.0), -1.0, 1.0)
+        return np.sign(parts) * np.sqrt(np.abs(parts))
 
     def _newest(self) -> Floats | None:
         assert self.record is not None

@@ -85,10 +85,12 @@ class GraphPages:
             page = self._open_plot(scale, nonnegative=False)
         page.points.add(x, y, self.settings.curve_color(0) if color is None else color % 16)
 
-    def show(self, name: str, values: NDArray[np.float64], columns: int, scale: float) -> None:
+    def show(
+        self, name: str, values: NDArray[np.float64], columns: int, scale: float, *, by_size: bool = False
+    ) -> None:
         """Put a picture of an array on a page of its own."""
         page = self._page(Frame("picture", 0.0, 1.0, 0.0, 1.0, scale), name)
-        page.shown.append(ShownArray(name, max(columns, 1), scale, values))
+        page.shown.append(ShownArray(name, max(columns, 1), scale, values, by_size=by_size))
 
     def begin_run(self, record: RunRecord, pictures: Sequence[Picture] = ()) -> Graph | None:
         """Put a run's curves on a new page, or with `display 2` on the current one. None: nothing to show."""
@@ -160,7 +162,10 @@ class GraphPages:
     def _add_pictures(self, page: Graph, record: RunRecord, pictures: Sequence[Picture]) -> None:
         for number, picture in enumerate(pictures):
             columns = max(picture.columns, 1)
-            page.shown.append(ShownArray(picture.name, columns, record.scale, None, record, number))
+            by_size = self.settings.by_size if picture.by_size is None else picture.by_size
+            page.shown.append(
+                ShownArray(picture.name, columns, record.scale, None, record, number, by_size=by_size)
+            )
 
     def _open_plot(self, scale: float, *, nonnegative: bool) -> Graph:
         return self._page(Frame("plot", 0.0 if nonnegative else -scale, scale, -scale, scale, scale), "")

@@ -19,7 +19,8 @@ class DisplaySettings:
     """The settings in force.
 
     `mode` 0 off, 1 a new graph for each run, 2 runs share a graph; `thickness` 1 thin, 2 thick, 3 extra
-    thick. `first` is the number given to `display N`, `net` the one given to `display C`.
+    thick. `first` is the number given to `display N`, `net` the one given to `display C`; `by_size`: pictures
+    show size in place of colour (`SHOW *`).
     """
 
     mode: Literal[0, 1, 2] = 1
@@ -27,6 +28,7 @@ class DisplaySettings:
     net: int = 7
     thickness: Literal[1, 2, 3] = 1
     white: bool = False
+    by_size: bool = False
 
     def apply(self, mode: str, args: Sequence[float]) -> None:
         """Carry out `display 0/1/2`, `Q R Y`, `N n`, `C n`. Other letters set nothing here."""

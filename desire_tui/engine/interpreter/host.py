@@ -41,6 +41,9 @@ class Host(Protocol):
     def show(self, quantity: Quantity, columns: int) -> None:
         """Show an array as a picture."""
 
+    def show_area(self, *, by_size: bool) -> None:
+        """Let the pictures to come show size (`SHOW *`) or colour (`SHOW`)."""
+
     def note(self, text: str) -> None:
         """Append to the notebook."""
 

@@ -120,7 +120,7 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
         case Plot():
             return host_statements.plot(context, node)
         case ShowArea():
-            return control.nothing(context)
+            return context.then(lambda: context.host.show_area(by_size=node.by_size))
         case Show():
             return host_statements.show(context, node)
         case MatrixAssign():

@@ -45,12 +45,16 @@ class SampleRequest:
 
 @node
 class Picture:
-    """`SHOW A, ncol`: the array's values are kept at each communication point."""
+    """`SHOW A, ncol`: the array's values are kept at each communication point.
+
+    `by_size`: what the segment's own `SHOW *` or `SHOW` before it says; None: what the script's says.
+    """
 
     name: str
     slot: int
     count: int
     columns: int
+    by_size: bool | None = None
 
 
 @node

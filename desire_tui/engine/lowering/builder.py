@@ -67,6 +67,7 @@ class SegmentBuilder:
     serials: int = 0
     requests: list[SampleRequest] = field(default_factory=list)
     pictures: list[Picture] = field(default_factory=list)
+    by_size: bool | None = None
     stash: list[SampleColumn] = field(default_factory=list)
     recover: list[SampleColumn] = field(default_factory=list)
     once_only: dict[str, Span] = field(default_factory=dict)

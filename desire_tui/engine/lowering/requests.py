@@ -86,4 +86,4 @@ def show(builder: SegmentBuilder, node: Show) -> None:
             context.report("show-columns", node.columns, value=f"{columns:g}")
             return
     if columns is not None and count != UNKNOWN:
-        builder.pictures.append(Picture(quantity.name, quantity.slot, count, int(columns)))
+        builder.pictures.append(Picture(quantity.name, quantity.slot, count, int(columns), builder.by_size))

@@ -157,6 +157,7 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
         case Request():
             return requests.request(builder, node)
         case ShowArea():
+            builder.by_size = node.by_size
             return None
         case Show():
             return requests.show(builder, node)

@@ -41,7 +41,7 @@ class Show(Node):
 
 @node
 class ShowArea(Node):
-    """`SHOW` and `SHOW *` (`by_size`), which start the original's picture area: there is one here always."""
+    """`SHOW` and `SHOW *`, which start the original's picture area; the second shows size, not colour."""
 
     by_size: bool
     start: int = 0

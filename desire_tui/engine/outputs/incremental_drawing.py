@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.graph.model import Frame
+from desire_tui.engine.graph.model import SQUARE_MOST, Frame
 from desire_tui.engine.graph.polylines import thin_columns, to_unit
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class Painter:
             self.canvas.dots(x[chosen], y[chosen], int(color), self.graph.thickness)
 
     def _picture(self) -> None:
-        """SHOW: side by side, dots as dense as the value is large (ordered dithering), sign by colour."""
+        """SHOW: side by side, sign by colour; large values are dense dots (dithering) or large squares."""
         shown = self.graph.shown
         state = sum(len(s.record.pictures) if s.record is not None else 1 for s in shown)
         if not shown or state == self._pictures:
@@ -88,24 +88,28 @@ class Painter:
         self.canvas.clear()
         for number, array in enumerate(shown):
             values = array.latest()
-            if values is not None:
-                self._grey(values / (array.scale or 1.0), number / len(shown), (number + 1) / len(shown))
+            if values is None:
+                continue
+            parts = array.sides(values) if array.by_size else values / (array.scale or 1.0)
+            self._cells(parts, number / len(shown), (number + 1) / len(shown), by_size=array.by_size)
 
-    def _grey(self, values: Floats, left: float, right: float) -> None:
+    def _cells(self, values: Floats, left: float, right: float, *, by_size: bool) -> None:
+        """Light the dots of one picture: each looks at the element it lies on."""
         canvas = self.canvas
-        first, last = (
-            round(left * canvas.width),
-            max(round(right * canvas.width) - 1, round(left * canvas.width) + 1),
-        )
-        rows = np.minimum(np.arange(canvas.height) * values.shape[0] // canvas.height, values.shape[0] - 1)
-        wide = last - first
-        columns = np.minimum(np.arange(wide) * values.shape[1] // wide, values.shape[1] - 1)
-        seen = values[np.ix_(rows, columns)]
-        limit = (_BAYER[np.arange(canvas.height)[:, None] % 4, np.arange(wide)[None, :] % 4] + 0.5) / 16
+        first = round(left * canvas.width)
+        wide, high = max(round(right * canvas.width) - 1 - first, 1), canvas.height
+        down = (np.arange(high) + 0.5) * values.shape[0] / high
+        across = (np.arange(wide) + 0.5) * values.shape[1] / wide
+        seen = values[np.ix_(down.astype(np.intp), across.astype(np.intp))]
+        if by_size:
+            limit = np.maximum.outer(
+                _from_center(down, high / values.shape[0]), _from_center(across, wide / values.shape[1])
+            )
+        else:
+            limit = (_BAYER[np.arange(high)[:, None] % 4, np.arange(wide)[None, :] % 4] + 0.5) / 16
         for color, lit in ((_POSITIVE, seen > limit), (_NEGATIVE, -seen > limit)):
             row, column = np.nonzero(lit)
-            x = (column + first + 0.5) / canvas.width
-            canvas.dots(x, 1.0 - (row + 0.5) / canvas.height, color)
+            canvas.dots((column + first + 0.5) / canvas.width, 1.0 - (row + 0.5) / canvas.height, color)
 
     def _through(self, x: Floats, y: Floats) -> tuple[Floats, Floats]:
         """Frame units to the window's."""
@@ -115,3 +119,12 @@ class Painter:
 
 _BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
 _POSITIVE, _NEGATIVE = 14, 9
+
+
+def _from_center(places: Floats, dots: float) -> Floats:
+    """Return the side of the square that reaches each place, 0 at the centre; a cell has so many `dots`."""
+    off = np.abs(places % 1.0 - 0.5)
+    return np.where(off * dots < _HALF_A_DOT, 0.0, 2 * off / SQUARE_MOST)
+
+
+_HALF_A_DOT = 0.501

@@ -9,14 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
+from desire_tui.engine.graph.model import SQUARE_MOST
 from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, to_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
-    from desire_tui.engine.graph.model import Curve, Graph
+    from desire_tui.engine.graph.model import Curve, Graph, ShownArray
 
+    Floats = NDArray[np.float64]
     Tint = tuple[float, float, float]
 
 _INCHES = (8.0, 5.0)
@@ -169,10 +172,31 @@ def _draw_arrays(figure: Figure, graph: Graph, ink: Tint) -> None:
     shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
     for number, (array, values) in enumerate(shown, 1):
         axes = figure.add_subplot(1, len(shown), number)
-        axes.imshow(values, cmap="gray", vmin=-array.scale, vmax=array.scale, interpolation="nearest")
+        if array.by_size:
+            _draw_squares(axes, array, values)
+        else:
+            axes.imshow(values, cmap="gray", vmin=-array.scale, vmax=array.scale, interpolation="nearest")
         axes.set_title(array.name, color=ink, fontsize=_FONT)
         axes.set_xticks([])
         axes.set_yticks([])
+
+
+def _draw_squares(axes: Axes, array: ShownArray, values: Floats) -> None:
+    """Positive elements white, negative ones black, on the grey of 0."""
+    from matplotlib.collections import PolyCollection
+
+    sides = array.sides(values)
+    row, column = np.nonzero(np.nan_to_num(sides))
+    drawn = sides[row, column]
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 2
+    size = SQUARE_MOST * np.abs(drawn)[:, None, None]
+    squares = np.stack([column, row], axis=1)[:, None, :] + corners * size
+    tints = np.where(drawn > 0, "white", "black").tolist()
+    axes.add_collection(PolyCollection(list(squares), facecolors=tints, linewidths=0))
+    axes.set_facecolor("gray")
+    axes.set_xlim(-0.5, values.shape[1] - 0.5)
+    axes.set_ylim(values.shape[0] - 0.5, -0.5)
+    axes.set_aspect("equal")
 
 
 def _tint(color: int, graph: Graph) -> Tint:

@@ -121,6 +121,9 @@ class DryHost:
     def show(self, quantity: Quantity, columns: int) -> None:
         """Show nothing."""
 
+    def show_area(self, *, by_size: bool) -> None:
+        """Show nothing."""
+
     def note(self, text: str) -> None:
         """Write nothing."""
 

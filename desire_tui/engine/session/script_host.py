@@ -119,9 +119,13 @@ class ScriptHost:
         """Show an array as a picture."""
         values = np.array(self._values.view(quantity).real, dtype=np.float64).ravel()
         width = columns if columns > 0 else (quantity.shape[-1] if quantity.shape else 1)
-        self._graphs.show(quantity.name, values, width, self._scale)
+        self._graphs.show(quantity.name, values, width, self._scale, by_size=self._graphs.settings.by_size)
         assert self._graphs.current is not None
         self._listener.graph_changed(self._graphs.current)
+
+    def show_area(self, *, by_size: bool) -> None:
+        """Let the pictures to come show size or colour."""
+        self._graphs.settings.by_size = by_size
 
     @property
     def _scale(self) -> float:
