@@ -21,7 +21,8 @@ PROGRAMS = (
     "ch2/cannonball", "ch2/epidemic", "ch3/chaos_map", "ch3/servo_optimum", "ch4/signal_generator",
     "ch4/hysteresis", "ch4/bang_bang_servo", "ch4/coupled_oscillators", "ch6/parameter_study",
     "ch6/radiating_slab", "ch7/world_model", "ch7/circulation", "ch7/bouncing_ball", "ch7/pilot_ejection",
-    "ch8/impedance", "ch8/conformal_mapping",
+    "ch7/world_study", "ch8/impedance", "ch8/conformal_mapping", "networks/competitive_learning",
+    "networks/fuzzy_servo",
 )  # fmt: skip
 
 

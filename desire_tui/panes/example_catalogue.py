@@ -23,6 +23,7 @@ CHAPTERS = {
     "ch7": "Benchmarks, models with events, physiology, system dynamics",
     "ch8": "Fast plots, statistics, complex numbers, Fourier transforms",
     "appendix": "Integration errors and stiff systems",
+    "networks": "Neural networks and fuzzy logic",
 }
 """Folder → what its programs are about, in reading order."""
 
@@ -56,7 +57,7 @@ class Example:
 
     @property
     def subject(self) -> str:
-        """What its chapter is about; empty for a folder that is not the book's."""
+        """What its chapter is about; empty for a folder of one's own."""
         return CHAPTERS.get(self.folder, "")
 
     @cached_property
@@ -96,7 +97,7 @@ class Example:
 
 
 def examples(folder: Path | None = None) -> list[Example]:
-    """Return every example: chapters in the order of the book, the appendix last, programs by name."""
+    """Return every example: the chapters of the book, the appendix, further subjects; programs by name."""
     root = folder if folder is not None else examples_folder()
     order = {name: number for number, name in enumerate(CHAPTERS)}
     paths = sorted(

@@ -9,12 +9,13 @@ from desire_tui.panes.example_catalogue import CHAPTERS, examples, search
 EVERY = examples()
 
 
-def test_chapters_come_in_the_order_of_the_book_and_the_appendix_last():
+def test_chapters_come_in_the_order_of_the_book_and_the_appendix_and_further_subjects_last():
     folders = list(dict.fromkeys(example.folder for example in EVERY))
-    assert folders == [f"ch{number}" for number in range(1, 9)] + ["appendix"]
+    assert folders == [f"ch{number}" for number in range(1, 9)] + ["appendix", "networks"]
     assert set(CHAPTERS) == set(folders)
     assert EVERY[0].chapter == "Chapter 1"
-    assert EVERY[-1].chapter == "Appendix"
+    assert EVERY[-1].chapter == "Networks"
+    assert EVERY[-1].subject == "Neural networks and fuzzy logic"
     names = [example.name for example in EVERY if example.folder == "ch2"]
     assert names == sorted(names)
 
