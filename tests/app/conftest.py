@@ -31,6 +31,8 @@ dispt x, v
 """
 LONG = OSCILLATOR.replace("TMAX = 6", "TMAX = 1E7").replace("NN = 301", "NN = 1000001")
 """Goes on for minutes."""
+PATIENCE_S = 60.0
+"""What a busy machine may take to do what a test waits for."""
 
 
 @pytest.fixture(autouse=True)
@@ -59,12 +61,15 @@ async def settled(min_sleep: float = 0.0, max_sleep: float = 1.0) -> None:
             await asyncio.sleep(0)
 
 
-async def until(pilot: Pilot[None], condition: Callable[[], object], *, tries: int = 1500) -> None:
-    """Let the app work until something holds, and lay out and draw what follows from it."""
-    for _ in range(tries):
-        if condition():
-            break
-        await pilot.pause(0.01)
+async def until(pilot: Pilot[None], condition: Callable[[], object]) -> None:
+    """Let the app work until something holds, and lay out and draw what follows from it.
+
+    Textual's own `pause` sends a message to every widget: on a busy machine that kept the app from what it was to do.
+    """
+    end = monotonic() + PATIENCE_S
+    while not condition() and monotonic() < end:
+        await asyncio.sleep(0.01)
+        pilot.app.screen._on_timer_update()
     assert condition()
     await pilot.pause()
 
