@@ -1,4 +1,4 @@
-"""`desire run` as a process: streams, files, exit statuses (headless.md 1, 2 and 3)."""
+"""`desire run`: streams, files, exit statuses (headless.md 1, 2 and 3)."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import contextmanager
 from io import StringIO
 from pathlib import Path
 from time import monotonic
@@ -14,7 +15,8 @@ from time import monotonic
 import numpy as np
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.batch.command_line import ROOT, desire, desire_process
+
 FILE_KINDS = ("png", "svg", "pdf", "csv", "json", "npz")
 
 DECAY = """TMAX = 1 | DT = 0.1 | NN = 11 | x = 1 | a = 1
@@ -26,16 +28,6 @@ dispt x
 """
 
 
-def desire(*args, cwd=None, text_in="", timeout=60, **options):
-    """Run the command; returns status, stdout, stderr."""
-    done = subprocess.run(
-        [sys.executable, "-m", "desire_tui", *map(str, args)], cwd=cwd, input=text_in, capture_output=True,
-        text=True, timeout=timeout, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)}, **options,
-    )  # fmt: skip
-    assert "Traceback" not in done.stderr, done.stderr
-    return done.returncode, done.stdout, done.stderr
-
-
 @pytest.fixture
 def decay(tmp_path):
     path = tmp_path / "decay.src"
@@ -44,7 +36,7 @@ def decay(tmp_path):
 
 
 def test_console_text_to_stdout_and_nothing_else(decay):
-    status, out, err = desire("run", decay)
+    status, out, err = desire_process("run", decay)
     assert (status, err) == (0, "")
     assert out.startswith("done, x = 0.3685")
 
@@ -56,7 +48,7 @@ def test_quiet(decay):
 def test_problems_to_stderr_and_status_1(tmp_path):
     path = tmp_path / "wrong.src"
     path.write_text("TMAX = 1\nwrite 'before'\ndrun\nDYNAMIC\nd/dt x = -aa*x\ndispt x\n")
-    status, out, err = desire("run", path)
+    status, out, err = desire_process("run", path)
     assert status == 1
     assert out == "before\n"
     assert err.startswith(f"{path}:5:11: error 200: ")
@@ -370,7 +362,7 @@ def test_timeout_is_status_3(tmp_path):
     path = tmp_path / "long.src"
     path.write_text("TMAX = 1.0E+09 | DT = 0.001 | drun\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n")
     began = monotonic()
-    status, _, err = desire("run", path, "--timeout", "4", "--json", tmp_path / "g.json")
+    status, _, err = desire_process("run", path, "--timeout", "4", "--json", tmp_path / "g.json")
     assert status == 3
     assert monotonic() - began < 40
     assert "stopped after 4 seconds" in err
@@ -437,7 +429,7 @@ def test_files_that_are_no_programs(tmp_path, what):
         path.write_bytes(b"\x7fELF\x00\x01")
     elif what == "unreadable":
         path.symlink_to(path)  # a loop, so that root meets an error too
-    for command in ("run", "check"):
+    for command in ("run",) if what == "folder" else ("run", "check"):  # `check` takes folders
         status, out, err = desire(command, path)
         assert (status, out) == (1, "")
         assert "error 38" in err
@@ -468,17 +460,24 @@ def test_a_disk_that_becomes_full_leaves_the_old_file(decay, tmp_path, kind):
     folder.mkdir()
     path = folder / f"old.{kind}"
     path.write_text("old")
-    status, _, err = desire("run", decay, f"--{kind}", path, preexec_fn=_files_of_100_bytes)
+    with files_of_100_bytes():
+        status, _, err = desire("run", decay, f"--{kind}", path)
     assert status == 1
     assert f"error 106: cannot write {path}: File too large" in err
     assert path.read_text() == "old"
     assert [p.name for p in folder.iterdir()] == [path.name]
 
 
-def _files_of_100_bytes():
+@contextmanager
+def files_of_100_bytes():
     import resource
 
-    resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
 def test_a_reader_that_leaves(tmp_path):
@@ -510,13 +509,14 @@ def test_usage():
     assert "run" in out
     assert desire("run")[0] == 2
     assert desire("run", "x", "--nonsense")[0] == 2
-    status, _, err = desire()
+    status, _, err = desire_process()
     assert status == 2
     assert "terminal" in err
 
 
 def test_a_program_from_standard_input():
-    assert desire("run", "-", text_in="write 6*7\n") == (0, "42\n", "")
+    for command in (desire, desire_process):
+        assert command("run", "-", text_in="write 6*7\n") == (0, "42\n", "")
 
 
 def test_shell_and_files_need_flags(tmp_path):
@@ -559,7 +559,7 @@ def test_quantities_too_many_for_a_json_file_are_refused(tmp_path):
 
     path = tmp_path / "p.src"
     path.write_text(f"ARRAY A[{Values().spare // 4}]\n")
-    status, _, err = desire("run", path, "--json", tmp_path / "p.json")
+    status, _, err = desire_process("run", path, "--json", tmp_path / "p.json")
     assert status == 1
     assert "error 40: no room for" in err
     assert not (tmp_path / "p.json").exists()

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import importlib
 import json
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
 import desire_tui
+from tests.batch.command_line import desire
 
-ROOT = Path(__file__).parents[2]
 PROGRAM = "TMAX = 1 | DT = 0.1 | NN = 11\nwrite 'begun'\ndrun\nDYNAMIC\nd/dt x = 1\ndispt x\n"
 STAGES = {
     "parse": "desire_tui.engine.syntax.parse:logical_lines",
@@ -65,21 +62,11 @@ def test_in_python(monkeypatch, capfd, place, fault):
 
 
 @pytest.mark.parametrize("place", [*STAGES.values(), "desire_tui.batch.output_files:OutputFiles.write"])
-def test_on_the_command_line(tmp_path, place):
-    module, _, name = place.partition(":")
-    owner, _, attribute = f"m.{name}".rpartition(".")
+def test_on_the_command_line(monkeypatch, tmp_path, place):
+    monkeypatch.setattr(*broken(place, KeyError("the key")))
     (tmp_path / "p.src").write_text(PROGRAM)
-    code = (
-        f"import sys, {module} as m\n"
-        f"def fails(*a, **k): raise KeyError('the key')\n{owner}.{attribute} = fails\n"
-        "from desire_tui.__main__ import main\nmain(['run', 'p.src', '--json', 'o.json', '--csv', 'o.csv'])"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, env={"PYTHONPATH": str(ROOT)}, capture_output=True, text=True,
-        timeout=60, check=False,
-    )  # fmt: skip
-    assert done.returncode == 1, done.stderr
-    assert "Traceback" not in done.stderr
-    assert "error 474: internal error while" in done.stderr
+    status, _, err = desire("run", "p.src", "--json", "o.json", "--csv", "o.csv", cwd=tmp_path)
+    assert status == 1, err
+    assert "error 474: internal error while" in err
     if "output_files" not in place:
         assert json.loads((tmp_path / "o.json").read_text())["status"] == "failed"

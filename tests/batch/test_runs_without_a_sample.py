@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 import desire_tui
 from desire_tui.engine.runtime import stash
+from tests.batch.command_line import desire
 
 FAILING = {
     "delay": "TMAX = 1 | DT = 0.01 | NN = 11 | ARRAY D[2]\ndrun\nDYNAMIC\nd/dt x = 1\ntdelay y = D(x, 0.5\ndispt x, y\n",
@@ -32,10 +31,8 @@ def test_in_python(text):
 def test_in_every_output(text, tmp_path):
     (tmp_path / "p.src").write_text(text)
     options = [word for kind in OUTPUTS for word in (f"--{kind}", f"o.{kind}")]
-    command = [sys.executable, "-m", "desire_tui", "run", "p.src", "--plot", *options]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
-    assert done.returncode == 1
-    assert "Traceback" not in done.stderr
+    status, _, _ = desire("run", "p.src", "--plot", *options, cwd=tmp_path)
+    assert status == 1
     assert all((tmp_path / f"o.{kind}").exists() for kind in OUTPUTS)
     assert json.loads((tmp_path / "o.json").read_text())["status"] == "failed"
 
