@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.linker import MachineCode
     from desire_tui.engine.codegen.jit.piece import Piece
 
-_BYTES_MOST = 24_000_000
+_BYTES_MOST = 12_000_000
 """Of code that may be in nobody's use: a model of 1,400 equations takes 2 MB."""
 _TEXT_MOST = 400_000
 """Characters that LLVM is given at once: nothing can break it off, and what waits is let in between."""
