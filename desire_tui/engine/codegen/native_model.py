@@ -12,6 +12,7 @@ from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_l
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.scalar.slot_usage import survey
+from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, RunMemory
 
@@ -51,6 +52,8 @@ class NativeModel:
         self._values = values
         self._states = _state_slots(segment)
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
+        self._vital = np.array(vital_columns(segment), dtype=np.int64)
+        self._vital_slots = self._columns[self._vital]
         self._passes = passes_of(segment)
         self._tables = PieceTables(self._store, self._passes)
         self._temps = np.zeros(self._tables.temps)
@@ -79,6 +82,7 @@ class NativeModel:
         context.x = self._values.address + 8 * int(self._states[0]) if self._states.size else 0
         context.columns = self._columns.ctypes.data
         context.column_count = self._columns.size
+        context.vital, context.vital_count = self._vital_slots.ctypes.data, self._vital.size
         for name, array in zip(("x0", "k1", "k2", "k3", "k4"), arrays, strict=False):
             setattr(context, name, array.ctypes.data)
         self._kept.append(flat)
@@ -92,7 +96,9 @@ class NativeModel:
         small = self._is_small()
         if small:
             states, columns = self._states.tolist(), self._columns.tolist()
-            self._loop = register_loop(self._passes, self._rule, states, columns)
+            self._loop = register_loop(
+                self._passes, self._rule, states, columns, self._vital_slots.tolist()
+            )
         self._better = self._store.fast(self._loop, slp=not small or self._segment.order >= PAIRED_LEAST)
         self.context.hurry = 1
         yield
@@ -121,7 +127,9 @@ class NativeModel:
             if ended is not Ended.RUNNING or memory.row >= memory.row_limit:
                 break
         if ended is Ended.NOT_FINITE:
-            memory.which = first_not_finite(self._values.data, self._states, self._columns)
+            memory.which = first_not_finite(
+                self._values.data, self._states, self._columns, self._vital
+            )
         return ended
 
 

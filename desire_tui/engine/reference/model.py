@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
+from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.states import make_states
 from desire_tui.engine.reference.steps import fixed_step, variable_step
@@ -20,6 +21,8 @@ from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.reference.statements import Run
@@ -34,12 +37,16 @@ _CHECK_EVERY = 1024  # steps between two looks for inf and nan inside a communic
 class ReferenceModel:
     """A segment under rule 0 (`tableau` None) or an explicit rule."""
 
-    def __init__(self, segment: Segment, tableau: Tableau | None, values: Values) -> None:
+    def __init__(
+        self, segment: Segment, tableau: Tableau | None, values: Values, vital: Iterable[int] | None = None
+    ) -> None:
         self.cells = values.cells
         self.tableau = tableau
         self.nodes = [] if tableau is None else [(i, float(c)) for i, c in enumerate(tableau.c) if i]
         """Stages behind the first, and where in the step they stand."""
         self.columns = [column.slot for column in segment.columns]
+        self.vital = frozenset(vital_columns(segment) if vital is None else vital)
+        """Numbers of the columns that states depend on."""
         self.statements = StatementClosures(values, segment.order)
         self.states = make_states(segment, tableau, values, self.statements.derivatives)
         compile_ = self.statements.compile
@@ -130,7 +137,7 @@ class ReferenceModel:
         self._pass(self.stages[stage - 1], memory)
 
     def _sample(self, memory: RunMemory) -> bool:
-        """Write a row; False if a requested variable is inf or nan."""
+        """Write a row; False if a requested variable that states depend on is inf or nan."""
         cells = self.cells
         width = 1 + len(self.columns)
         row = (ctypes.c_double * width).from_address(memory.rows + memory.row * width * 8)
@@ -138,9 +145,11 @@ class ReferenceModel:
         for number, slot in enumerate(self.columns):
             value = cells[slot]
             if value - value != 0.0:
-                memory.which = -1 - number
-                memory.phase = Phase.ENDED
-                return False
+                if number in self.vital:
+                    memory.which = -1 - number
+                    memory.phase = Phase.ENDED
+                    return False
+                memory.gap = memory.gap or memory.row + 1
             row[1 + number] = value
         memory.row += 1
         return True

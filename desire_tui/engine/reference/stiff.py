@@ -31,6 +31,7 @@ from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
 from desire_tui.engine.passes.tangents import NotDifferentiable
+from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.reference.model import ReferenceModel
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.runtime.run_memory import Ended, Phase
@@ -54,8 +55,9 @@ class StiffReferenceModel(ReferenceModel):
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         if rule_numbered(rule).corrector == "jacobian" and segment.jacobian is not None:
             checked_array(segment, values)
+        vital = vital_columns(segment)
         segment, self._numbers = without_assigned_states(segment, values.room)
-        super().__init__(segment, EULER, values)
+        super().__init__(segment, EULER, values, vital)
         self.values, self.data, self.order = values, values.data, segment.order
         self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._segment = segment

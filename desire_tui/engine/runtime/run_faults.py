@@ -32,16 +32,22 @@ _SOLVER_KEYS = {
 """CVODE's return flags (SUNDIALS 7, cvode.h)."""
 
 
-def first_not_finite(data: NDArray[np.float64], states: NDArray[np.int64], columns: NDArray[np.int64]) -> int:
+def first_not_finite(
+    data: NDArray[np.float64],
+    states: NDArray[np.int64],
+    columns: NDArray[np.int64],
+    vital: NDArray[np.int64],
+) -> int:
     """Return `RunMemory.which`: the first state that is inf or nan, else -1 - the first such column.
 
-    `data` are all numbers, `states` and `columns` the slots of states and sampled variables.
+    `data` are all numbers, `states` and `columns` the slots of states and sampled variables, `vital` the
+    numbers of the columns that count (`passes.vital_columns`).
     """
-    for number, slots in enumerate((states, columns)):
-        wild = np.flatnonzero(~np.isfinite(data[slots]))
-        if wild.size:
-            return int(wild[0]) if number == 0 else -1 - int(wild[0])
-    return 0
+    wild = np.flatnonzero(~np.isfinite(data[states]))
+    if wild.size:
+        return int(wild[0])
+    wild = vital[~np.isfinite(data[columns[vital]])]
+    return -1 - int(wild[0]) if wild.size else 0
 
 
 def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, values: Values) -> DesireError:

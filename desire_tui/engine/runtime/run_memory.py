@@ -37,7 +37,7 @@ class Ended(IntEnum):
     STOPPED = 3
     """`stop` was set; memory is in a state from which the run can be resumed."""
     NOT_FINITE = 4
-    """State number `which` (or column number -1 - `which`) is inf or nan."""
+    """State number `which` (or column number -1 - `which`, one that states depend on) is inf or nan."""
     DEADLOCK = 5
     """Variable step: error 94, state number `which`."""
     SOLVER = 6
@@ -79,6 +79,7 @@ class RunMemory(ctypes.Structure):
         ("checked", ctypes.c_int64),  # CHECKN
         ("row", ctypes.c_int64),  # rows written
         ("row_limit", ctypes.c_int64),  # come back when `row` gets there
+        ("gap", ctypes.c_int64),  # 1 + the first row with an inf or nan that is no fault (`vital_columns`); 0: none
         ("steps", ctypes.c_int64),
         ("rejected", ctypes.c_int64),
         ("derivative_calls", ctypes.c_int64),

@@ -48,6 +48,8 @@ class RunRecord:
     dt_least: float = 0.0
     dt_most: float = 0.0
     order: int = 0
+    gap: int = 0
+    """1 + the first row with an inf or nan that ended no run; 0: none."""
     seconds: float = 0.0
     compile_seconds: float = 0.0
     message: str = ""

@@ -224,3 +224,4 @@ def _note(memory: RunMemory, record: RunRecord) -> None:
     record.dt_least, record.dt_most = memory.dt_least, memory.dt_most
     record.order = int(memory.order)
     record.count = int(memory.row)
+    record.gap = int(memory.gap)

@@ -41,6 +41,8 @@ class WorkMemory(ctypes.Structure):
         ("k4", ctypes.c_uint64),
         ("columns", ctypes.c_uint64),  # int64 slot of each sampled column
         ("column_count", ctypes.c_int64),
+        ("vital", ctypes.c_uint64),  # int64 slots of the columns that states depend on
+        ("vital_count", ctypes.c_int64),
         ("interval", ctypes.c_uint64),  # rules 9 … 16: `stiff.interval` and its structure
         ("problem", ctypes.c_uint64),
     )

@@ -150,20 +150,32 @@ class ArrayStorage:
 
     def row(self, at: str, t: str) -> str:
         """Write t and the columns."""
-        text, lanes = self.text, self.lanes
+        text = self.text
         text.do(f"store double {t}, ptr {at}")
         rest = text.op(f"getelementptr double, ptr {at}, i64 1")
+        return self._any_wild(
+            "%columns", "%column.count", lambda i, value: put(self.lanes, rest, i, value)
+        )
+
+    def vital_wild(self) -> str:
+        """Whether some column that states depend on is inf or nan."""
+        slots, count = self.context.load("vital"), self.context.load("vital_count")
+        return self._any_wild(slots, count, lambda _i, _value: None)
+
+    def _any_wild(self, slots: str, count: str, use: Callable[[str, str], object]) -> str:
+        """Visit the numbers at `count` slots; return an i1: some of them is inf or nan."""
+        text, lanes = self.text, self.lanes
         total = text.alloca("double")
         text.do(f"store double 0.0, ptr {total}")
 
         def one(i: str) -> None:
-            slot = text.op(f"load i64, ptr {text.op(f'getelementptr i64, ptr %columns, i64 {i}')}")
+            slot = text.op(f"load i64, ptr {text.op(f'getelementptr i64, ptr {slots}, i64 {i}')}")
             value = fetch(lanes, "%v", slot)
-            put(lanes, rest, i, value)
+            use(i, value)
             before = text.op(f"load double, ptr {total}")
             text.do(f"store double {lanes.add(before, lanes.sub(value, value))}, ptr {total}")
 
-        loop(text, "0", "%column.count", 1, one)
+        loop(text, "0", count, 1, one)
         all_in_all = text.op(f"load double, ptr {total}")
         return lanes.compare("uno", all_in_all, all_in_all)
 

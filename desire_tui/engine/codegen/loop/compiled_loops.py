@@ -30,13 +30,13 @@ def array_loop(rule: int, *, contiguous: bool) -> Piece:
 
 
 def register_loop(
-    passes: dict[str, tuple[Action, ...]], rule: int, states: list[int], columns: list[int]
+    passes: dict[str, tuple[Action, ...]], rule: int, states: list[int], columns: list[int], vital: list[int]
 ) -> Piece:
-    """Write the loop of a small model, its passes in line."""
+    """Write the loop of a small model, its passes in line; all are slots, `vital` some of the columns'."""
     text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
-    storage = RegisterStorage(text, passes, states, columns, stages)
+    storage = RegisterStorage(text, passes, states, columns, vital, stages)
     Driver(text, storage, tableau).write()
     return named(text)
 

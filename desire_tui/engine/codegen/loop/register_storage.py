@@ -27,12 +27,14 @@ class RegisterStorage:
         passes: dict[str, tuple[Action, ...]],
         states: list[int],
         columns: list[int],
+        vital: list[int],
         stages: int,
     ) -> None:
         self.text = text
         self.passes = passes
         self.states = states
         self.columns = columns
+        self.vital = vital
         self.stages = stages
         self.lanes = Lanes(text)
         self.memory = memory_fields(text)
@@ -142,6 +144,10 @@ class RegisterStorage:
             place = self.text.op(f"getelementptr double, ptr {at}, i64 {number}")
             self.text.do(f"store double {value}, ptr {place}")
         return self._is_wild(values)
+
+    def vital_wild(self) -> str:
+        """Whether some column that states depend on is inf or nan."""
+        return self._is_wild([self.cells.load(slot) for slot in self.vital])
 
     def keep_first_stage(self) -> None:
         """Put k1 into the context's array."""

@@ -123,14 +123,21 @@ class Driver(LoopFrame):
         return lanes.compare("oge", self.storage.load(T), lanes.sub(end, slack))
 
     def _sample(self) -> None:
-        """Write a row; inf or nan in it ends the run without it."""
+        """Write a row; inf or nan in what states depend on ends the run without it."""
         text = self.text
         text.begin("sample")
         row = self.memory.load("row")
         start = text.op(f"mul i64 {row}, {self.storage.width()}")
         at = text.op(f"getelementptr double, ptr {self.memory.load('rows')}, i64 {start}")
         bad = self.storage.row(at, self.storage.load(T))
-        text.branch(bad, "wild", "sample.kept")
+        text.branch(bad, "sample.wild", "sample.kept")
+        text.begin("sample.wild")
+        text.branch(self.storage.vital_wild(), "wild", "sample.gap")
+        text.begin("sample.gap")
+        gap = self.memory.load("gap")
+        first = text.op(f"icmp eq i64 {gap}, 0")
+        self.memory.store("gap", text.op(f"select i1 {first}, i64 {text.op(f'add i64 {row}, 1')}, i64 {gap}"))
+        text.jump("sample.kept")
         text.begin("sample.kept")
         self.memory.store("row", text.op(f"add i64 {row}, 1"))
         text.jump("sampled")

@@ -52,6 +52,10 @@ class Storage(Protocol):
         """Write a row of samples; return an i1: some column is inf or nan."""
         ...
 
+    def vital_wild(self) -> str:
+        """Return an i1: some column that states depend on is inf or nan."""
+        ...
+
     def keep_first_stage(self) -> None:
         """Put k1 where the next call finds it."""
 

@@ -24,6 +24,7 @@ from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
 from desire_tui.engine.passes.tangents import NotDifferentiable
+from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
 from desire_tui.engine.values import DT
@@ -60,6 +61,7 @@ class StiffModel:
         self.rule, self._values = rule, values
         if rule_numbered(rule).reads_jacobian and segment.jacobian is not None:
             checked_array(segment, values)
+        self._vital = np.array(vital_columns(segment), dtype=np.int64)
         segment, self._numbers = without_assigned_states(segment, values.room)
         self._segment = segment
         self._passes = passes = passes_of(segment)
@@ -119,6 +121,8 @@ class StiffModel:
         context.x0 = self._k1.ctypes.data  # saved by the loop, never used: k1 is not either
         context.state_slots = self._slots.ctypes.data
         context.columns, context.column_count = self._columns.ctypes.data, self._columns.size
+        self._vital_slots = self._columns[self._vital]
+        context.vital, context.vital_count = self._vital_slots.ctypes.data, self._vital.size
 
     def improve(self) -> Iterator[None]:
         """Compile a fast solver (`background.Improvable`)."""
@@ -169,7 +173,7 @@ class StiffModel:
         if ended is Ended.SOLVER:
             memory.suspect = self._numbers[system.suspect()]
         elif ended is Ended.NOT_FINITE:
-            which = first_not_finite(self._values.data, self._slots, self._columns)
+            which = first_not_finite(self._values.data, self._slots, self._columns, self._vital)
             memory.which = which if which < 0 else self._numbers[which]
         return ended
 
