@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from desire_tui.engine.graph.model import Graph
     from desire_tui.panes.zoom_window import Window
+
+
+GAP = "–"
+"""Where a curve has a gap: its sample is inf or nan."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +47,7 @@ def read(graph: Graph, window: Window, part: float) -> Reading | None:
                 number = min(int(np.searchsorted(x, t)), len(x) - 1)
                 if number and abs(x[number - 1] - t) < abs(x[number] - t):
                     number -= 1
-                values.append((curve.name, curve.color, f"{y[number]:.6g}"))
+                values.append((curve.name, curve.color, _shown(y[number])))
         return Reading(part, f"t = {t:.6g}", tuple(values))
     curve = graph.curves[-1]
     x, y = curve.samples()
@@ -53,8 +58,12 @@ def read(graph: Graph, window: Window, part: float) -> Reading | None:
     at = (x[number] - own.left) / ((own.right - own.left) or 1.0)
     shown = (at - window.left) / (window.right - window.left)
     run = [c for c in graph.curves if c.record is curve.record]
-    values = [(c.name, c.color, f"{c.samples()[1][number]:.6g}") for c in run if number < c.count]
-    head = f"{curve.x_name} = {x[number]:.6g}"
+    values = [(c.name, c.color, _shown(c.samples()[1][number])) for c in run if number < c.count]
+    head = f"{curve.x_name} = {_shown(x[number])}"
     if curve.x_column:
         head = f"t = {curve.record.rows[number, 0]:.6g}  {head}"
     return Reading(float(shown), head, tuple(values))
+
+
+def _shown(value: float) -> str:
+    return f"{value:.6g}" if isfinite(value) else GAP

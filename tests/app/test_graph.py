@@ -222,3 +222,24 @@ async def test_full_screen_and_back(program):
         await desk.press("f7")
         await desk.pilot.pause()
         assert desk.app.graph.size.width == narrow
+
+
+@pytest.mark.parametrize("request_line", ["dispt y, z", "dispxy y, z", "DISPXY y, z"])
+async def test_the_cursor_reads_a_gap_where_a_sample_is_no_number(program, request_line: str):
+    text = f"TMAX = 4 | DT = 0.5 | NN = 5\ndrun\nDYNAMIC\nd/dt x = 1\ny = sqrt(1 - x)\nz = 1/(x - 4)\n{request_line}\n"
+    async with desktop(program(text), size=(120, 40)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.tick()
+        await desk.pilot.pause()
+        graph.focus()
+        await desk.press("r")
+        for _ in range(20):
+            await desk.press("shift+right")
+        read = {name: value for name, _, value in graph.reading.values}
+        assert read["z"] == "–"
+        if request_line.startswith("dispt"):
+            assert read["y"] == "–"
+        else:
+            assert "y = –" in graph.reading.head

@@ -141,12 +141,22 @@ def test_infinity_ends_the_run_near_its_birth(rule, storage):
 
 def test_an_infinite_column_is_named(storage):
     model, segment, values = made_of(
-        "DYNAMIC\nd/dt x = 1\ny = ln(x - 0.5)\nz = 1\ndispt z, y\n", 1, storage, x=1.0
+        "DYNAMIC\ny = ln(x - 0.5)\nd/dt x = 1 + 0*y\nz = 1\ndispt z, y\n", 1, storage, x=1.0
     )
     values.assign(values.find("x").slot, 0.0)
     memory, _ = memory_for(values, segment, t_max=1.0, dt=0.01, nn=5)
     assert model.advance(memory) is Ended.NOT_FINITE
     assert memory.which == -2
+
+
+def test_a_column_that_no_state_depends_on_has_a_gap(storage):
+    model, segment, values = made_of(
+        "DYNAMIC\nd/dt x = 1\ny = sqrt(0.6 - x)\nz = 1\ndispt z, y\n", 1, storage, x=0.0
+    )
+    memory, rows = memory_for(values, segment, t_max=1.0, dt=0.01, nn=5)
+    assert model.advance(memory) is Ended.TMAX
+    assert memory.gap == 4
+    assert np.isfinite(rows[:5]).tolist() == [[True, True, True]] * 3 + [[True, True, False]] * 2
 
 
 @pytest.mark.parametrize("rule", [4, 7, 8])

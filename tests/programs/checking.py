@@ -28,7 +28,7 @@ FUNCTIONS = {
     "list": lambda *x: np.array(x[0] if len(x) == 1 else x, dtype=float),
     "changes": lambda x: int(np.count_nonzero(np.diff(x))),
     "max": np.max, "min": np.min, "sum": np.sum, "mean": np.mean, "argmin": np.argmin, "argmax": np.argmax,
-    "diff": np.diff, "abs": np.abs, "sqrt": np.sqrt, "exp": np.exp, "sin": np.sin, "cos": np.cos, "log": np.log,
+    "inf": math.inf, "nan": math.nan, "diff": np.diff, "abs": np.abs, "sqrt": np.sqrt, "exp": np.exp, "sin": np.sin, "cos": np.cos, "log": np.log,
     "pi": math.pi, "PI": math.pi, "values": lambda x: x.data,
 }  # fmt: skip
 
@@ -116,8 +116,13 @@ def _check(expected: Check, outcome: Outcome) -> str | None:
     elif isinstance(right, str):
         met = left == right
     else:
-        bound = expected.tolerance * (np.max(np.abs(right)) if expected.relative else 1.0)
-        met = np.shape(left) == np.shape(right) and bool(np.all(np.abs(left - right) <= max(bound, 1e-13)))
+        finite = np.isfinite(right)
+        bound = expected.tolerance * (
+            np.max(np.abs(right), where=finite, initial=0.0) if expected.relative else 1.0
+        )
+        met = np.shape(left) == np.shape(right) and bool(
+            np.all(np.isclose(left, right, rtol=0.0, atol=max(bound, 1e-13), equal_nan=True))
+        )
     return None if met else f"row {expected.row}: {expected.text}\n    but it is {_shown(left)}"
 
 
@@ -137,6 +142,12 @@ def disagreements(native: Outcome, reference: Outcome, expected: Expectations) -
     wrong = []
     if [e.key for e in _problems(native)] != [e.key for e in _problems(reference)]:
         wrong.append(f"errors differ: {native.error} | {reference.error}")
+    gaps = [
+        [w.message for w in outcome.warnings if w.key == "sample-not-finite"]
+        for outcome in (native, reference)
+    ]
+    if gaps[0] != gaps[1]:
+        wrong.append(f"warnings differ: {gaps[0]} | {gaps[1]}")
     if len(native.runs) != len(reference.runs):
         return [*wrong, f"{len(native.runs)} runs, reference {len(reference.runs)}"]
     for number, (a, b) in enumerate(zip(native.runs, reference.runs, strict=True), 1):

@@ -13,8 +13,10 @@ from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.runtime.run_record import RunRecord
     from tests.programs.expectations import Settings
 
@@ -31,6 +33,7 @@ class Outcome:
     quantities: dict[str, np.ndarray | float] = field(default_factory=dict)
     points: int = 0
     error: DesireError | None = None
+    warnings: list[Diagnostic] = field(default_factory=list)
 
 
 class _Console(Listener):
@@ -39,6 +42,7 @@ class _Console(Listener):
     def __init__(self, answers: list[str]) -> None:
         self.text: list[str] = []
         self.runs: list[RunRecord] = []
+        self.warnings: list[Diagnostic] = []
         self._answers = iter(answers)
 
     def console_text(self, text: str) -> None:
@@ -50,6 +54,9 @@ class _Console(Listener):
             return next(self._answers)
         except StopIteration:
             raise EOFError from None
+
+    def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
+        self.warnings += [problem for problem in diagnostics if problem.severity == "warning"]
 
     def run_started(self, record: RunRecord) -> None:
         self.runs.append(record)
@@ -79,6 +86,7 @@ def execute(
         outcome.error = error
     outcome.console = "".join(console.text)
     outcome.runs = console.runs
+    outcome.warnings = console.warnings
     values = session.values
     for quantity in values:
         if quantity.shape:

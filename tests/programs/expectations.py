@@ -9,6 +9,7 @@
     --? prints 'one\\ttwo'                  the console shows this text (\\t, \\n as in Python)
     --? console                            the console shows exactly the `--| …` lines that follow
     --? error 200 at 12                    the program fails with this error (at this row)
+    --? warning 3 at 12                    a warning with this number (at this row) is given, once
     --? go                                 STOPs are answered by go
     --? answers 3 | 14 | !                 what is typed at input
     --? reference TMAX = 1 | NN = 101      the slow reference back end runs with these values overridden
@@ -51,6 +52,7 @@ class Expectations:
     prints: list[str] = field(default_factory=list)
     console: list[str] | None = None
     error: tuple[int, int | None] | None = None
+    warnings: list[tuple[int, int | None]] = field(default_factory=list)
     go: bool = False
     answers: list[str] = field(default_factory=list)
     reference: Settings = ()
@@ -88,11 +90,15 @@ def _read(found: Expectations, row: int, text: str) -> None:
         found.compare = float(rest)
     elif word == "prints":
         found.prints.append(ast.literal_eval(rest))
-    elif word == "error":
+    elif word in ("error", "warning"):
         match = re.fullmatch(r"(\d+)(?: at (\d+))?", rest)
         if match is None:
             raise ValueError(f"row {row}: {text}")
-        found.error = (int(match[1]), int(match[2]) if match[2] else None)
+        problem = (int(match[1]), int(match[2]) if match[2] else None)
+        if word == "error":
+            found.error = problem
+        else:
+            found.warnings.append(problem)
     else:
         found.checks.append(_check(row, text))
 

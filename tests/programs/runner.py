@@ -11,6 +11,7 @@ from tests.programs.expectations import read_expectations
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from desire_tui.engine.diagnostics import Diagnostic
     from tests.programs.execution import Outcome
     from tests.programs.expectations import Expectations
 
@@ -37,6 +38,11 @@ def faults_of_program(text: str, folder: Path) -> list[str]:
 def _faults(expected: Expectations, outcomes: dict) -> list[str]:
     plain: Outcome = outcomes[()]
     found = _wrong_error(expected, plain)
+    given = [(problem.code, _row(problem)) for problem in plain.warnings]
+    for code, row in expected.warnings:
+        count = sum(code == other and row in (None, at) for other, at in given)
+        if count != 1:
+            found.append(f"warning {code} at {row}: given {count} times; all are {given}")
     found += [fault for c in expected.checks if (fault := check(c, outcomes[c.settings])) is not None]
     found += [
         f"not printed: {text!r} in {plain.console!r}" for text in expected.prints if text not in plain.console
@@ -52,7 +58,11 @@ def _wrong_error(expected: Expectations, outcome: Outcome) -> list[str]:
     if outcome.error is None:
         return [f"error {wanted[0]} did not come"] if wanted else []
     problem = outcome.error.diagnostics[0]
-    row = problem.source.position(problem.span.start).row if problem.source and problem.span else None
+    row = _row(problem)
     if wanted is not None and problem.code == wanted[0] and wanted[1] in (None, row):
         return []
     return [f"line {row}: error {problem.code}: {problem.message}"]
+
+
+def _row(problem: Diagnostic) -> int | None:
+    return problem.source.position(problem.span.start).row if problem.source and problem.span else None

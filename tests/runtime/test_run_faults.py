@@ -36,7 +36,7 @@ def test_a_state_that_grows_without_bound():
 
 def test_a_displayed_variable_that_is_undefined():
     _, problem = failed(
-        "TMAX = 2 | DT = 0.01 | NN = 21\ndrun\nDYNAMIC\nd/dt x = 1\nz = sqrt(1.05 - x)\ndispt z\n"
+        "TMAX = 2 | DT = 0.01 | NN = 21\ndrun\nDYNAMIC\nd/dt x = 1\nz = sqrt(1.05 - x)\ndispt z\nOUT\nsum = sum + z\n"
     )
     assert problem.message == "'z' became undefined (nan) at t = 1.1"
     assert problem.source.position(problem.span.start).row == 5

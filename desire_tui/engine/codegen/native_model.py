@@ -96,9 +96,7 @@ class NativeModel:
         small = self._is_small()
         if small:
             states, columns = self._states.tolist(), self._columns.tolist()
-            self._loop = register_loop(
-                self._passes, self._rule, states, columns, self._vital_slots.tolist()
-            )
+            self._loop = register_loop(self._passes, self._rule, states, columns, self._vital_slots.tolist())
         self._better = self._store.fast(self._loop, slp=not small or self._segment.order >= PAIRED_LEAST)
         self.context.hurry = 1
         yield
@@ -127,9 +125,7 @@ class NativeModel:
             if ended is not Ended.RUNNING or memory.row >= memory.row_limit:
                 break
         if ended is Ended.NOT_FINITE:
-            memory.which = first_not_finite(
-                self._values.data, self._states, self._columns, self._vital
-            )
+            memory.which = first_not_finite(self._values.data, self._states, self._columns, self._vital)
         return ended
 
 

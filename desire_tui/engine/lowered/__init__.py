@@ -16,6 +16,7 @@ under a guard lowering computes them into numbers of its own, and the derivative
 end of the pass, so that a derivative whose guard is shut keeps its last value.
 
 **Loop.** Rule 0 moves t on by COMINT after the last sample too. inf and nan are looked for at communication
-points, states first, then columns; the row is not written. The test difference of rules 4, 7, 8 is relative
-to |x| + 1 at the step's start; a difference that is nan counts as small, and the states' nan ends the run.
+points, states first, then the columns that states depend on (`passes.vital_columns`); the row is not
+written. The test difference of rules 4, 7, 8 is relative to |x| + 1 at the step's start; a difference that is
+nan counts as small, and the states' nan ends the run.
 """

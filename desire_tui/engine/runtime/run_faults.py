@@ -61,7 +61,7 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
         }  # fmt: skip
         return _placed("variable-step-deadlock", facts, segment, where)
     if ended is Ended.STALLED:
-        return _placed("time-stalled", {"t": t, "dt": cells[DT]}, segment, _defining(segment, DT))
+        return _placed("time-stalled", {"t": t, "dt": cells[DT]}, segment, defining(segment, DT))
     if ended is Ended.SOLVER:
         name, where = state_name(segment, int(memory.suspect))
         facts = {"t": t, "dt": cells[DT], "rule": plan.rule, "state": name, "flag": which}
@@ -72,8 +72,8 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
     else:
         column = segment.columns[-1 - which]
         name, value = column.name, cells[column.slot]
-        where = _defining(segment, column.slot) or column.where
-    return _placed("not-finite", {"name": name, "what": _what(value), "t": t}, segment, where)
+        where = defining(segment, column.slot) or column.where
+    return _placed("not-finite", {"name": name, "what": described(value), "t": t}, segment, where)
 
 
 def watched_fault(ended: Ended, segment: Segment, memory: RunMemory, values: Values) -> DesireError | None:
@@ -120,7 +120,7 @@ def _derivative(segment: Segment, number: int) -> Where | None:
     return None
 
 
-def _defining(segment: Segment, slot: int) -> Where | None:
+def defining(segment: Segment, slot: int) -> Where | None:
     """Return the place that gives a slot its value: an assignment, or a state's derivative."""
     for action in walk_actions(segment.body):
         if not isinstance(action, Assignment):
@@ -134,14 +134,20 @@ def _defining(segment: Segment, slot: int) -> Where | None:
 
 
 def _placed(key: str, facts: dict[str, object], segment: Segment, where: Where | None) -> DesireError:
+    return DesireError(at_statement(key, facts, segment, where))
+
+
+def at_statement(key: str, facts: dict[str, object], segment: Segment, where: Where | None) -> Diagnostic:
+    """Return a problem of a segment's statement; one in a submodel's body names the invocation too."""
     related: tuple[Diagnostic, ...] = ()
     if where is not None and where.invoked_at is not None:
         related = (Diagnostic("expanded-here", where.invoked_at, {}, segment.source),)
     span = where.span if where is not None else None
-    return DesireError(Diagnostic(key, span, facts, segment.source, related=related))
+    return Diagnostic(key, span, facts, segment.source, related=related)
 
 
-def _what(value: float) -> str:
+def described(value: float) -> str:
+    """Return what became of a number: `infinite`, `undefined (nan)`."""
     if isnan(value):
         return "undefined (nan)"
     return "infinite" if abs(value) == float("inf") else f"{value:g}"

@@ -79,7 +79,7 @@ class RunMemory(ctypes.Structure):
         ("checked", ctypes.c_int64),  # CHECKN
         ("row", ctypes.c_int64),  # rows written
         ("row_limit", ctypes.c_int64),  # come back when `row` gets there
-        ("gap", ctypes.c_int64),  # 1 + the first row with an inf or nan that is no fault (`vital_columns`); 0: none
+        ("gap", ctypes.c_int64),  # 1 + the first row with an inf or nan that is no fault; 0: none
         ("steps", ctypes.c_int64),
         ("rejected", ctypes.c_int64),
         ("derivative_calls", ctypes.c_int64),

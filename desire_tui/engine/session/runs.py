@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, internal_error
 from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.runtime.gap_warnings import gap_warnings
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
 from desire_tui.engine.runtime.stash import write_stash
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.listener import Listener
     from desire_tui.engine.session.type_output import TypeOutput
     from desire_tui.engine.session.workspace import Workspace
+    from desire_tui.engine.source import Span
     from desire_tui.engine.values import Values
 
 RUNS_BYTES_MAX = 1 << 30
@@ -52,6 +54,7 @@ class Runs:
         self._bytes = 0  # of all samples kept but the newest run's
         self.start: Checkpoint | None = None
         """Where the last run began, unless the model is large."""
+        self._gaps: set[Span | None] = set()  # places of the variables that have been warned of since then
         self.run_of: tuple[str, int] | None = None
         """The last run's program text, and `Values.generation` then."""
 
@@ -111,6 +114,7 @@ class Runs:
             record.message = internal_error("the run went on", error).message
             raise
         finally:
+            self._warn_of_gaps(segment, record)
             workspace.notebook.run_ended(record, workspace.overrides)
             self._listener.run_ended(record)
         problems = workspace.segments.backend.problems()
@@ -120,6 +124,13 @@ class Runs:
             raise Interrupted
         if stash is not None:
             self._stash(stash, segment, record)
+
+    def _warn_of_gaps(self, segment: Segment, record: RunRecord) -> None:
+        """Name variables that have become inf or nan without ending the run, each place once in a program."""
+        new = [problem for problem in gap_warnings(segment, record) if problem.span not in self._gaps]
+        self._gaps.update(problem.span for problem in new)
+        if new:
+            self._listener.problems(new)
 
     def _checkpoint(self) -> Checkpoint | None:
         values = self._values
@@ -159,6 +170,7 @@ class Runs:
     def forget(self) -> None:
         """Begin a program: its runs count from 1."""
         self.kept.clear()
+        self._gaps.clear()
         self._graphs.limit_memory()
         self.start = self.run_of = None
         self.count = self._bytes = 0

@@ -153,9 +153,7 @@ class ArrayStorage:
         text = self.text
         text.do(f"store double {t}, ptr {at}")
         rest = text.op(f"getelementptr double, ptr {at}, i64 1")
-        return self._any_wild(
-            "%columns", "%column.count", lambda i, value: put(self.lanes, rest, i, value)
-        )
+        return self._any_wild("%columns", "%column.count", lambda i, value: put(self.lanes, rest, i, value))
 
     def vital_wild(self) -> str:
         """Whether some column that states depend on is inf or nan."""

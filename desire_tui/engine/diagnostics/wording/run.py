@@ -98,6 +98,13 @@ MESSAGES: dict[str, Wording] = {
         "the samples before are kept; a smaller DT or another rule may help",
         _FAULT_PAGE,
     ),
+    "sample-not-finite": Wording(
+        3,
+        "{names} became {what} at t = {t:.6g}: the run goes on, and the curve has a gap there",
+        "test the divisor or the argument, if the gap is not meant",
+        "A warning, given once. No derivative and no variable that keeps its value from pass to pass depends"
+        " on such a number: its samples say nan or inf, the curve is interrupted, and the run goes on.",
+    ),
     "row-not-chosen": Wording(
         124,
         "iRow = {value:g} chooses no row",

@@ -53,9 +53,8 @@ MESSAGES: dict[str, Wording] = {
         5,
         "division by zero",
         "test the divisor before this line",
-        "In scripts a division by zero stops the program at once. In DYNAMIC segments it gives "
-        "inf or nan, and the "
-        "run ends at the first state or displayed variable that shows it.",
+        "In scripts a division by zero stops the program at once. In DYNAMIC segments it gives inf or"
+        " nan: the run ends where a state, or what states are made of, shows it; other curves have a gap.",
     ),
     "overflow": Wording(
         3,
