@@ -337,6 +337,8 @@ class DesireApp(AppBase):
         if not self.engine.is_ready:
             return  # every text is checked once the engine is there
         buffer = event.area.buffer
+        if not buffer.is_program:
+            return
         self.checker.ask(buffer, self.editor.versions.get(buffer.number, 0), event.area.text)
 
     @on(CompletionPopup.OptionSelected, "#completion")

@@ -9,6 +9,7 @@ from desire_tui.actions import Controller
 from desire_tui.actions.save_and_reload import SaveAndReload
 from desire_tui.common.dialogs import Choice, LineDialog
 from desire_tui.common.paths import exists, full
+from desire_tui.common.recent_files import note_recent, recent_files
 from desire_tui.editor import line_ends
 from desire_tui.editor.buffer import Buffer, NotText
 
@@ -74,12 +75,10 @@ class FileActions(Controller):
     async def _pick(self) -> Path | None:
         if self.app.reach.folder is not None:  # a dialog that shows every folder is not for visitors
             return await self._ask_within("Open", "")
-        from textual_fspicker import FileOpen, Filters
+        from desire_tui.common.file_dialog import FileDialog
 
-        kinds = Filters(
-            ("Programs", lambda path: path.suffix.casefold() == SUFFIX), ("All files", lambda _: True)
-        )
-        return await self.app.push_screen_wait(FileOpen(self._folder(), filters=kinds))
+        dialog = FileDialog("open", self._folder(), recent=recent_files(), suffix=SUFFIX)
+        return await self.app.push_screen_wait(dialog)
 
     async def open_path(self, path: Path, *, focus: bool = True) -> CodeArea | None:
         """Open a file in a tab, or show the tab that holds it.
@@ -99,10 +98,15 @@ class FileActions(Controller):
             reason = error.strerror if isinstance(error, OSError) else str(error)
             self.app.report_error(f"cannot open {path}: {reason}", code=18 if exists(path) else 38)
             return None
+        self._note_recent(path)
         area = await editor.add(buffer)
         if focus:
             self.app.move_focus(area)
         return area
+
+    def _note_recent(self, path: Path) -> None:
+        if self.app.reach.folder is None:  # one visitor's files are not the next one's
+            note_recent(path)
 
     def _folder(self) -> Path:
         path = self.app.editor.front.buffer.path
@@ -148,18 +152,18 @@ class FileActions(Controller):
         if encoding is None:
             return False
         area.buffer.hold(full(path), text, encoding)
-        self.app.editor.refresh_tabs()
+        self._note_recent(full(path))
+        self.app.editor.kind_changed(area)
         self.app.notify(f"Saved {path}", timeout=2, markup=False)
         return True
 
     async def _ask_path(self, area: CodeArea) -> Path | None:
         if self.app.reach.folder is not None:
             return await self._ask_within("Save as", area.buffer.name.removesuffix(SUFFIX) + SUFFIX)
-        from textual_fspicker import FileSave
+        from desire_tui.common.file_dialog import FileDialog
 
-        return await self.app.push_screen_wait(
-            FileSave(self._folder(), default_file=area.buffer.name.removesuffix(SUFFIX) + SUFFIX)
-        )
+        name = area.buffer.name if Path(area.buffer.name).suffix else area.buffer.name + SUFFIX
+        return await self.app.push_screen_wait(FileDialog("save", self._folder(), name=name, suffix=SUFFIX))
 
     async def _ask_within(self, title: str, value: str) -> Path | None:
         """Ask for a file of the folder that is served."""

@@ -8,6 +8,7 @@ from desire_tui.actions import Controller
 from desire_tui.editor.live_check import CHECKED_MAX
 from desire_tui.engine.session.status import State
 from desire_tui.engine.source import Source
+from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
     from desire_tui.editor.code_area import CodeArea
@@ -25,6 +26,8 @@ class RunActions(Controller):
         """`zz`: accept the front tab and run it; a run that goes on is ended first."""
         del argument
         app = self.app
+        if not self._front_is_program():
+            return
         app.show_run()
         app.file_actions.save_and_reload.notice_changes()
         source = self._accept_front()
@@ -42,6 +45,8 @@ class RunActions(Controller):
         """OK: the front tab becomes the active program."""
         del argument
         app = self.app
+        if not self._front_is_program():
+            return
         app.file_actions.save_and_reload.notice_changes()
         source = self._accept_front()
         name = app.editor.front.buffer.name
@@ -53,6 +58,17 @@ class RunActions(Controller):
                 app.on_screen(app.notify, f"{name} is the active program.", timeout=2, markup=False)
 
         app.engine.submit(accept)
+
+    def _front_is_program(self) -> bool:
+        """Whether the front tab can be run; the user is told if not."""
+        name = self.app.editor.front.buffer.name
+        if self.app.editor.front.buffer.is_program:
+            return True
+        again = "; Shift+F5 runs the active program" if self.app.editor.active is not None else ""
+        self.app.report_error(
+            f"{visible_line(name)} is no program by its ending: nothing was run{again}", code=None
+        )
+        return False
 
     def _accept_front(self) -> Source:
         editor = self.app.editor
@@ -142,6 +158,8 @@ class RunActions(Controller):
     def breakpoint(self, argument: str = "") -> None:
         """Set or remove a breakpoint on the cursor's row, or on the numbered one."""
         area = self.app.editor.front
+        if not area.buffer.is_program:
+            return
         row = int(argument) - 1 if argument.isdecimal() else area.cursor_location[0]
         setting = row not in area.marks.breakpoints
         if setting and not self._can_stop(area, row):

@@ -102,13 +102,15 @@ class Completer:
 
     def offer(self, target: Target) -> None:
         """Offer completions at the cursor on demand; a single one is put in at once."""
+        if _is_prose(target):
+            return
         if self._show(target) == 1:
             self.insert_chosen()
         self._by_hand = self.popup.is_open
 
     def _offer(self, target: Target) -> None:
         """Offer completions by itself, if enough letters stand before the cursor and none behind."""
-        if not target.has_focus or self._is_up_to_date(target):
+        if not target.has_focus or _is_prose(target) or self._is_up_to_date(target):
             return
         line, column = _here(target)
         in_a_word = line[column : column + 1].isalnum()
@@ -198,6 +200,11 @@ class Completer:
             at = target.cursor_position
             target.value = target.value[: at - len(prefix)] + offer.word + target.value[at:]
             target.cursor_position = at - len(prefix) + len(offer.word)
+
+
+def _is_prose(target: Target) -> bool:
+    """Whether the text is no program: its words are none of the language's."""
+    return isinstance(target, CodeArea) and not target.buffer.is_program
 
 
 def _here(target: Target) -> tuple[str, int]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from itertools import count
+from pathlib import Path
 from stat import S_ISCHR, S_ISFIFO
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,6 @@ from desire_tui.engine.text_encoding import UTF_8, TextEncoding, decode
 
 if TYPE_CHECKING:
     from collections.abc import Container
-    from pathlib import Path
 
 _numbers = count(1)
 
@@ -23,6 +23,16 @@ SIZE_MAX = 64 << 20
 
 Nobody edits them, and a wrong file must not fill the memory.
 """
+
+
+OTHER_SUFFIXES = frozenset(
+    {
+        ".bib", ".c", ".cfg", ".conf", ".css", ".csv", ".dat", ".diff", ".h", ".html", ".ini", ".jl", ".js",
+        ".json", ".log", ".m", ".md", ".patch", ".py", ".rst", ".sh", ".svg", ".tex", ".toml", ".tsv", ".xml",
+        ".yaml", ".yml",
+    }
+)  # fmt: skip
+"""Endings of files that hold no Desire program."""
 
 
 class NotText(ValueError):  # noqa: N818 - a statement about a file
@@ -51,6 +61,11 @@ class Buffer:
     def name(self) -> str:
         """What the tab shows."""
         return self.path.name if self.path else self.label
+
+    @property
+    def is_program(self) -> bool:
+        """Whether it is to be coloured, checked and run as a program; other files are only edited."""
+        return Path(self.name).suffix.casefold() not in OTHER_SUFFIXES
 
     @property
     def shape(self) -> str:

@@ -56,6 +56,9 @@ class CodeArea(ProgramView):
         self.buffer = buffer
         self.completion = completion
         super().__init__(text, twin)
+        if not buffer.is_program:
+            self.marks.is_program = False
+            self._build_highlight_map()
 
     @property
     def tab(self) -> CodeArea:
@@ -108,6 +111,10 @@ class CodeArea(ProgramView):
     def _new_line(self) -> None:
         row, column = min(self.selection)
         line = self.document.get_line(row)
+        if not self.buffer.is_program:
+            margin = line[: min(column, len(line) - len(line.lstrip()))]
+            self._replace_via_keyboard("\n" + margin, *self.selection)
+            return
         rows_above = self._coloured.before(row)
         at_end = self.selection.is_empty and column == len(line)
         if at_end and not rows_above and indent.closes(line):

@@ -293,7 +293,19 @@ class EditorPane(Vertical):
         self._ask_check(area)
         self.query_one(FindBar).text_changed()
 
+    def kind_changed(self, area: CodeArea) -> None:
+        """Colour and check a text by its name, which is perhaps no longer that of a program."""
+        area.marks.is_program = area.buffer.is_program
+        if not area.buffer.is_program:
+            area.marks.set_problems(())
+        area.marks_changed()
+        self.refresh_tabs()
+        self._status_row.show(self.front)
+        self._ask_check(area.tab)
+
     def _ask_check(self, area: CodeArea) -> None:
+        if not area.buffer.is_program:
+            return
         number = area.buffer.number
         due = self._checks_due.pop(number, None)
         if due is not None:

@@ -37,6 +37,7 @@ class LineHighlights(dict[int, "list[Range]"]):
         self.document: DocumentBase | None = None
         self.marks: Mapping[int, Sequence[Mark]] = {}
         self.found: Mapping[int, Sequence[tuple[int, int]]] = {}
+        self.is_program = True
 
     def __bool__(self) -> bool:
         return self.document is not None
@@ -48,7 +49,7 @@ class LineHighlights(dict[int, "list[Range]"]):
 
     def before(self, row: int) -> str:
         """Return the rows of a statement that goes on in this one; an empty text if none does."""
-        if not self.are_on() or not isinstance(self.document, ProgramLines):
+        if not self.are_on() or not self.is_program or not isinstance(self.document, ProgramLines):
             return ""
         try:
             from desire_tui.engine.syntax.statement_rows import before
@@ -61,7 +62,8 @@ class LineHighlights(dict[int, "list[Range]"]):
         assert self.document is not None
         text = self.document.get_line(row)
         line = visible(text)  # the bytes of what is drawn
-        ranges = list(_colours(self.before(row), text)) if len(line) <= LINE_MAX and self.are_on() else []
+        coloured = self.is_program and len(line) <= LINE_MAX and self.are_on()
+        ranges = list(_colours(self.before(row), text)) if coloured else []
         ranges += [(_bytes(line, a), _bytes(line, b), "found") for a, b in self.found.get(row, ()) if a < b]
         for mark in self.marks.get(row, ()):
             start = min(mark.start, max(len(line) - 1, 0))

@@ -76,6 +76,8 @@ class BreakpointChange:
 class Marks:
     """All marks of one editor."""
 
+    is_program: bool = True
+    """Whether the text is a program: no other one is coloured."""
     problems: dict[int, list[Mark]] = field(default_factory=dict)
     breakpoints: set[int] = field(default_factory=set)
     traced: int | None = None

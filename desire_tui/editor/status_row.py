@@ -50,7 +50,9 @@ class StatusRow(Horizontal):
             sentence = f" {count} problem{'s' if count > 1 else ''} · F8"
         else:
             sentence = ""
-        shape = area.buffer.shape
+        shape = (
+            area.buffer.shape if area.buffer.is_program else f"text, unchecked {area.buffer.shape}".strip()
+        )
         self._set_label("#place", f"{shape}{'  ' if shape else ''}{row + 1}:{column + 1}")
         label = self._set_label("#problem", sentence)
         label.set_class(mark is not None and mark.style == "error", "-error")

@@ -80,6 +80,7 @@ class RenderedText(TextArea):
             highlights.document = self.document
             highlights.marks = self.marks.problems
             highlights.found = self.marks.found
+            highlights.is_program = self.marks.is_program
 
     def refresh(
         self, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False
@@ -137,7 +138,8 @@ class RenderedText(TextArea):
         """Return what the looks of all rows depend on."""
         return (
             self.size.width, max(self.virtual_size.width, self.size.width), self.gutter_width,
-            self.scroll_offset.x, self.theme, self.rich_style, self.has_focus, LineHighlights.are_on(),
+            self.scroll_offset.x, self.theme, self.rich_style, self.has_focus,
+            LineHighlights.are_on() and self.marks.is_program,
         )  # fmt: skip
 
     def _looks(self, row: int, common: tuple[object, ...]) -> tuple[object, ...]:

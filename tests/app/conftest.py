@@ -122,6 +122,7 @@ async def desktop(*files: Path, size: tuple[int, int] = (100, 30)) -> AsyncItera
 def program(tmp_path: Path) -> Callable[[str, str], Path]:
     def write(text: str, name: str = "osc.src") -> Path:
         path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
         return path
 
