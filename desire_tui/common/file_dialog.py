@@ -11,7 +11,7 @@ from textual.widgets import Input, Label, OptionList
 from textual.widgets.option_list import Option
 
 from desire_tui.common.dialogs import Question
-from desire_tui.common.file_listing import Entry, listed, short, split_typed
+from desire_tui.common.file_listing import UP, Entry, listed, short, split_typed
 from desire_tui.common.paths import exists, full
 from desire_tui.engine.visible_text import visible_line
 
@@ -111,7 +111,9 @@ class FileDialog(Question["Path | None"]):
         options = self.query_one(OptionList)
         options.clear_options()
         options.add_options([Option(self._drawn(entry)) for entry in self._entries])
-        options.highlighted = 0 if self._entries and self._purpose == "open" else None
+        if self._purpose == "open":  # Enter opens the first file, it never goes up by itself
+            wanted = (n for n, entry in enumerate(self._entries) if entry.label != f"{UP}/")
+            options.highlighted = next(wanted, 0 if self._entries else None)
 
     def _drawn(self, entry: Entry) -> Text:
         theme = self.app.current_theme
