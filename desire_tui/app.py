@@ -68,6 +68,10 @@ ENGINE_AFTER_S = 0.05
 """A key typed as soon as the desktop is seen is answered first: Python imports in one thread at a time."""
 EDITOR_ONLY = {"edit.undo", "edit.redo", "edit.select_all", "edit.comment", "file.close"}
 """Their keys mean something else inside a one-line field."""
+IN_EDITOR_ONLY = {
+    "edit.duplicate", "edit.move_up", "edit.move_down", "edit.dedent", "edit.cut", "edit.copy", "edit.paste",
+}  # fmt: skip
+"""Their keys mean something else outside the editor."""
 
 
 class DesireApp(AppBase):
@@ -288,10 +292,16 @@ class DesireApp(AppBase):
         if action == "do":
             from textual.widgets import Input
 
+            from desire_tui.editor.code_area import CodeArea
+            from desire_tui.editor.find_bar import FindBar
+
             if isinstance(self.screen, ModalScreen):
                 return False
-            if isinstance(self.focused, Input) and parameters[0] in EDITOR_ONLY:
+            if parameters[0] in IN_EDITOR_ONLY and not isinstance(self.focused, CodeArea):
                 return False
+            if isinstance(self.focused, Input) and parameters[0] in EDITOR_ONLY:
+                in_find_bar = any(isinstance(ancestor, FindBar) for ancestor in self.focused.ancestors)
+                return in_find_bar and parameters[0] in ("edit.undo", "edit.redo")
         return True
 
     def get_system_commands(self, screen: Screen[Any]) -> Iterable[SystemCommand]:

@@ -130,6 +130,71 @@ class EditActions(Controller):
         del argument
         self._go_to_problem(-1)
 
+    def fix(self, argument: str = "") -> None:
+        """Replace the word at the problem under the cursor, or on its row, by the one that was meant."""
+        del argument
+        app, area = self.app, self.app.editor.front
+        row, column = area.cursor_location
+        marks = [mark for mark in area.marks.problems.get(row, ()) if mark.fix is not None]
+        here = (mark for mark in marks if mark.start <= column <= mark.end)
+        mark = next(here, marks[0] if marks else None)
+        if mark is None or mark.fix is None:
+            app.notify("No suggestion for this line. F8 goes to the next problem.", timeout=3)
+            return
+        start, old, new = mark.fix
+        if area.document.get_line(row)[start : start + len(old)] != old:
+            return  # edited, and not checked again yet
+        area.replace_as_one(new, (row, start), (row, start + len(old)))
+        app.notify(f"{mark.fix.text} · Ctrl+Z takes it back", timeout=3, markup=False)
+
+    def duplicate(self, argument: str = "") -> None:
+        """Repeat the cursor's row."""
+        del argument
+        self.app.editor.front.duplicate_line()
+
+    def move_up(self, argument: str = "") -> None:
+        """Move the selected rows up."""
+        del argument
+        self.app.editor.front.move_line(-1)
+
+    def move_down(self, argument: str = "") -> None:
+        """Move the selected rows down."""
+        del argument
+        self.app.editor.front.move_line(1)
+
+    def indent(self, argument: str = "") -> None:
+        """Indent the selected rows."""
+        del argument
+        self.app.editor.front.shift_lines(1)
+
+    def dedent(self, argument: str = "") -> None:
+        """Dedent the selected rows."""
+        del argument
+        self.app.editor.front.shift_lines(-1)
+
+    def cut(self, argument: str = "") -> None:
+        """Cut the selection or the row."""
+        del argument
+        self.app.editor.front.action_cut()
+
+    def copy(self, argument: str = "") -> None:
+        """Copy the selection or the row, whether or not a run goes on."""
+        del argument
+        view = self.app.view_actions
+        area = self.app.editor.front
+        view.copy(view.selected_text or area.document.get_line(area.cursor_location[0]))
+
+    def paste(self, argument: str = "") -> None:
+        """Insert what was cut or copied here; what others copied comes by the terminal's own key."""
+        del argument
+        if self.app.clipboard:
+            self.app.editor.front.action_paste()
+        else:
+            sentence = (
+                "Nothing was copied here. The terminal's own key (mostly Ctrl+Shift+V) pastes the rest."
+            )
+            self.app.notify(sentence, timeout=4)
+
     def undo(self, argument: str = "") -> None:
         """Undo."""
         del argument

@@ -22,6 +22,9 @@ def source_of(area: CodeArea) -> Source:
 class RunActions(Controller):
     """Part `run` of the command table."""
 
+    _copied = ""
+    """What Ctrl+C copied last during a run: pressed again, it pauses."""
+
     def start(self, argument: str = "") -> None:
         """`zz`: accept the front tab and run it; a run that goes on is ended first."""
         del argument
@@ -95,7 +98,7 @@ class RunActions(Controller):
         self.app.engine.submit(self.app.session.go)
 
     def pause(self, argument: str = "") -> None:
-        """Ctrl-C: pause what goes on, resume what is paused; without either, copy the selection."""
+        """Ctrl-C: pause what goes on, resume what is paused; what is selected is copied first."""
         del argument
         app = self.app
         state = app.session.status.state
@@ -105,6 +108,12 @@ class RunActions(Controller):
         elif state is State.PAUSED:
             self.resume()
         elif app.engine.is_busy:
+            if (text := app.view_actions.selected_text) and text != self._copied:
+                self._copied = text
+                app.view_actions.copy(text)
+                app.notify("The run goes on: Ctrl+C again pauses it.", timeout=3)
+                return
+            self._copied = ""
             app.session.pause()
             app.command.prompt.focus()
             app.show_status()

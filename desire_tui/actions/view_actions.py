@@ -93,17 +93,19 @@ class ViewActions(Controller):
         self.app.move_focus(self.app.command.prompt)
         self.app.command.open_search()
 
+    @property
+    def selected_text(self) -> str:
+        """What is selected with mouse or keys."""
+        focused = self.app.focused
+        text = self.app.screen.get_selected_text() or ""
+        return focused.selected_text if not text and isinstance(focused, (TextArea, Input)) else text
+
     def copy_selection(self) -> None:
-        """Copy what is selected with mouse or keys."""
-        app = self.app
-        focused = app.focused
-        text = app.screen.get_selected_text() or ""
-        if not text and isinstance(focused, (TextArea, Input)):
-            text = focused.selected_text
-        if text:
+        """Copy what is selected."""
+        if text := self.selected_text:
             self.copy(text)
         else:
-            app.notify("Nothing is running. Ctrl+Q leaves Desire.", timeout=2)
+            self.app.notify("Nothing is running. Ctrl+Q leaves Desire.", timeout=2)
 
     def copy(self, text: str) -> None:
         """Put text on the clipboard by OSC 52, and say what the terminal may do with it."""

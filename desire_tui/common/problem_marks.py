@@ -2,11 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.engine.source import Source, Span
+
+_WORD = re.compile(r"[A-Za-z_$][\w$]*")
+
+
+class Fix(NamedTuple):
+    """What a problem's "did you mean" would change in its row: the word from column `start` on."""
+
+    start: int
+    old: str
+    new: str
+
+    @property
+    def text(self) -> str:
+        """The change, for people."""
+        return f"{self.old} → {self.new}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +37,7 @@ class Mark:
     code: int
     message: str
     hint: str | None
+    fix: Fix | None = None
 
     @property
     def text(self) -> str:
@@ -37,5 +55,19 @@ def mark_of(diagnostic: Diagnostic) -> Mark | None:
     last = end.column - 1 if end.row == start.row else len(diagnostic.source.line(start.row))
     return Mark(
         start.row - 1, start.column - 1, max(last, start.column), diagnostic.severity, diagnostic.code,
-        diagnostic.message, diagnostic.hint,
+        diagnostic.message, diagnostic.hint, _fix(diagnostic, diagnostic.source, diagnostic.span),
     )  # fmt: skip
+
+
+def _fix(diagnostic: Diagnostic, source: Source, span: Span) -> Fix | None:
+    """Return the change that the hint proposes, if its word is found in the problem's first row."""
+    new = diagnostic.facts.get("close")
+    if not new:
+        return None
+    row = source.text[span.start : span.end].split("\n")[0]
+    name = str(diagnostic.facts.get("name") or "")
+    words = list(_WORD.finditer(row))
+    found = next((word for word in words if word[0] == name), words[0] if words else None)
+    if found is None or found[0] == new:
+        return None
+    return Fix(source.position(span.start).column - 1 + found.start(), found[0], str(new))

@@ -1,9 +1,10 @@
-"""Alt with another key, as terminals without kitty's protocol send it: Escape and the character.
+"""Keys that Textual's parser does not know: Ctrl+Insert, and Alt with another key.
 
-Textual takes most of these for what a Mac's Option key makes of them (Alt+0 was `º`, Alt+= `≠`, Alt+- `–`),
-the others for the bare sign, and Alt+Backspace for Ctrl+W, which closes a tab here. Alt+F and Alt+B stay word
-by word to the right and left: some terminals send them for Alt with an arrow. With the other letters Textual
-waits 0.1 s for more to come, and takes both apart if it does.
+Alt comes from terminals without kitty's protocol as Escape and the character. Textual takes most of these for
+what a Mac's Option key makes of them (Alt+0 was `º`, Alt+= `≠`, Alt+- `–`), the others for the bare sign, and
+Alt+Backspace for Ctrl+W, which closes a tab here. Alt+F and Alt+B stay word by word to the right and left:
+some terminals send them for Alt with an arrow. With the other letters Textual waits 0.1 s for more to come,
+and takes both apart if it does.
 """
 
 from __future__ import annotations
@@ -23,4 +24,5 @@ def teach() -> None:
     table = cast("dict[str, Any]", ANSI_SEQUENCES_KEYS)
     for character in CHARACTERS:
         table[f"\x1b{character}"] = (SimpleNamespace(value=f"alt+{_character_to_key(character)}"),)
+    table["\x1b[2;5~"] = (SimpleNamespace(value="ctrl+insert"),)
     table["\x1b\x7f"] = (SimpleNamespace(value="alt+backspace"),)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from textual.message import Message
+    from textual.notifications import SeverityLevel
     from textual.widget import Widget
 
     from desire_tui.desktop.layout_rules import Pane
@@ -44,6 +45,8 @@ class AppBase(App[None]):
 
     errors_reported = 0
     """How many errors were reported to the user."""
+    keeps_answers = False
+    """Whether a command of the command line is being carried out: what it says stays in the output."""
 
     def __init__(self, permissions: Permissions | None) -> None:
         super().__init__()
@@ -183,12 +186,31 @@ class AppBase(App[None]):
 
     # ------------------------------------------------------------------------------------------------ telling
 
+    def notify(
+        self,
+        message: str,
+        *,
+        title: str = "",
+        severity: SeverityLevel = "information",
+        timeout: float | None = None,
+        markup: bool = True,
+    ) -> None:
+        """Show a sentence for a while; the answer to a typed command stays in the output, too."""
+        if self.keeps_answers:
+            self.command.console.add(message, "warning" if severity == "warning" else "notice")
+        self._show_toast(message, title, severity, timeout, markup)
+
+    def _show_toast(
+        self, message: str, title: str, severity: SeverityLevel, timeout: float | None, markup: bool
+    ) -> None:
+        super().notify(message, title=title, severity=severity, timeout=timeout, markup=markup)
+
     def report_error(self, sentence: str, *, code: int | None) -> None:
         """Report an error of the user (`code` None: a warning)."""
         self.errors_reported += 1
         text = f"error {code}: {sentence}" if code else sentence
         self.command.console.add(text, "error" if code else "warning")
-        self.notify(text, severity="error" if code else "warning", markup=False, timeout=6)
+        self._show_toast(text, "", "error" if code else "warning", 6, markup=False)
 
     def may_read(self, path: Path) -> bool:
         """Whether the user may open a file; he is told if not."""
@@ -222,7 +244,7 @@ class AppBase(App[None]):
     def snapshot_written(self, path: Path) -> None:
         """Report where the picture is."""
         self.command.console.add(f"{path}", "notice")
-        self.notify(f"Saved {path}", markup=False, timeout=3)
+        self._show_toast(f"Saved {path}", "", "information", 3, markup=False)
 
     def write_samples(self, file: IO[str], delimiter: str = ",") -> None:
         """Write the last run's samples as a table: t, then every variable that it recorded."""

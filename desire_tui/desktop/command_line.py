@@ -32,10 +32,10 @@ class CommandLine(Controller):
         self._own_goes_on = False
 
     def enter(self, lines: list[str]) -> None:
-        """Carry out lines, one after the other."""
+        """Carry out lines, one after the other; a block that is pasted is carried out as a whole."""
         app = self.app
         if not app.engine.is_ready:  # typed while the desktop still opens: `next` comes with the engine
-            self._queue.extend(line for line in lines if line.strip())
+            self._queue.extend(blocks(lines))
             return
         state = app.session.status.state
         if state is State.PAUSED and len(lines) == 1 and not lines[0].strip():
@@ -47,7 +47,7 @@ class CommandLine(Controller):
         if state in (State.RUNNING, State.PAUSED) and len(lines) == 1 and parse_line(lines[0]) is None:
             self._during_a_run(lines[0])
             return
-        self._queue.extend(line for line in lines if line.strip())
+        self._queue.extend(blocks(lines))
         self.next()
 
     def next(self) -> None:
@@ -66,12 +66,18 @@ class CommandLine(Controller):
     def _do(self, command: Command, argument: str) -> None:
         """Carry out an action of the desktop; what it asks the user is answered before the next line."""
         before = self.app.errors_reported
-        result = self.app.call(command.id, argument)
+        self.app.keeps_answers = True
+        try:
+            result = self.app.call(command.id, argument)
+        finally:
+            self.app.keeps_answers = False
 
         async def finish(work: Coroutine[Any, Any, object]) -> None:
             try:
+                self.app.keeps_answers = True
                 await work
             finally:
+                self.app.keeps_answers = False
                 self._own_goes_on = False
             self._own_done(before)
             self.next()
@@ -89,12 +95,18 @@ class CommandLine(Controller):
     def failed(self) -> None:
         """Stop: if lines wait behind the one that failed, all of them go back to the prompt."""
         if self._queue:
-            self.app.command.keep_pending([self._current, *self._queue])
+            held = [self._current, *self._queue]
+            self.app.command.keep_pending([line for block in held for line in block.split("\n")])
             self._queue.clear()
 
     def answer(self) -> str | None:
         """Return the next line that waits as the answer to an `input`, None if there is none."""
-        return self._queue.popleft() if self._queue else None
+        if not self._queue:
+            return None
+        line, _, others = self._queue.popleft().partition("\n")
+        if others:
+            self._queue.appendleft(others)
+        return line
 
     def _own(self, line: str) -> tuple[Command, str] | None:
         """Return the desktop's action a line means; a quantity of that name is shown instead."""
@@ -132,4 +144,27 @@ class CommandLine(Controller):
 
     def _echo(self, line: str) -> None:
         self.app.message_handlers.flush()
-        self.app.command.console.add(f"> {line}", "command")
+        self.app.command.console.add("> " + line.replace("\n", "\n> "), "command")
+
+
+def blocks(lines: list[str]) -> list[str]:
+    """Return lines as they are carried out: one by one, those of a block or of a statement as one text.
+
+    Lines that open a block which nothing closes stay single: each is reported as if it were typed.
+    """
+    if len(lines) < 2:
+        return [line for line in lines if line.strip()]
+    from desire_tui.editor.indent import closes, opens
+
+    found: list[str] = []
+    held: list[str] = []
+    depth = 0
+    for line in lines:
+        if not line.strip():
+            continue
+        depth += opens(line) - (closes(line) and depth > 0)
+        held.append(line)
+        if depth == 0 and not line.rstrip().endswith("_"):
+            found.append("\n".join(held))
+            held = []
+    return found + held

@@ -32,14 +32,10 @@ class CodeArea(ProgramView):
     CodeArea .text-area--cursor-gutter { color: $foreground; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("shift+tab", "shift_lines(-1)", "Dedent", show=False),
-        Binding("ctrl+d", "duplicate_line", "Duplicate line", show=False),
         Binding("ctrl+home", "to_end(-1)", "Top of the text", show=False),
         Binding("ctrl+end", "to_end(1)", "End of the text", show=False),
         Binding("ctrl+shift+home", "to_end(-1, True)", "Select to the top", show=False),
         Binding("ctrl+shift+end", "to_end(1, True)", "Select to the end", show=False),
-        Binding("alt+shift+up", "move_line(-1)", "Move line up", show=False),
-        Binding("alt+shift+down", "move_line(1)", "Move line down", show=False),
     ]
 
     class GutterClicked(Message):
@@ -90,7 +86,7 @@ class CodeArea(ProgramView):
         if event.key == "tab" and self.selection.start[0] != self.selection.end[0]:
             event.stop()
             event.prevent_default()
-            self.action_shift_lines(1)
+            self.shift_lines(1)
             return
         await super()._on_key(event)
         if event.is_printable:
@@ -162,7 +158,7 @@ class CodeArea(ProgramView):
         self.replace(text, start, end)
         self.history.checkpoint()
 
-    def action_shift_lines(self, levels: int) -> None:
+    def shift_lines(self, levels: int) -> None:
         """Indent or dedent the selected rows."""
         top, bottom = self._selected_rows()
         self.rewrite_rows(top, bottom, indent.shift(self.document.lines[top : bottom + 1], levels))
@@ -172,13 +168,13 @@ class CodeArea(ProgramView):
         top, bottom = self._selected_rows()
         self.rewrite_rows(top, bottom, indent.toggle_comment(self.document.lines[top : bottom + 1]))
 
-    def action_duplicate_line(self) -> None:
+    def duplicate_line(self) -> None:
         """Repeat the cursor's row below it."""
         row, column = self.cursor_location
         self.insert("\n" + self.document.get_line(row), (row, len(self.document.get_line(row))))
         self.move_cursor((row + 1, column))
 
-    def action_move_line(self, step: int) -> None:
+    def move_line(self, step: int) -> None:
         """Move the selected rows up or down by one."""
         top, bottom = self._selected_rows()
         if not 0 <= (top if step < 0 else bottom) + step < self.document.line_count:

@@ -45,7 +45,8 @@ class StatusRow(Horizontal):
         marks = problems.get(row, [])
         mark = next((m for m in marks if m.start <= column <= m.end), marks[0] if marks else None)
         if mark is not None:
-            sentence = f" {mark.text}"
+            take = f" · Alt+U: {mark.fix.text}" if mark.fix is not None else ""
+            sentence = f" {mark.text}{take}"
         elif count := sum(map(len, problems.values())):
             sentence = f" {count} problem{'s' if count > 1 else ''} · F8"
         else:

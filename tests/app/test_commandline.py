@@ -283,3 +283,47 @@ async def test_while_a_run_goes_on_its_step_is_seen_at_80_columns_and_the_key_th
         assert row.startswith(" ^C pause")
         assert "steps/s · DT 0.001" in row
         assert len(row) == 80
+
+
+async def test_a_pasted_block_is_carried_out_as_a_whole_and_each_line_as_if_typed(program):
+    async with desktop(program("")) as desk:
+        await paste(
+            desk,
+            "total = 0\nfor i = 1 to 4\n  if i > 2 then\n    total = total + i\n  proceed\nnext\ntotal\n",
+        )
+        await desk.idle()
+        assert value(desk, "total") == 7
+        assert sum(line.startswith("> ") for line in desk.output.splitlines()) == 7
+        assert desk.output.rstrip().endswith("7")
+        assert "error" not in desk.output
+
+
+async def test_a_block_that_fails_goes_back_line_by_line(program):
+    async with desktop(program("")) as desk:
+        held = desk.app.command.query_one(PendingLines)
+        await paste(desk, "for i = 1 to 2\n  b = a*\nnext\nc = 5\n")
+        await desk.until(lambda: held.display)
+        assert desk.app.command.prompt.value == "for i = 1 to 2"
+        await desk.press("down", "backspace", "backspace", "2", "enter")
+        await desk.idle()
+        assert value(desk, "b") == 2
+        assert value(desk, "c") == 5
+
+
+async def test_a_block_that_is_never_closed_is_reported_like_a_typed_line(program):
+    async with desktop(program("")) as desk:
+        await paste(desk, "for i = 1 to 2\n  a = 1\n")
+        await desk.idle()
+        assert "error" in desk.output
+
+
+async def test_what_a_typed_command_answers_stays_in_the_output(program):
+    async with desktop(program("")) as desk:
+        await desk.line("theme light")
+        await desk.line("snapshot")
+        assert "Theme: light" in desk.output
+        assert "No graph yet: press F5." in desk.output
+        await desk.press("alt+t")
+        assert desk.output.count("Theme:") == 1
+        await desk.line("load 'nowhere.src'")
+        assert desk.output.count("nowhere.src: No such file") <= 1

@@ -37,7 +37,7 @@ async def test_rewriting_rows_as_they_are_keeps_what_can_be_done_again(program):
         area = desk.app.editor.front
         area.focus()
         await desk.press("a", "ctrl+z")
-        area.action_shift_lines(-1)  # nothing to take away
+        area.shift_lines(-1)  # nothing to take away
         await desk.press("ctrl+y")
         assert area.text == "ax = 1\n"
 

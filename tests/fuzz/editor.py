@@ -180,21 +180,21 @@ class Sequence:
                     return "\n".join([*lines[:top], *lines[bottom + 1 :]])
                 return spliced(text, (top, 0), (bottom, len(lines[bottom])), "")
             case "indent" | "dedent":
-                area.action_shift_lines(1 if name == "indent" else -1)
+                area.shift_lines(1 if name == "indent" else -1)
                 lines[top : bottom + 1] = indent.shift(lines[top : bottom + 1], 1 if name == "indent" else -1)
             case "comment":
                 area.toggle_comment()
                 lines[top : bottom + 1] = indent.toggle_comment(lines[top : bottom + 1])
             case "move_up" | "move_down":
                 step = -1 if name == "move_up" else 1
-                area.action_move_line(step)
+                area.move_line(step)
                 if step < 0 < top:
                     lines.insert(bottom, lines.pop(top - 1))
                 elif step > 0 and bottom + 1 < len(lines):
                     lines.insert(top, lines.pop(bottom + 1))
             case "duplicate":
                 row = area.cursor_location[0]
-                area.action_duplicate_line()
+                area.duplicate_line()
                 lines.insert(row, lines[row])
             case "replace_all":
                 by = rng.choice(("", "q", "xx", r"\n", "longer than x"))
