@@ -394,4 +394,4 @@ class DesireApp(AppBase):
     @on(GraphPane.PauseRequested)
     def _pause_requested(self) -> None:
         if self.engine.is_busy:
-            self.do("run.pause")
+            self.do("run.pause", "at once")

@@ -98,8 +98,10 @@ class RunActions(Controller):
         self.app.engine.submit(self.app.session.go)
 
     def pause(self, argument: str = "") -> None:
-        """Ctrl-C: pause what goes on, resume what is paused; what is selected is copied first."""
-        del argument
+        """Ctrl-C: pause what goes on, resume what is paused; what is selected is copied first.
+
+        With an argument, nothing is copied.
+        """
         app = self.app
         state = app.session.status.state
         if app.command.is_asking:
@@ -108,7 +110,7 @@ class RunActions(Controller):
         elif state is State.PAUSED:
             self.resume()
         elif app.engine.is_busy:
-            if (text := app.view_actions.selected_text) and text != self._copied:
+            if not argument and (text := app.view_actions.selected_text) and text != self._copied:
                 self._copied = text
                 app.view_actions.copy(text)
                 app.notify("The run goes on: Ctrl+C again pauses it.", timeout=3)
