@@ -111,6 +111,7 @@ COMMANDS = (
     Command("graph.right", "Pan right", "Move the graph's window right", "alt+right"),
     Command("graph.up", "Pan up", "Move the graph's window up", "alt+up"),
     Command("graph.down", "Pan down", "Move the graph's window down", "alt+down"),
+    Command("graph.fit", "Fit", "The scale that holds all curves, during a run too", "alt+f", ("fit",)),
     Command("graph.reset", "Program's scale", "Back to the scale the program set", "alt+0"),
     Command("graph.read", "Read-out", "Show a cursor line with the values of all curves", "alt+r"),
     Command("graph.legend", "Colour keys", "Show or hide the colour keys", "alt+k"),

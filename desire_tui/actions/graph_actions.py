@@ -62,6 +62,13 @@ class GraphActions(Controller):
         del argument
         self.app.graph.pan(0.0, -0.2)
 
+    def fit(self, argument: str = "") -> None:
+        """Show the scale that holds all curves."""
+        del argument
+        if self.app.graph.page is None:
+            self.app.notify("No graph yet: press F5.", timeout=2)
+        self.app.graph.fit_curves()
+
     def reset(self, argument: str = "") -> None:
         """Back to the program's scale."""
         del argument

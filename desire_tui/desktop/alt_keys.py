@@ -2,9 +2,8 @@
 
 Alt comes from terminals without kitty's protocol as Escape and the character. Textual takes most of these for
 what a Mac's Option key makes of them (Alt+0 was `º`, Alt+= `≠`, Alt+- `–`), the others for the bare sign, and
-Alt+Backspace for Ctrl+W, which closes a tab here. Alt+F and Alt+B stay word by word to the right and left:
-some terminals send them for Alt with an arrow. With the other letters Textual waits 0.1 s for more to come,
-and takes both apart if it does.
+Alt+Backspace for Ctrl+W, which closes a tab here. Alt+B stays a word to the left: some terminals send it for
+Alt with an arrow. With other letters Textual waits 0.1 s for more to come, and takes both apart if it does.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from typing import Any, cast
 from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual.keys import _character_to_key
 
-CHARACTERS = "0123456789-=+,.;:/'`~!@#$%&*()<>?|{}acdeghijklmnopqrstuvwxyz"
+CHARACTERS = "0123456789-=+,.;:/'`~!@#$%&*()<>?|{}acdefghijklmnopqrstuvwxyz"
 """Not those that begin longer sequences."""
 
 

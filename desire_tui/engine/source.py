@@ -50,6 +50,11 @@ class Source:
         if "\r" in self.text:
             object.__setattr__(self, "text", _LONE_RETURN.sub("\n", self.text))
 
+    @property
+    def file_name(self) -> str:
+        """Its name without folders."""
+        return self.name.replace("\\", "/").rpartition("/")[2]
+
     @cached_property
     def line_starts(self) -> list[int]:
         """Offset of each line's first character."""

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from textual.app import ComposeResult
 
+    from desire_tui.engine.graph.fit import Extent
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.braille_canvas import Canvas
     from desire_tui.engine.outputs.incremental_drawing import Painter
@@ -42,6 +43,7 @@ class GraphPane(MouseGestures, can_focus=True):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("plus,equals_sign", "app.do('graph.zoom_in')", show=False),
         Binding("minus", "app.do('graph.zoom_out')", show=False),
+        Binding("a", "app.do('graph.fit')", show=False),
         Binding("0,escape", "app.do('graph.reset')", show=False),
         Binding("r", "app.do('graph.read')", show=False),
         Binding("k", "app.do('graph.legend')", show=False),
@@ -67,6 +69,11 @@ class GraphPane(MouseGestures, can_focus=True):
         self.canvas: Canvas | None = None
         self.frame: TextFrame | None = None
         self.window = Window()
+        self.fit: bool | None = None
+        """Whether the window follows the curves; None: as the program says."""
+        self._extent: Extent | None = None
+        self._extent_of: tuple[object, ...] = ()
+        self._marks: tuple[object, ...] = ()
         self.keys_shown = True
         self.reading: graph_cursor.Reading | None = None
         self._cursor: float | None = None
@@ -114,9 +121,26 @@ class GraphPane(MouseGestures, can_focus=True):
     @property
     def page_mark(self) -> str:
         """Which page is shown, if it is not the newest, and whether it is magnified."""
-        marks = [self.paging.place(self._pages()), "" if self.window.is_whole else "zoom"]
+        zoomed = not self.is_fitted and not self.window.is_whole
+        marks = [self.paging.place(self._pages()), "zoom" if zoomed else ""]
         told = " · ".join(mark for mark in marks if mark)
         return f" {told} " if told else ""
+
+    @property
+    def is_fitted(self) -> bool:
+        """Whether the window is the one that holds all curves."""
+        if self.fit is not None or self._extent is None:
+            return bool(self.fit)
+        return self._extent.is_fitted
+
+    @property
+    def notice(self) -> str:
+        """What is said of curves that leave the program's scale, while that is shown."""
+        if self._extent is None or self.is_fitted or not self.window.is_whole:
+            return ""
+        from desire_tui.engine.graph.fit import notice
+
+        return notice(self._extent, "Alt+F fits")
 
     @property
     def cursor_column(self) -> int | None:
@@ -134,7 +158,7 @@ class GraphPane(MouseGestures, can_focus=True):
                 self._drawn = ()
             self._show_keys()
         elif self.paging.follow(graph):
-            self.window = Window()
+            self.window, self.fit = Window(), None
 
     def tick(self) -> bool:
         """Draw what is new; returns whether anything was.
@@ -143,6 +167,7 @@ class GraphPane(MouseGestures, can_focus=True):
         """
         if not self.size.width or not self.is_on_screen:
             return False
+        self._measure()
         state = self._state()
         begins = state != self._drawn
         if begins:
@@ -152,9 +177,37 @@ class GraphPane(MouseGestures, can_focus=True):
         self._painter.update()
         dirty, top = self.canvas.take_dirty(), self.frame.top
         self._refresh_cells((row + top, tile) for row, tile in dirty)
+        if self._marks != (marks := self._marks_now()):
+            self._marks = marks
+            self._lay()
+            self._refresh_cells(self.sheet.cells)
         if self._cursor is not None:
             self._read()
         return begins or bool(dirty)
+
+    def _measure(self) -> None:
+        """Have the window follow the curves, if it is to."""
+        page = self.page
+        if page is None or page.frame.kind == "picture":
+            self._extent, self._extent_of = None, ()
+            return
+        key = (page, *self.paging.under)
+        if self._extent is None or self._extent_of != key:
+            from desire_tui.engine.graph.fit import Extent
+
+            self._extent, self._extent_of = Extent(self.paging.with_all_under(page)), key
+        before = self.is_fitted
+        if self._extent.update() or before != self.is_fitted or self.is_fitted:
+            if self.is_fitted:
+                self.window = Window(*self._extent.view())
+            elif before:
+                self.window = Window()
+
+    def _marks_now(self) -> tuple[object, ...]:
+        painter = self._painter
+        if painter is None or not self.window.is_whole:
+            return ()
+        return (*painter.clipped.counts(), self.notice)
 
     def _state(self) -> tuple[object, ...]:
         page = self.page
@@ -162,7 +215,8 @@ class GraphPane(MouseGestures, can_focus=True):
             return self.paper, self.size
         under = tuple(len(graph.curves) for graph in self.paging.under)
         curves = len(page.curves) if under else 0
-        look = (page.frame, page.caption, page.net, self.paper, self.window, self.size)
+        title = page.title(fitted=self.is_fitted)
+        look = (page.frame, title, page.caption, page.net, self.paper, self.window, self.size)
         return page, look, under, curves
 
     def _begin_page(self, state: tuple[object, ...]) -> None:
@@ -181,20 +235,34 @@ class GraphPane(MouseGestures, can_focus=True):
         from desire_tui.engine.outputs.text_frame import text_frame
 
         before, canvas = self.frame, self.canvas
-        frame = self.frame = text_frame(page, columns, rows, self.window)
+        mark = self.page_mark
+        frame = self.frame = text_frame(
+            page, columns, rows, self.window, fitted=self.is_fitted, reserved=len(mark)
+        )
         place = (frame.left, frame.columns, frame.rows)
         if before is None or canvas is None or place != (before.left, before.columns, before.rows):
             canvas = self.canvas = Canvas(max(frame.columns, 1), max(frame.rows, 1), frame.left)
         self._show_keys()
         self._painter = Painter(canvas, self.paging.with_all_under(page), self.window)
-        mark = self.page_mark
-        lines = [frame.lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark, *frame.lines[1:]]
-        net = ground if page.net is None else ground + net_style(page.net, white=white)
-        look = SheetStyles(ground, ground + Style(bold=True), net, white)
-        self.sheet.lay(columns, rows, look, lines, frame, canvas)
         self._painter.update()  # first: a piece is sent with what stands in it
         canvas.take_dirty()
+        self._marks = self._marks_now()
+        self._lay()
         self.mark_cells()
+
+    def _lay(self) -> None:
+        """Give the sheet the frame's lines, with what is written into them."""
+        page, frame, painter = self.page, self.frame, self._painter
+        if page is None or frame is None or painter is None:
+            return
+        ground, white = self.paper
+        columns, rows = self.size.width, max(self.size.height - 1, 1)
+        lines = list(painter.clipped.lines(frame, self.notice) if self._marks else frame.lines)
+        mark = self.page_mark
+        lines[0] = lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark
+        net = ground if page.net is None else ground + net_style(page.net, white=white)
+        look = SheetStyles(ground, ground + Style(bold=True), net, white)
+        self.sheet.lay(columns, rows, look, lines, frame, self.canvas)
 
     def _show_keys(self) -> None:
         """Have the colour keys drawn if they are others than before."""
@@ -256,8 +324,13 @@ class GraphPane(MouseGestures, can_focus=True):
     def look_at(self, window: Window) -> None:
         """Show another part of the page; a picture has no parts."""
         if self.page is not None and self.page.frame.kind != "picture":
-            self.window = window
+            self.window, self.fit = window, False
             self.tick()
+
+    def fit_curves(self) -> None:
+        """Show the window that holds all curves, and follow them while they grow."""
+        self.fit = True
+        self.tick()
 
     # ---------------------------------------------------------------------------------------------- read-out
 
@@ -301,7 +374,7 @@ class GraphPane(MouseGestures, can_focus=True):
         """Show an older (-1) or newer (1) page; False if there is none."""
         if not self.paging.turn(self._pages(), step):
             return False
-        self.window = Window()
+        self.window, self.fit = Window(), None
         self.tick()
         return True
 

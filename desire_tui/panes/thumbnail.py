@@ -69,20 +69,22 @@ class Thumbnail(Widget):
             ground = self.rich_style + Style(dim=True)
             blank = [Strip.blank(width, ground)] * (height // 2)
             return [*blank, Strip([Segment(self._message[:width].center(width), ground)], width)]
+        from desire_tui.engine.graph.fit import WHOLE, fitted_view
         from desire_tui.engine.outputs.braille_canvas import Canvas
         from desire_tui.engine.outputs.incremental_drawing import Painter
         from desire_tui.engine.outputs.text_frame import text_frame
 
         white = graph.white or not self.app.current_theme.dark
         ground = WHITE_STYLE if white else self.rich_style
-        frame = text_frame(graph, width, height - 1)
+        window = fitted_view(graph)
+        frame = text_frame(graph, width, height - 1, window, fitted=window != WHOLE)
         canvas = Canvas(max(frame.columns, 1), max(frame.rows, 1))
-        painter = Painter(canvas, graph)
+        painter = Painter(canvas, graph, window)
         while painter.update():
             pass
         net = ground if graph.net is None else ground + net_style(graph.net, white=white)
         rows = []
-        for number, line in enumerate(frame.lines):
+        for number, line in enumerate(painter.clipped.lines(frame, "")):
             at = number - frame.top
             style = net if -1 <= at <= frame.rows else ground
             if not 0 <= at < frame.rows:

@@ -15,7 +15,7 @@ from desire_tui.engine.outputs import braille_canvas as engine_canvas
 from desire_tui.panes import graph_sheet, graph_styles
 from desire_tui.panes.zoom_window import Window
 
-from .conftest import OSCILLATOR, desktop
+from .conftest import LONG, OSCILLATOR, desktop
 
 parts = st.floats(0.01, 0.99)
 
@@ -243,3 +243,67 @@ async def test_the_cursor_reads_a_gap_where_a_sample_is_no_number(program, reque
             assert read["y"] == "–"
         else:
             assert "y = –" in graph.reading.head
+
+
+RABBITS = """\
+TMAX = 20 | DT = 0.01 | NN = 201
+r = 40 | f = 9 | scale = 10
+drun
+DYNAMIC
+d/dt r = 0.6*r - 0.05*r*f
+d/dt f = 0.02*r*f - 0.5*f
+dispt r, f
+"""
+
+
+def shown(graph) -> str:
+    tiles = range(graph.size.width // 8 + 1)
+    return "\n".join("".join(graph.sheet.piece(n, y).text for n in tiles) for y in range(graph.size.height))
+
+
+async def test_curves_outside_are_said_and_fitted_by_a_key(program):
+    async with desktop(program(RABBITS), size=(80, 24)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.tick()
+        assert "2 curves outside · Alt+F fits" in shown(graph)
+        assert "▲" in shown(graph)
+        await desk.press("alt+f")
+        text = shown(graph)
+        assert "outside" not in text
+        assert "▲" not in text
+        assert "fitted" in text
+        assert "50" in text
+        assert "zoom" not in text
+        await desk.press("alt+0")
+        assert "2 curves outside" in shown(graph)
+        await desk.line("fit")
+        assert "fitted" in shown(graph)
+        await desk.press("f5")  # the next run of the same variables is fitted too
+        await desk.idle()
+        graph.tick()
+        assert "fitted" in shown(graph)
+
+
+async def test_a_first_model_without_scale_is_fitted_and_the_graph_names_it(program):
+    async with desktop(program(RABBITS.replace(" | scale = 10", "")), size=(120, 36)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        desk.app.graph.tick()
+        text = shown(desk.app.graph)
+        assert "run 1 · fitted" in text
+        assert ".src · run 1" in text
+
+
+async def test_fitting_follows_a_run_that_goes_on(program):
+    text = LONG.replace("d/dt x = v", "d/dt x = 1")
+    async with desktop(program(text)) as desk:
+        await desk.press("f5", "alt+f")
+        graph = desk.app.graph
+        await desk.until(lambda: graph.page is not None and graph.page.curves[0].count > 10)
+        graph.tick()
+        first = graph.window
+        await desk.until(lambda: graph.window.top > 2 * first.top)
+        await desk.press("shift+f10")
+        await desk.idle()

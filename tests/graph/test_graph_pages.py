@@ -82,8 +82,7 @@ def test_the_frame_of_dispt_is_the_run():
     page = page_of("dispt", T, {"x": T, "y": T}, scale=4.0)
     frame = page.frame
     assert (frame.left, frame.right, frame.bottom, frame.top) == (2.0, 5.0, -4.0, 4.0)
-    assert frame.x_ticks == (2.0, 3.5, 5.0)
-    assert page.title == "scale = 4"
+    assert page.title() == "run 1 · scale = 4"
     assert page.caption == "x, y vs. t"
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from io import BytesIO
+
 import numpy as np
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.graph.colors import rgb
 from desire_tui.engine.graph.pages import GraphPages
+from desire_tui.engine.outputs.matplotlib_figure import picture_of
 from desire_tui.engine.outputs.picture_files import write_picture
 from tests.graph.graphing import displayed, page_of, record_of
 
@@ -50,6 +53,39 @@ def test_publication_graphs_are_black_on_white(tmp_path):
     assert (image.max(axis=2) - image.min(axis=2)).max() <= 2  # greys only
 
 
+def test_pictures_are_made_for_paper_unless_the_program_chooses_colours(tmp_path):
+    page = page_of("dispt", T, {"x": T})
+    image = pixels(page, tmp_path)
+    assert share(image, (255, 255, 255)) > 0.8
+    assert share(image[:680], rgb(14, white=True), 8) > 0.001  # yellow is no colour on white
+    assert share(np.rint(_image(picture_of(page, "png", style="screen"))), (0, 0, 0)) > 0.8
+
+
+def test_a_fitted_picture_holds_all_curves(tmp_path):
+    page = page_of("dispt", T, {"x": 30 + 10 * T}, "N12", "R")
+    assert not len(where(pixels(page, tmp_path)[:680], rgb(12))[0])
+    page.fit = "asked"
+    rows, columns = where(pixels(page, tmp_path)[:680], rgb(12))
+    assert columns.max() - columns.min() > 1000
+    assert rows.max() - rows.min() > 100
+    write_picture(page, tmp_path / "g.svg")
+    text = (tmp_path / "g.svg").read_text()
+    assert "fitted" in text
+    assert ">40<" in text
+
+
+def test_an_empty_frame_says_why(tmp_path):
+    page = page_of("dispt", T, {"x": 30 + T, "y": 40 + T})
+    write_picture(page, tmp_path / "g.svg")
+    assert "2 curves outside" in (tmp_path / "g.svg").read_text()
+
+
+def _image(png):
+    from matplotlib.image import imread
+
+    return imread(BytesIO(png))[:, :, :3] * 255
+
+
 def test_thick_curves_are_thicker(tmp_path):
     amount = [
         share(pixels(page_of("dispt", T, {"x": T}, "N12", letter), tmp_path)[:680], rgb(12), 8)
@@ -86,7 +122,7 @@ def test_no_net_no_lines(tmp_path):
 
 def test_points_and_pictures(tmp_path):
     pages = GraphPages()
-    displayed(pages, "A", "Y")
+    displayed(pages, "C7", "A", "Y")
     for k in range(50):
         pages.plot(k / 50, k / 50, 13, 1.0)
     assert share(pixels(pages.current, tmp_path), rgb(13), 8) > 0.0005

@@ -10,9 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from desire_tui.engine.graph.pages import GraphPages
+from desire_tui.engine.graph.ticks import tick_label
 from desire_tui.engine.outputs.braille_canvas import NO_COLOR, TILE_COLUMNS, Canvas
 from desire_tui.engine.outputs.incremental_drawing import Painter
-from desire_tui.engine.outputs.text_frame import text_frame, tick_label
+from desire_tui.engine.outputs.text_frame import text_frame
 from desire_tui.engine.outputs.text_plot import text_plot
 from tests.graph.graphing import displayed, page_of, record_of
 

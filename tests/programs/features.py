@@ -54,7 +54,7 @@ SCRIPT = (
     "write #n", "write ##n", "connect input", "connect output", "disconnect", "dump #n", "time", "note",
     "irule n", "irule", "SEED", "drun", "drun NAME", "drun *", "drunr", "reset", "clear", "STOP",
     "MATRIX", "MATRIX = number", "A%", "$In", "$Tr", "Vector", "DOT", "AVG", "FFT F", "FFT I", "FFT R", "FFT C",
-    "plot x, y", "plot z", "SHOW", *(f"display {code}" for code in "012ABCFNQRWY"),
+    "plot x, y", "plot z", "SHOW", *(f"display {code}" for code in (*"012ABCFNQRWY", "fit")),
 )  # fmt: skip
 """Rows about the script; every one must be used by a program that checks something."""
 

@@ -324,6 +324,7 @@ FORMS = {
     "display 1": Display("1", ()),
     "display 2": Display("2", ()),
     "display F": Display("F", ()),
+    "display fit": Display("fit", ()),
     "display Q": Display("Q", ()),
     "display R": Display("R", ()),
     "display Y": Display("Y", ()),

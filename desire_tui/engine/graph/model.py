@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 
 SQUARE_MOST = 0.9
 """Side of the largest square of a picture that shows sizes, in parts of its cell: a gap parts neighbours."""
+Fit = Literal["no", "asked", "unset"]
+"""Whether a graph is fitted to its curves: `display fit`; `unset`: the program never sets `scale`, and a
+curve leaves the scale of 1 that Desire starts with."""
+_NAME_LEAST = 4
 FrameKind = Literal["dispt", "dispxy", "DISPXY", "plot", "picture"]
 
 
@@ -32,16 +36,6 @@ class Frame:
     bottom: float
     top: float
     scale: float
-
-    @property
-    def x_ticks(self) -> tuple[float, float, float]:
-        """Where abscissas are labelled: start, middle, end."""
-        return self.left, (self.left + self.right) / 2, self.right
-
-    @property
-    def y_ticks(self) -> tuple[float, float, float]:
-        """Where ordinates are labelled."""
-        return self.bottom, (self.bottom + self.top) / 2, self.top
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -145,18 +139,38 @@ class Graph:
     caption: str = ""
     net: int | None = 7
     white: bool = False
+    has_own_colors: bool = False
+    """Whether the program says which colours to use; pictures of others are made for paper."""
     thickness: int = 1
     has_keys: bool = True
     curves: list[Curve] = field(default_factory=list)
     points: Points = field(default_factory=Points)
     shown: list[ShownArray] = field(default_factory=list)
+    program: str = ""
+    """File name of the program that made it."""
+    fit: Fit = "no"
     erased: int = 0
     """Goes up when something drawn before must go: what a painter has kept is void."""
 
+    def title(self, *, fitted: bool = False, room: int | None = None) -> str:
+        """Return the line above the graph: program, run, scale; of a long program's name what has room."""
+        parts = [self.run_name, "fitted" if fitted else f"scale = {self.frame.scale:g}"]
+        rest = " · ".join(filter(None, parts))
+        if not self.program:
+            return rest
+        spare = len(self.program) if room is None else room - len(rest) - len(" · ")
+        if spare >= len(self.program):
+            return f"{self.program} · {rest}"
+        return f"{self.program[: spare - 1]}… · {rest}" if spare > _NAME_LEAST else rest
+
     @property
-    def title(self) -> str:
-        """The line above the graph."""
-        return f"scale = {self.frame.scale:g}"
+    def run_name(self) -> str:
+        """Which runs are on it: `run 3`, `runs 1–5`; nothing for curves made without a run."""
+        numbers = [curve.record.number for curve in self.curves if curve.record.number]
+        if not numbers:
+            return ""
+        first, last = min(numbers), max(numbers)
+        return f"run {last}" if first == last else f"runs {first}–{last}"
 
     @property
     def keys(self) -> tuple[Key, ...]:

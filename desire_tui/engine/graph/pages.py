@@ -32,6 +32,8 @@ class GraphPages:
         self.pages: list[Graph] = []
         self.pages_max = PAGES_MAX
         self._made = 0
+        self.program = ""
+        """File name of the program that runs."""
         self._fresh = True  # the next run starts a page whatever `display` says
 
     def __iter__(self) -> Iterator[Graph]:
@@ -45,8 +47,9 @@ class GraphPages:
         """The newest page."""
         return self.pages[-1] if self.pages else None
 
-    def begin_program(self) -> None:
+    def begin_program(self, name: str = "") -> None:
         """`erun`: settings as at the start; the program's first run gets a new page."""
+        self.program = name
         self.settings = DisplaySettings()
         self._fresh = True
 
@@ -64,9 +67,15 @@ class GraphPages:
                 page.caption += THINNED
                 page.erased += 1
 
-    def display(self, mode: str, args: Sequence[float], scale: float) -> bool:
-        """Carry out a `display` statement; returns whether a page changed."""
+    def display(self, mode: str, args: Sequence[float], scale: float, *, at_once: bool = False) -> bool:
+        """Carry out a `display` statement; returns whether a page changed.
+
+        `at_once`: what is said of fitting holds for the newest page too.
+        """
         self.settings.apply(mode, args)
+        if mode == "fit" and at_once and self.current is not None:
+            self.current.fit = "asked"
+            return True
         if mode in ("A", "B"):
             self._open_plot(scale, nonnegative=mode == "B")
             return True
@@ -92,8 +101,19 @@ class GraphPages:
         page = self._page(Frame("picture", 0.0, 1.0, 0.0, 1.0, scale), name)
         page.shown.append(ShownArray(name, max(columns, 1), scale, values, by_size=by_size))
 
-    def begin_run(self, record: RunRecord, pictures: Sequence[Picture] = ()) -> Graph | None:
-        """Put a run's curves on a new page, or with `display 2` on the current one. None: nothing to show."""
+    def begin_run(
+        self,
+        record: RunRecord,
+        pictures: Sequence[Picture] = (),
+        *,
+        program: str = "",
+        has_scale: bool = True,
+    ) -> Graph | None:
+        """Put a run's curves on a new page, or with `display 2` on the current one. None: nothing to show.
+
+        `program` is its file's name. `has_scale`: the program, not the start value, decides the scale.
+        """
+        self.program = program or self.program
         request = next((r for r in record.requests if r.kind != "type"), None)
         if self.settings.mode == 0:
             return None
@@ -104,8 +124,9 @@ class GraphPages:
         if self._fresh or self.settings.mode == 1 or page is None:
             page = self._page(frame, "")
         self._fresh = False
-        page.frame, page.caption = frame, caption(request)
+        page.frame, page.caption, page.program = frame, caption(request), self.program
         self._apply_settings(page)
+        page.fit = "asked" if self.settings.fit else "no" if has_scale else "unset"
         page.curves.extend(self._curves(record, request, frame))
         self._add_pictures(page, record, pictures)
         return page
@@ -117,10 +138,13 @@ class GraphPages:
         """
         pages = [(record, next((r for r in record.requests if r.kind != "type"), None)) for record in records]
         page, first = None, 0
+        fit = self.current.fit if self.current is not None else "no"
         for record, request in pages:
             if request is None or self.settings.mode == 0:
                 return None
-            page = page or self._page(run_frame(record, request), caption(request))
+            if page is None:
+                page = self._page(run_frame(record, request), caption(request))
+                page.fit = fit
             page.curves.extend(self._curves(record, request, page.frame, first))
             first = len(page.curves)
         self._fresh = True
@@ -129,6 +153,7 @@ class GraphPages:
     def show_curves(self, frame: Frame, text: str, curves: Iterable[Curve]) -> Graph:
         """Show curves on a page of their own. The next run starts another page."""
         page = self._page(frame, text)
+        page.fit = "asked"
         page.curves.extend(curves)
         self._fresh = True
         return page
@@ -172,7 +197,7 @@ class GraphPages:
 
     def _page(self, frame: Frame, text: str) -> Graph:
         self._made += 1
-        page = Graph(self._made, frame, text)
+        page = Graph(self._made, frame, text, program=self.program)
         self._apply_settings(page)
         self.pages.append(page)
         del self.pages[: -self.pages_max]
@@ -180,6 +205,7 @@ class GraphPages:
 
     def _apply_settings(self, page: Graph) -> None:
         page.net, page.white = self.settings.net_color, self.settings.white
+        page.has_own_colors = self.settings.own_colors
         page.thickness, page.has_keys = self.settings.thickness, not self.settings.one_color
 
 

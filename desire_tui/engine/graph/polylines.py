@@ -29,6 +29,12 @@ def to_unit(frame: Frame, x: Floats, y: Floats) -> tuple[Floats, Floats]:
     )
 
 
+def through(window: tuple[float, float, float, float], x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """Return frame units as parts of a window (left, right, bottom, top)."""
+    left, right, bottom, top = window
+    return (x - left) / ((right - left) or 1.0), (y - bottom) / ((top - bottom) or 1.0)
+
+
 def clip_polyline(x: Floats, y: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Return the parts of a polyline's n - 1 segments inside the unit square as x1, y1, x2, y2.
 

@@ -29,9 +29,13 @@ class DisplaySettings:
     thickness: Literal[1, 2, 3] = 1
     white: bool = False
     by_size: bool = False
+    fit: bool = False
+    own_colors: bool = False
+    """Whether the program says which colours to use."""
 
     def apply(self, mode: str, args: Sequence[float]) -> None:
         """Carry out `display 0/1/2`, `Q R Y`, `N n`, `C n`. Other letters set nothing here."""
+        self.own_colors = self.own_colors or mode in ("N", "C")
         match mode:
             case "0" | "1" | "2":
                 self.mode = int(mode)  # type: ignore[assignment]  # 0, 1 or 2: matched above
@@ -40,6 +44,8 @@ class DisplaySettings:
             case "N" if args:
                 self.first = int(args[0])
                 self.white = self.first < 0 or (self.white and self.net == 17)
+            case "fit":
+                self.fit = True
             case "C" if args:
                 self.net = int(args[0])
                 self.white = self.white or self.net == 17

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 @node
 class Display(Node):
-    """`display 2`, `display N14`, `display W 10,20`. `mode` is `0 1 2` or the letter."""
+    """`display 2`, `display N14`, `display W 10,20`, `display fit`. `mode` is `0 1 2`, a letter or a word."""
 
-    mode: Literal["0", "1", "2", "A", "B", "C", "F", "N", "Q", "R", "W", "Y"]
+    mode: Literal["0", "1", "2", "A", "B", "C", "F", "N", "Q", "R", "W", "Y", "fit"]
     args: tuple[Expr, ...]
     start: int = 0
     end: int = 0

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.graph.model import SQUARE_MOST, Frame
-from desire_tui.engine.graph.polylines import thin_columns, to_unit
+from desire_tui.engine.graph.fit import WHOLE
+from desire_tui.engine.graph.model import SQUARE_MOST
+from desire_tui.engine.graph.polylines import thin_columns, through, to_unit
+from desire_tui.engine.outputs.clip_marks import ClipMarks
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,7 +20,6 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Window = tuple[float, float, float, float]
 
-WHOLE: Window = (0.0, 1.0, 0.0, 1.0)
 SAMPLES_MOST = 200_000
 """Samples of a curve that one call draws at most, so that ten million of them do not block the screen."""
 
@@ -32,6 +33,7 @@ class Painter:
         self._points = 0
         self._pictures = 0
         self._erased = graph.erased
+        self.clipped = ClipMarks(canvas.columns, canvas.rows)
         canvas.clear()
 
     def update(self) -> bool:
@@ -40,6 +42,7 @@ class Painter:
             self._erased = self.graph.erased
             self._drawn.clear()
             self._points = self._pictures = 0
+            self.clipped = ClipMarks(self.canvas.columns, self.canvas.rows)
             self.canvas.clear()
         more = False
         for curve in list(self.graph.curves):
@@ -56,7 +59,8 @@ class Painter:
         stop = min(count, drawn + SAMPLES_MOST)
         # the last sample drawn is the first end of the next line
         x, y = curve.samples(max(drawn - 1, 0) if curve.joined else drawn, stop)
-        x, y = self._through(*to_unit(curve.frame, x, y))
+        x, y = through(self.window, *to_unit(curve.frame, x, y))
+        self.clipped.add(x, y)
         if curve.joined:
             if curve.frame.kind == "dispt":
                 x, y = thin_columns(x, y, self.canvas.width)
@@ -73,7 +77,8 @@ class Painter:
         x, y, colors = points.so_far()
         x, y, colors = x[self._points :], y[self._points :], colors[self._points :]
         self._points += len(x)
-        x, y = self._through(*to_unit(self.graph.frame, x, y))
+        x, y = through(self.window, *to_unit(self.graph.frame, x, y))
+        self.clipped.add(x, y)
         for color in np.unique(colors):
             chosen = colors == color
             self.canvas.dots(x[chosen], y[chosen], int(color), self.graph.thickness)
@@ -110,11 +115,6 @@ class Painter:
         for color, lit in ((_POSITIVE, seen > limit), (_NEGATIVE, -seen > limit)):
             row, column = np.nonzero(lit)
             canvas.dots((column + first + 0.5) / canvas.width, 1.0 - (row + 0.5) / canvas.height, color)
-
-    def _through(self, x: Floats, y: Floats) -> tuple[Floats, Floats]:
-        """Frame units to the window's."""
-        left, right, bottom, top = self.window
-        return to_unit(Frame("plot", left, right, bottom, top, 1.0), x, y)
 
 
 _BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])

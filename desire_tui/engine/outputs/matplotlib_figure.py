@@ -2,30 +2,35 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from io import BytesIO
 from threading import Lock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
+from desire_tui.engine.graph.fit import WHOLE, Extent, limits, notice
 from desire_tui.engine.graph.model import SQUARE_MOST
-from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, to_unit
+from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, through, to_unit
+from desire_tui.engine.graph.ticks import minor_ticks, round_ticks, tick_labels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
+    from desire_tui.engine.graph.fit import View
     from desire_tui.engine.graph.model import Curve, Graph, ShownArray
 
     Floats = NDArray[np.float64]
     Tint = tuple[float, float, float]
 
-_INCHES = (8.0, 5.0)
-_DOTS_PER_INCH = 150
+PictureStyle = Literal["paper", "screen"]
+INCHES = (8.0, 5.0)
+DOTS_PER_INCH = 150
 _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
-_SPINE = 2 * 72 / _DOTS_PER_INCH  # two dots: crisp
+_SPINE = 2 * 72 / DOTS_PER_INCH  # two dots: crisp
 _COLUMNS = 4000  # finer than any printer shows at this size
 _FONT = 11
 _drawing = Lock()  # matplotlib's settings are global, and two threads may draw at once
@@ -33,17 +38,21 @@ _drawing = Lock()  # matplotlib's settings are global, and two threads may draw 
 
 def png_of(graph: Graph, width: int, height: int) -> bytes:
     """Return a graph as a PNG of `width` × `height` dots."""
-    wide = _INCHES[0]
+    wide = INCHES[0]
     return picture_of(graph, "png", (wide, wide * height / width), width / wide)
 
 
 def picture_of(
     graph: Graph,
     kind: str,
-    inches: tuple[float, float] = _INCHES,
-    dots_per_inch: float = _DOTS_PER_INCH,
+    inches: tuple[float, float] = INCHES,
+    dots_per_inch: float = DOTS_PER_INCH,
+    style: PictureStyle | None = None,
 ) -> bytes:
     """Return a graph as the content of a picture file; `kind` is a format of matplotlib (png, svg, pdf).
+
+    Style `paper` is dark on white, `screen` in the program's colours; None: for paper unless the program says
+    which colours to use.
 
     It is drawn in memory: matplotlib's PDF writer cannot cope with a disk that is full.
     """
@@ -57,13 +66,21 @@ def picture_of(
         "svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000, "text.usetex": False,
     })  # fmt: skip
     with _drawing, fixed:
-        figure = draw(graph, inches)
+        figure = draw(graph if _in_own_colors(graph, style) else _on_paper(graph), inches)
         buffer = BytesIO()
         figure.savefig(buffer, format=kind, dpi=dots_per_inch, facecolor=figure.get_facecolor())
     return buffer.getvalue()
 
 
-def draw(graph: Graph, inches: tuple[float, float] = _INCHES) -> Figure:
+def _in_own_colors(graph: Graph, style: PictureStyle | None) -> bool:
+    return style == "screen" or (style is None and graph.has_own_colors)
+
+
+def _on_paper(graph: Graph) -> Graph:
+    return replace(graph, white=True, net=BLACK if graph.net is not None else None)
+
+
+def draw(graph: Graph, inches: tuple[float, float] = INCHES) -> Figure:
     """Return a graph as a figure: same window, colours, caption, keys and thickness as on the screen."""
     from matplotlib.figure import Figure
 
@@ -75,23 +92,28 @@ def draw(graph: Graph, inches: tuple[float, float] = _INCHES) -> Figure:
         return figure
     axes = figure.add_subplot()
     axes.set_facecolor(ground)
-    frame = graph.frame
-    axes.set_xlim(frame.left, frame.right)
-    axes.set_ylim(frame.bottom, frame.top)
-    axes.set_xticks(frame.x_ticks)
-    axes.set_yticks(frame.y_ticks)
-    _style_axes(axes, graph, ink)
+    extent = Extent(graph)
+    extent.update()
+    window = extent.view() if extent.is_fitted else WHOLE
+    _style_axes(axes, graph, ink, limits(graph, window))
     for curve in graph.curves:
-        _draw_curve(axes, curve, graph)
+        _draw_curve(axes, curve, graph, window)
     _draw_points(axes, graph)
-    axes.set_title(graph.title, loc="left", color=ink, fontsize=_FONT)
+    axes.set_title(graph.title(fitted=extent.is_fitted), loc="left", color=ink, fontsize=_FONT)
     axes.set_xlabel(graph.caption, color=ink, fontsize=_FONT)
+    if extent.outside and not extent.inside and not extent.is_fitted:
+        _say(axes, notice(extent, "display fit shows all"), ink)
     if graph.keys:
         _draw_keys(figure, graph, ink)
     return figure
 
 
-def _style_axes(axes: Axes, graph: Graph, ink: Tint) -> None:
+def _say(axes: Axes, text: str, ink: Tint) -> None:
+    """Write into a frame that would be empty without a word."""
+    axes.text(0.5, 0.5, text, color=ink, fontsize=_FONT, ha="center", transform=axes.transAxes)
+
+
+def _style_axes(axes: Axes, graph: Graph, ink: Tint, reach: tuple[float, float, float, float]) -> None:
     net = None if graph.net is None else _tint(graph.net, graph)
     for spine in axes.spines.values():
         spine.set_visible(net is not None)
@@ -99,20 +121,23 @@ def _style_axes(axes: Axes, graph: Graph, ink: Tint) -> None:
             spine.set_color(net)
             spine.set_linewidth(_SPINE)
     axes.tick_params(colors=ink, labelsize=_FONT, length=4 if net is not None else 0)
-    axes.ticklabel_format(useOffset=False)
+    left, right, bottom, top = reach
+    for axis, low, high in ((axes.xaxis, left, right), (axes.yaxis, bottom, top)):
+        ticks = round_ticks(low, high)
+        axis.set_ticks(ticks, tick_labels(ticks))
+        if net is not None:
+            axis.set_ticks(minor_ticks(ticks, low, high, 40), minor=True)
+    axes.set_xlim(left, right)
+    axes.set_ylim(bottom, top)
     if net is None:
         return
-    frame = graph.frame
-    axes.set_xticks(np.linspace(frame.left, frame.right, 11)[1:-1], minor=True)
-    axes.set_yticks(np.linspace(frame.bottom, frame.top, 9)[1:-1], minor=True)
     axes.tick_params(which="minor", colors=net, length=2)
-    axes.grid(visible=True, which="major", color=net, linewidth=0.7, alpha=0.75)
-    axes.grid(visible=True, which="minor", color=net, linewidth=0.4, alpha=0.25)
+    axes.grid(visible=True, which="major", color=net, linewidth=0.6, alpha=0.15 if net == ink else 0.75)
 
 
-def _draw_curve(axes: Axes, curve: Curve, graph: Graph) -> None:
-    """Draw in frame units: a curve of an earlier run keeps its own scale."""
-    x, y = to_unit(curve.frame, *curve.samples())
+def _draw_curve(axes: Axes, curve: Curve, graph: Graph, window: View) -> None:
+    """Draw in parts of the window: a curve of an earlier run keeps its own scale."""
+    x, y = through(window, *to_unit(curve.frame, *curve.samples()))
     color, width = _curve_tint(curve.color, graph), _WIDTHS[curve.thickness]
     if not curve.joined:
         with np.errstate(invalid="ignore"):

@@ -13,14 +13,19 @@ from functools import lru_cache
 from threading import Lock
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.graph.fit import WHOLE, limits
+from desire_tui.engine.graph.ticks import round_ticks, tick_labels
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
     from desire_tui.engine.graph.model import Graph
 
     Window = tuple[float, float, float, float]
+    Ticks = tuple[tuple[float, str], ...]
 
 COLUMNS_LEAST, ROWS_LEAST = 20, 6
+_LABEL_GAP = 2
+_NO_TICKS: Ticks = ()
 _ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
 _plotext_lock = Lock()  # plotext has one global figure, and two threads may draw at once
 
@@ -34,38 +39,48 @@ class TextFrame:
     top: int
     columns: int
     rows: int
+    has_net: bool = True
 
 
-def text_frame(graph: Graph, columns: int, rows: int, window: Window = (0.0, 1.0, 0.0, 1.0)) -> TextFrame:
+def text_frame(
+    graph: Graph,
+    columns: int,
+    rows: int,
+    window: Window = WHOLE,
+    *,
+    fitted: bool = False,
+    reserved: int = 0,
+) -> TextFrame:
     """Return the frame of a graph in `columns` × `rows` cells, labelled for a window in frame units.
 
-    The whole frame is labelled at start, middle and end (language.md 13); a zoomed one too, with its own
-    values.
+    `fitted`: the window is the one that holds all curves. `reserved` columns of the title row stay free.
     """
     columns, rows = max(columns, COLUMNS_LEAST), max(rows, ROWS_LEAST)
+    title = graph.title(fitted=fitted, room=columns - 2 * reserved)
     if graph.frame.kind == "picture":
-        return _frame(columns, rows, graph.title, graph.caption, (), (), graph.net is not None)
+        return _frame(columns, rows, title, graph.caption, _NO_TICKS, _NO_TICKS, graph.net is not None)
     left, right, bottom, top = limits(graph, window)
-    x_ticks = tuple(tick_label(v) for v in (left, (left + right) / 2, right))
-    y_ticks = tuple(tick_label(v) for v in (bottom, (bottom + top) / 2, top))
-    return _frame(columns, rows, graph.title, graph.caption, x_ticks, y_ticks, graph.net is not None)
+    y_axis = _ticks(bottom, top, max(min((rows - 4) // 2, 7), 2))
+    inside = columns - max((len(label) for _, label in y_axis), default=0) - 2
+    x_axis = _x_ticks(left, right, inside)
+    return _frame(columns, rows, title, graph.caption, x_axis, y_axis, graph.net is not None)
 
 
-def limits(graph: Graph, window: Window) -> Window:
-    """Return left, right, bottom, top of a window (frame units) in program units."""
-    frame = graph.frame
-    width, height = frame.right - frame.left, frame.top - frame.bottom
-    left, right, bottom, top = window
-    return (
-        frame.left + left * width, frame.left + right * width,
-        frame.bottom + bottom * height, frame.bottom + top * height,
-    )  # fmt: skip
+def _x_ticks(low: float, high: float, columns: int) -> Ticks:
+    """Return as many ticks as have room with their labels."""
+    for most in range(7, 1, -1):
+        ticks = _ticks(low, high, most)
+        widest = max((len(label) for _, label in ticks), default=0)
+        if (len(ticks) - 1) * (widest + _LABEL_GAP) <= columns - widest:
+            return ticks
+    return ticks
 
 
-def tick_label(value: float) -> str:
-    """Return a short number: at most five significant digits."""
-    mantissa, e, exponent = f"{value + 0.0:.5g}".partition("e")
-    return f"{mantissa}e{int(exponent)}" if e else mantissa
+def _ticks(low: float, high: float, most: int) -> Ticks:
+    """Return ticks as parts of the way from low to high, with their labels; the limits if none is round."""
+    values = round_ticks(low, high, most) or (low, high)
+    places = ((value - low) / ((high - low) or 1.0) for value in values)
+    return tuple(zip(places, tick_labels(values), strict=True))
 
 
 @lru_cache(maxsize=16)
@@ -74,8 +89,8 @@ def _frame(
     rows: int,
     title: str,
     caption: str,
-    x_ticks: tuple[str, ...],
-    y_ticks: tuple[str, ...],
+    x_ticks: Ticks,
+    y_ticks: Ticks,
     net: bool,
 ) -> TextFrame:
     import plotext
@@ -89,11 +104,11 @@ def _frame(
         figure.theme("colorless")
         figure.plot_size(columns, rows)
         figure.title(visible_line(title[:columns]))
-        # The positions of ticks are all that plotext needs to know: 0, 1/2 and 1 of each side
+        # The positions of ticks in parts of each side are all that plotext needs to know
         figure.ruler("x").lim(0.0, 1.0)
         figure.ruler("y").lim(0.0, 1.0)
-        figure.ruler("x").ticks([0.0, 0.5, 1.0][: len(x_ticks)], list(x_ticks))
-        figure.ruler("y").ticks([0.0, 0.5, 1.0][: len(y_ticks)], list(y_ticks))
+        for side, ticks in (("x", x_ticks), ("y", y_ticks)):
+            figure.ruler(side).ticks([place for place, _ in ticks], [label for _, label in ticks])
         figure.axes(net)
         if caption:
             figure.label(visible_line(caption[:columns]), "x")
@@ -102,7 +117,7 @@ def _frame(
     top = next((i for i, line in enumerate(lines) if "┌" in line), None)
     bottom = next((i for i, line in enumerate(lines) if "└" in line), None)
     if top is None or bottom is None:  # no net: the space between title and labels
-        left = max((len(label) for label in y_ticks), default=0)
-        return TextFrame(lines, left, 1, columns - left, rows - 2 - bool(caption))
+        left = max((len(label) for _, label in y_ticks), default=0)
+        return TextFrame(lines, left, 1, columns - left, rows - 2 - bool(caption), has_net=False)
     left = lines[top].index("┌") + 1
     return TextFrame(lines, left, top + 1, lines[top].index("┐") - left, bottom - top - 1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.graph.colors import curve_rgb
+from desire_tui.engine.graph.fit import WHOLE, Extent, notice
 from desire_tui.engine.outputs.braille_canvas import NO_COLOR, Canvas
 from desire_tui.engine.outputs.incremental_drawing import Painter
 from desire_tui.engine.outputs.text_frame import text_frame
@@ -12,18 +13,24 @@ from desire_tui.engine.outputs.text_frame import text_frame
 if TYPE_CHECKING:
     from desire_tui.engine.graph.model import Graph
 
+REMEDY = "display fit shows all"
+"""What is said to curves outside the scale where no key helps."""
 _RESET = "\x1b[0m"
 
 
 def text_plot(graph: Graph, columns: int, rows: int, *, colored: bool) -> str:
     """Return a graph as `rows` lines of `columns` cells, the last for keys; ANSI colours if `colored`."""
-    frame = text_frame(graph, columns, rows - 1)
+    extent = Extent(graph)
+    extent.update()
+    window = extent.view() if extent.is_fitted else WHOLE
+    frame = text_frame(graph, columns, rows - 1, window, fitted=extent.is_fitted)
     canvas = Canvas(frame.columns, frame.rows)
-    painter = Painter(canvas, graph)
+    painter = Painter(canvas, graph, window)
     while painter.update():
         pass
     lines = []
-    for number, line in enumerate(frame.lines):
+    text = "" if extent.is_fitted else notice(extent, REMEDY)
+    for number, line in enumerate(painter.clipped.lines(frame, text)):
         row = number - frame.top
         if 0 <= row < frame.rows:
             inside = "".join(_paint(text, color, graph, colored=colored) for text, color in canvas.runs(row))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, internal_error
 from desire_tui.engine.interpreter.host import Interrupted
+from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.session.listener import Listener
@@ -52,6 +53,7 @@ class Runs:
         self.count = 0
         """Runs made since then."""
         self._bytes = 0  # of all samples kept but the newest run's
+        self._scale_of: tuple[Program | None, bool] = (None, False)
         self.start: Checkpoint | None = None
         """Where the last run began, unless the model is large."""
         self._gaps: set[Span | None] = set()  # places of the variables that have been warned of since then
@@ -98,7 +100,10 @@ class Runs:
             compile_seconds=perf_counter() - began,
         )  # fmt: skip
         self._keep(record)
-        graph = self._graphs.begin_run(record, segment.pictures)
+        graph = self._graphs.begin_run(
+            record, segment.pictures,
+            program=program.source.file_name, has_scale=plan.scale != 1.0 or self._sets_scale(program),
+        )  # fmt: skip
         type_output = on_start(record)
         self._listener.run_started(record)
         if graph is not None:
@@ -131,6 +136,13 @@ class Runs:
         self._gaps.update(problem.span for problem in new)
         if new:
             self._listener.problems(new)
+
+    def _sets_scale(self, program: Program) -> bool:
+        """Whether a program gives `scale` a value anywhere."""
+        if self._scale_of[0] is not program:
+            targets = (target for placed in program.script for target in assigned(placed.node).targets)
+            self._scale_of = program, any(target.name == "scale" for target in targets)
+        return self._scale_of[1]
 
     def _checkpoint(self) -> Checkpoint | None:
         values = self._values

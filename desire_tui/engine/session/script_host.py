@@ -77,7 +77,7 @@ class ScriptHost:
 
     def begin_program(self) -> None:
         """Set the display back to where a program starts."""
-        self._graphs.begin_program()
+        self._graphs.begin_program(self._workspace.source.file_name)
 
     # ------------------------------------------------------------------ console
 
@@ -103,7 +103,7 @@ class ScriptHost:
 
     def display(self, mode: str, args: Sequence[float]) -> None:
         """Carry out a `display` statement."""
-        changed = self._graphs.display(mode, args, self._scale)
+        changed = self._graphs.display(mode, args, self._scale, at_once=self._workspace.command is not None)
         if changed and self._graphs.current is not None:
             self._listener.graph_changed(self._graphs.current)
 

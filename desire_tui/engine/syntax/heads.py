@@ -34,7 +34,7 @@ _ASSIGNED = re.compile(r"[ \t]*=")
 _SUBSCRIPTED = re.compile(r"[ \t]*\[")
 _BRACKETS = re.compile(r"[\[\]|\n]")
 _MODE = re.compile(
-    r"[ \t]*(?:([ABCFNQRWY])(?![A-Za-z$_\[(])|([012])(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed)))"
+    r"[ \t]*(?:([ABCFNQRWY]|fit(?![0-9]))(?![A-Za-z$_\[(])|([012])(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed)))"
 )
 _FFT_KIND = re.compile(r"[ \t]*([FIRC])(?=[ \t]*[,;])")
 _REST = re.compile(r"[ \t]*((?:'[^'\n]*'|\"[^\"\n]*\"|(?!--|—)[^|\n'\"])*)")
