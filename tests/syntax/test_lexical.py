@@ -48,7 +48,7 @@ APART = {
 @pytest.mark.parametrize("text", [*JOINED, *APART])
 def test_continuation(text: str) -> None:
     program = parse(Source(text))
-    assert not program.problems
+    assert not [problem for problem in program.problems if problem.severity == "error"]
     assert [format_statement(p.node) for p in program.script] == {**JOINED, **APART}[text]
 
 

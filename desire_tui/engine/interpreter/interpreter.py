@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 
+_OF_PROGRAMS = frozenset({"call-missing", "expression-alone"})
+"""Problems that command lines do not have."""
+
+
 class Interpreter:
     """Interprets one program's script over a session's values.
 
@@ -90,8 +94,8 @@ class Interpreter:
     def execute(self, statements: Sequence[Placed], source: Source | None = None) -> None:
         """Carry out a command line; loops must be complete in it. A FUNCTION line defines that function."""
         structure = script_structure(statements, source or Source("", "<command>"))
-        # a call that stands alone is a mistake in a script; as a command it prints its value
-        problems = [problem for problem in structure.problems if problem.key != "call-missing"]
+        # what stands alone is a mistake in a script; as a command it prints its value
+        problems = [problem for problem in structure.problems if problem.key not in _OF_PROGRAMS]
         if problems:
             raise DesireError(*problems)
         self._machine.define(structure.functions, source)

@@ -72,7 +72,7 @@ def _declared_behind(builder: SegmentBuilder, out: Quantity) -> Quantity | None:
 
 def _ranked(builder: SegmentBuilder, node: Learn, name: str, rank: int) -> Quantity | None:
     place = Name(name, node.start, node.end)
-    quantity = array(builder.context, place)
+    quantity = array(builder.context, place, "not-an-array")
     if quantity is not None and len(quantity.shape) != rank:
         key = "vector-target" if rank == 1 else "matrix-target"
         builder.context.report(key, place, name=quantity.name, dimensions=len(quantity.shape))

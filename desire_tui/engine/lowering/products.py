@@ -109,8 +109,8 @@ def unknown(context: LoweringContext, node: Name) -> Value:
     return BAD
 
 
-def array(context: LoweringContext, node: Expr) -> Quantity | None:
-    """Return the REAL array that a name, shifted name or row selector stands for. Errors 70, 218, 75."""
+def array(context: LoweringContext, node: Expr, missing: str = "undefined-in-vector") -> Quantity | None:
+    """Return the REAL array that a name, shifted name or row selector stands for. Errors 70, 218."""
     assert isinstance(node, Name | ShiftedNode | RowOfNode), "the grammar lets nothing else stand here"
     name = node.name
     quantity = context.quantity(name)
@@ -120,7 +120,7 @@ def array(context: LoweringContext, node: Expr) -> Quantity | None:
             context.report("number-as-array", node, name=actual)
         elif context.first_report(actual):
             arrays = (q.name for q in context.scope.names.values() if q.shape)
-            context.report("undefined-in-vector", node, name=actual, close=closest(actual, arrays))
+            context.report(missing, node, name=actual, close=closest(actual, arrays))
         return None
     if quantity.kind is Kind.COMPLEX:
         context.report("complex-in-dynamic", node, name=actual)

@@ -204,7 +204,7 @@ def history(builder: SegmentBuilder, node: Node, name: str) -> Quantity | None:
     """Return the one-dimensional array of `store`, `get` or a delay. Errors 19, 75."""
     context = builder.context
     place = Name(name, node.start, node.end)
-    quantity = array(context, place)
+    quantity = array(context, place, "not-an-array")
     if quantity is None:
         return None
     if len(quantity.shape) != 1:

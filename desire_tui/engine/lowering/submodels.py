@@ -8,7 +8,8 @@ from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, ExpansionFrame
-from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.assignments import Bare
+from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.nodes.names import invocation
 from desire_tui.engine.structure.expanded_lines import LINES_MOST, expanded_lines
 
@@ -59,9 +60,11 @@ def _invoke(
     frame = context.frame
     submodel = submodels.get(name)
     if submodel is None:
-        key = (
-            "function-as-statement" if name in context.functions or name in LIBRARY else "undefined-submodel"
-        )
+        key = "undefined-submodel"
+        if name in context.functions or name in LIBRARY:
+            key = "function-as-statement"
+        elif isinstance(node, Bare) and isinstance(node.value, Element):
+            key = "expression-alone"
         context.report(key, node, name=name, close=closest(name, submodels))
         return
     if f"SUBMODEL {name}" in context.reported:

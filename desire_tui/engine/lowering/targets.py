@@ -70,7 +70,7 @@ def matrix(context: LoweringContext, node: Node, name: str) -> Quantity | None:
 
 def _array(context: LoweringContext, node: Node, name: str, rank: int) -> Quantity | None:
     place = Name(name, node.start, node.end)
-    quantity = array(context, place)
+    quantity = array(context, place, "not-an-array")
     if quantity is None:
         return None
     if quantity.kind is not Kind.REAL:

@@ -96,9 +96,11 @@ def dummies(node: Procedure | Function | Submodel) -> tuple[str, ...]:
 
 
 def invocation(node: Statement) -> tuple[str, tuple[Expr, ...]] | None:
-    """Return name and arguments of the submodel that a segment's statement invokes: `invoke s(a)`, `s(a)`."""
+    """Return name and arguments of the submodel that a statement invokes: `invoke s(a)`, `s(a)`, `s[a]`."""
     if isinstance(node, Invoke):
         return node.name, node.args
     if isinstance(node, Bare) and isinstance(node.value, Call):
         return node.value.name, node.value.args
+    if isinstance(node, Bare) and isinstance(node.value, Element):
+        return node.value.name, node.value.subscripts
     return None

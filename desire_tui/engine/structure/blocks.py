@@ -13,7 +13,7 @@ from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
-from desire_tui.engine.nodes.expressions import Call
+from desire_tui.engine.nodes.expressions import Call, Element
 from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
 from desire_tui.engine.nodes.names import dummies
@@ -113,8 +113,8 @@ class BlockSurvey:
             case Assign() | Dot() | MatrixAssign() | VectorAssign() | Declare():
                 return None
             case Bare():
-                if isinstance(node.value, Call) and not self._in_submodel():
-                    self.report("call-missing", placed, name=node.value.name)
+                if not self._in_submodel():
+                    self._alone(placed, node)
                 return None
             case If():
                 return self._if(place, placed, node)
@@ -150,6 +150,13 @@ class BlockSurvey:
         if isinstance(node, SegmentOnlyStatement):
             return None
         assert_never(node)
+
+    def _alone(self, placed: Placed, node: Bare) -> None:
+        """Only a submodel's body has calls and, in either bracket, invocations that stand alone."""
+        if isinstance(node.value, Call):
+            self.report("call-missing", placed, name=node.value.name)
+        elif isinstance(node.value, Element):
+            self.report("expression-alone", placed)
 
     def _faulty(self, place: int, placed: Placed, word: str) -> None:
         """Let a statement that cannot be read open and close what its word does."""

@@ -32,6 +32,8 @@ _REQUESTS = frozenset({"dispt", "dispxy", "DISPXY", "type", "stash", "recover"})
 _DEFINITIONS = frozenset({"PROCEDURE", "SUBMODEL", "FUNCTION", "call", "invoke"})
 _WHOLE_ARRAYS = frozenset({"Vector", "MATRIX", "DELTA", "Delta", "store"})
 _LISTERS = frozenset({"edit", "ed", "list", "list+", "auto"})
+_NEXT = ("=", "to", ")", "]", ",", "(")
+"""What a statement that ends too early most likely lacks: the first of these that may follow."""
 _LABELS = frozenset({"label", "go to", "restore"})
 
 
@@ -42,6 +44,9 @@ def explain(chunk: StatementTokens, at: int, expected: frozenset[str]) -> TokenF
         key = rule(stuck)
         if key:
             return TokenFault(key, stuck.start, stuck.end, stuck.facts)
+    if stuck.ended:
+        stuck.facts["wanted"] = next((kind for kind in _NEXT if kind in expected), "…")
+        return TokenFault("statement-cut", stuck.start, stuck.end, stuck.facts)
     return TokenFault("statement-end", stuck.start, stuck.end, stuck.facts)
 
 
@@ -101,6 +106,26 @@ def _brackets(s: _Stuck) -> str:
     return ""
 
 
+def _mixed_brackets(s: _Stuck) -> str:
+    """`A[3) = 1`: a bracket of the other kind may close the list of a submodel only, as a statement."""
+    if s.word != NAME or s.kinds[1:2] not in (["("], ["["]):
+        return ""
+    depth = 0
+    for at, kind in enumerate(s.kinds[: s.at]):
+        depth += (kind in OPENERS.values()) - (kind in CLOSERS)
+        if kind in CLOSERS and depth == 0:
+            if OPENERS.get(kind) == s.kinds[1]:
+                return ""
+            s.place(at)
+            s.facts |= {
+                "at": s.texts[at],
+                "closer": {"(": ")", "[": "]"}[s.kinds[1]],
+                "before": f" before '{kind}'",
+            }
+            return "parenthesis-unclosed" if s.kinds[1] == "(" else "bracket-unclosed"
+    return ""
+
+
 def _own_form(s: _Stuck) -> str:
     """Faults that only one statement can have."""
     word = s.word
@@ -129,9 +154,12 @@ def _own_form(s: _Stuck) -> str:
         return "lines-form"
     if word in ("tdelay", "delay") and s.opened == "" and s.after_operand and "=" in s.kinds[: s.at]:
         return "delay-form"
+    if word in ("func", "func2") and s.opened == "" and s.after_operand and "=" in s.kinds[: s.at]:
+        return "table-form"
     if word in ("CLEARN", "PLEARN", "INTP") and not s.wants_operand and "=" in s.kinds[: s.at]:
         return "learn-form"
-    if word in _WHOLE_ARRAYS and s.opened == "" and s.after_operand and ";" in s.kinds[: s.at]:
+    bounded = ";" in s.kinds[: s.at] or (s.kind == "," and ";" in s.expected)
+    if word in _WHOLE_ARRAYS and s.opened == "" and s.after_operand and bounded:
         return "bounds-form"
     if word == "trkhld" and (s.kind == "=" or s.ended) and s.after_operand:
         return "track-hold-form"
@@ -226,7 +254,8 @@ def _operator_missing(s: _Stuck) -> str:
 
 
 _RULES: tuple[Callable[[_Stuck], str], ...] = (
-    _relation_spelling, _brackets, _matrix_function, _own_form, _first_words, _assignments, _expressions,
+    _relation_spelling, _mixed_brackets, _brackets, _matrix_function, _own_form, _first_words, _assignments,
+    _expressions,
 )  # fmt: skip
 
 

@@ -24,9 +24,8 @@ _OF_ARRAYS = frozenset({"delta", "UPDATE"})
 _BEYOND = frozenset({"compare", "notebook", "snapshot"})
 """Words that the original does not have: a program's own submodels of these names win."""
 _RUN = re.compile(r"[ \t]+(run)(?![A-Za-z0-9$_])")
-_LINES = re.compile(
-    r"[ \t]*([0-9]+(?:[ \t]*[-\u2013,;][ \t]*[0-9]+)*)(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed))"
-)
+_RANGE = r"[0-9]+(?:[ \t]*[-\u2013][ \t]*[0-9]+)?"
+_LINES = re.compile(rf"[ \t]*({_RANGE}(?:[ \t]*[,;][ \t]*{_RANGE})*)(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed))")
 _COPIED = re.compile(r"[ \t]*#(?=[ \t]*[0-9])")
 _ABOUT_LINES = frozenset({"edit", "ed", "list", "list+", "auto"})
 """Commands that may name lines of the program: `edit 210-240,260`."""

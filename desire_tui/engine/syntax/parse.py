@@ -14,7 +14,7 @@ from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.nodes.assignments import Bare
 from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.control import GoTo, Label
-from desire_tui.engine.nodes.expressions import Call, Name
+from desire_tui.engine.nodes.expressions import Call, Element, Name
 from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Restore
 from desire_tui.engine.nodes.program import Placed, Program, SegmentText
@@ -92,7 +92,7 @@ def parse(source: Source) -> Program:
                             body.append(Placed(Faulty(item.meant, 0, item.end), at + offset, number))
                             faults[at + offset] = problem
                     continue
-                if isinstance(item, Bare) and not isinstance(item.value, Call) and body is not None:
+                if isinstance(item, Bare) and not isinstance(item.value, Call | Element) and body is not None:
                     problems.append(_diagnostic(_no_statement(item), at + offset, source))
                     continue
                 placed = Placed(item, at + offset, number)
@@ -114,6 +114,10 @@ def parse(source: Source) -> Program:
                     main, body = body, jacobian
                 else:
                     body.append(placed)
+    joint = _joining_nothing(source.text) if body is not None else None
+    if joint is not None and not any(problem.span and problem.span.start >= reached for problem in problems):
+        span = Span(joint, joint + 1)
+        problems.append(Diagnostic("continuation-missing", span, {}, source, severity="warning"))
     close()
     if alone and not is_numbered:
         problems += [Diagnostic("expression-alone", span, {}, source) for span in alone]
@@ -172,6 +176,14 @@ def numbered(line: str) -> int:
         return len(line)
     found = _NUMBERED.match(line)
     return found.end() if found else 0
+
+
+def _joining_nothing(text: str) -> int | None:
+    """Return the offset of a `_` that ends the text's last row, if no other row follows for it to join."""
+    last = text.rstrip()
+    if not last.endswith("_") or scan(last[last.rfind("\n") + 1 :]).continues != "_":
+        return None
+    return len(last) - 1
 
 
 def _no_statement(item: Bare) -> TokenFault:

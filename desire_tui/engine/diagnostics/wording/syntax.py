@@ -49,6 +49,10 @@ _SENTENCES: dict[str, Wording] = {
     "equals-missing": Wording(29, "'=' is missing{before}", "write: name = expression"),
     "dimensions-too-many": Wording(32, "an array has at most {limit} dimensions", "use fewer subscripts"),
     "statement-end": Wording(33, "the statement should end before '{text}'", "separate statements by |"),
+    "statement-cut": Wording(33, "the statement is not complete: '{wanted}' is missing", "add what follows"),
+    "continuation-missing": Wording(
+        33, "no row follows that the '_' could join", "remove it, or add the rest of the line"
+    ),
     "strange-character": Wording(
         33, "the character '{char}' means nothing here", "remove it, or quote the text"
     ),
@@ -79,6 +83,11 @@ _SENTENCES: dict[str, Wording] = {
     "lines-form": Wording(62, "lines of the program are not named like this", "write: {word} 210-240, 260"),
     "delay-form": Wording(
         33, "{word} is not written like this", "write: {word} y = D(x, tau), or: {word} y = D, x, tau"
+    ),
+    "table-form": Wording(
+        33,
+        "{word} is not written like this",
+        "write: func y = F(x), or: func y = F, x; func2 y = F(x1, x2; X, Y)",
     ),
     "learn-form": Wording(
         33,

@@ -26,9 +26,11 @@ from desire_tui.engine.nodes.expressions import (
 )
 from desire_tui.engine.syntax.build.children import (
     Kids,
+    Misuse,
     NumberToken,
     Token,
     condition,
+    nodes_in,
     plain,
     without_separators,
 )
@@ -99,6 +101,16 @@ class ExpressionProductions:
 
     def bare(self, kids: Kids, first: int, last: int) -> Statement:
         return Bare(plain(kids[0]), first, last)
+
+    def mixed_brackets(self, kids: Kids, first: int, last: int) -> Statement:
+        """`s[a, b)`: either bracket opens and closes the list of a submodel, whose arguments are names."""
+        args = nodes_in(kids)
+        if all(isinstance(arg, Name) for arg in args):
+            return Bare(Call(kids[0], args, first, last), first, last)
+        key = "bracket-unclosed" if kids[1].kind == "[" else "parenthesis-unclosed"
+        closer = kids[-1]
+        facts = {"at": closer, "closer": "]", "before": f" before '{closer}'"}
+        raise Misuse(key, closer.number, closer.number, facts)
 
     def simple(self, kids: Kids, first: int, last: int) -> Statement:
         return Simple(kids[0].kind, first, last)

@@ -93,12 +93,11 @@ class Dynamic:
 
     def learn(self, kids: Kids, first: int, last: int) -> Statement:
         kind, output, weights, source = kids[0].kind, kids[1], kids[3], kids[5]
+        rate, *criteria = map(plain, nodes_in(kids))
         if kind != "CLEARN":
-            return Learn(
-                kind, output, weights, source, plain(kids[7]), None, fast=False, start=first, end=last
-            )
-        criterion = plain(kids[9])
-        fast = len(kids) > 10
+            return Learn(kind, output, weights, source, rate, None, fast=False, start=first, end=last)
+        (criterion,) = criteria
+        fast = isinstance(kids[-1], Token)
         if isinstance(criterion, RowOf):  # `crit#`: the mark of fast learning, not a row of a matrix
             criterion, fast = Name(criterion.name, criterion.start, criterion.start), True
-        return Learn(kind, output, weights, source, plain(kids[7]), criterion, fast, first, last)
+        return Learn(kind, output, weights, source, rate, criterion, fast, first, last)
