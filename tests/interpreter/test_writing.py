@@ -96,7 +96,6 @@ def test_channels_0_and_1_append_and_others_do_not(tmp_path):
     [
         ("connect 'f' as output 11", 50, "connect 'f' as output 11"),
         ("connect 'f' as output 2 | connect 'g' as output 2", 30, "connect 'g' as output 2"),
-        ("disconnect 5", 63, "disconnect 5"),
         ("write #5, 1", 63, "write #5, 1"),
         ("connect 'f' as output 2 | input #2, x", 64, "input #2, x"),
         ("connect 'nothing' as input 2", 38, "connect 'nothing' as input 2"),
