@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from desire_tui.engine.outputs.formats import FORMATS, DataFormat
+from desire_tui.engine.outputs.formats import FORMATS, DataFormat, PictureOptions
 from desire_tui.engine.user_folders import ignored_variables
 from desire_tui.engine.visible_text import visible
 from desire_tui.version import __version__
+
+_INCHES_MOST = 40
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -90,6 +92,18 @@ def _settings(_: click.Context, __: click.Parameter, values: tuple[str, ...]) ->
         ) from None
 
 
+def _inches(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float, float] | None:
+    if text is None:
+        return None
+    try:
+        width, height = (float(part) for part in text.lower().split("x"))
+    except ValueError:
+        width = height = 0.0
+    if not (1 <= width <= _INCHES_MOST and 1 <= height <= _INCHES_MOST):
+        raise click.BadParameter(f"'{text}' is not WIDTHxHEIGHT in inches, from 1 to {_INCHES_MOST}: 8x5")
+    return width, height
+
+
 def _output_options(command: _Command) -> _Command:
     """Add an option for each format that results can be written in."""
     for known in reversed(FORMATS):
@@ -101,6 +115,12 @@ def _output_options(command: _Command) -> _Command:
 @click.argument("file")
 @_output_options
 @click.option("--plot", is_flag=True, help="Print the last graph as text.")
+@click.option("--size", metavar="WxH", callback=_inches, help="Size of pictures in inches. [default: 8x5]")
+@click.option("--dpi", type=click.FloatRange(10, 1200), default=150, show_default=True,
+              help="Dots per inch of pictures; print wants 300.")  # fmt: skip
+@click.option("--style", type=click.Choice(["paper", "screen"]),
+              help="Pictures dark on white, or in the program's colours. [default: paper, unless it uses "
+              "display N or C]")  # fmt: skip
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", callback=_settings,
               help="Override the script's own values: a=3, v[2]=3, v=1,2,3, A=1,2;3,4.")  # fmt: skip
 @click.option("--go", is_flag=True, help="Continue after every STOP.")
@@ -143,7 +163,8 @@ def _run(file: str, **options: Any) -> int:
         settings=options["settings"], answer_stops=options["go"], timeout=options["timeout"],
         backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
     )  # fmt: skip
-    outputs = OutputFiles(files, plot=options["plot"])
+    picture = PictureOptions(options["size"] or PictureOptions().inches, options["dpi"], options["style"])
+    outputs = OutputFiles(files, plot=options["plot"], picture=picture)
     return run_file(
         file, run_options, outputs, options["answers"], quiet=options["quiet"], raw=options["raw"]
     )

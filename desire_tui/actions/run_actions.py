@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.editor.live_check import CHECKED_MAX
+from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.status import State
 from desire_tui.engine.source import Source
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.editor.code_area import CodeArea
 
 
@@ -40,7 +44,7 @@ class RunActions(Controller):
 
         def run() -> None:
             app.send_breakpoints()  # not before: the program that just ends has others
-            app.session.erun(source)
+            self._watched(source.file_name, lambda: app.session.erun(source))
 
         app.engine.submit(run)
 
@@ -87,7 +91,19 @@ class RunActions(Controller):
             return
         self.end_now()
         app.frame_pacing.hold()
-        app.engine.submit(app.session.run)
+        name = app.editor.active.buffer.name
+        app.engine.submit(lambda: self._watched(Path(name).name, app.session.run))
+
+    def _watched(self, name: str, run: Callable[[], object]) -> None:
+        """Run a program; where it fails before it has a graph, the graph pane says so."""
+        app = self.app
+        before = app.session.graph
+        try:
+            run()
+        except DesireError:
+            if app.session.graph is before:
+                app.on_screen(app.graph.show_failed, name)
+            raise
 
     def proceed(self, argument: str = "") -> None:
         """`go`; a paused run is resumed."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import write_bytes, write_file
-from desire_tui.engine.outputs.formats import DATA, PICTURES
+from desire_tui.engine.outputs.formats import DATA, FOR_PAPER, PICTURES
 from desire_tui.engine.outputs.picture_files import write_pictures
 from desire_tui.engine.visible_text import visible
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from desire_tui.engine.graph.model import Graph
-    from desire_tui.engine.outputs.formats import DataFormat, PictureFormat
+    from desire_tui.engine.outputs.formats import DataFormat, PictureFormat, PictureOptions
     from desire_tui.engine.outputs.results import Result
     from desire_tui.engine.session.session import Session
 
@@ -33,6 +33,7 @@ class OutputFiles:
     files: Mapping[str, str] = field(default_factory=dict)
     plot: bool = False
     """Whether the last graph is to be printed as text."""
+    picture: PictureOptions = FOR_PAPER
 
     @property
     def takes_stdout(self) -> bool:
@@ -46,7 +47,7 @@ class OutputFiles:
         """
         for picture in PICTURES:
             if picture.name in self.files:
-                _write_pictures(session, self.files[picture.name], picture)
+                _write_pictures(session, self.files[picture.name], picture, self.picture)
         for data in DATA:
             if data.name in self.files:
                 _check_memory(session, data)
@@ -76,17 +77,17 @@ def _write_data(result: Result, name: str, data: DataFormat) -> None:
     write(Path(name), lambda file: data.write(result, file))
 
 
-def _write_pictures(session: Session, name: str, picture: PictureFormat) -> None:
+def _write_pictures(session: Session, name: str, picture: PictureFormat, options: PictureOptions) -> None:
     """One graph: NAME; several: NAME-1, NAME-2 …; on standard output: the last one."""
     graphs = _graphs(session)
     if name == STANDARD_OUTPUT:
-        sys.stdout.buffer.write(picture.content(graphs[-1]))
+        sys.stdout.buffer.write(picture.content(graphs[-1], options))
         sys.stdout.flush()
         return
     path = Path(name)
     if path.suffix.lower() != picture.ending:
         path = path.with_name(path.name + picture.ending)
-    write_pictures(graphs, path)
+    write_pictures(graphs, path, options)
 
 
 def _print_plot(session: Session) -> None:

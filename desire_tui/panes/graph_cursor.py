@@ -7,12 +7,17 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from desire_tui.engine.graph.model import Graph
     from desire_tui.panes.zoom_window import Window
 
+    Floats = NDArray[np.float64]
+
 
 GAP = "–"
-"""Where a curve has a gap: its sample is inf or nan."""
+"""Where a curve has a gap, its sample is inf or nan, or its run has not come so far."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,11 +48,13 @@ def read(graph: Graph, window: Window, part: float) -> Reading | None:
         values = []
         for curve in graph.curves:
             x, y = curve.samples()
-            if len(x):
+            if _reaches(x, t):
                 number = min(int(np.searchsorted(x, t)), len(x) - 1)
                 if number and abs(x[number - 1] - t) < abs(x[number] - t):
                     number -= 1
                 values.append((curve.name, curve.color, _shown(y[number])))
+            else:
+                values.append((curve.name, curve.color, GAP))
         return Reading(part, f"t = {t:.6g}", tuple(values))
     curve = graph.curves[-1]
     x, y = curve.samples()
@@ -63,6 +70,14 @@ def read(graph: Graph, window: Window, part: float) -> Reading | None:
     if curve.x_column:
         head = f"t = {curve.record.rows[number, 0]:.6g}  {head}"
     return Reading(float(shown), head, tuple(values))
+
+
+def _reaches(x: Floats, t: float) -> bool:
+    """Whether t lies in the time of the samples, or as near to it as one of them to the next."""
+    if not len(x):
+        return False
+    step = float(x[-1] - x[0]) / max(len(x) - 1, 1)
+    return bool(x[0] - step <= t <= x[-1] + step)
 
 
 def _shown(value: float) -> str:

@@ -33,6 +33,10 @@ class GraphPaging:
         self.page = graph
         return others
 
+    def show_none(self) -> None:
+        """Show no page; turning back shows the newest."""
+        self.page, self.under = None, []
+
     def turn(self, pages: Sequence[Graph], step: int) -> bool:
         """Show an older (-1) or newer (1) page; False if there is none."""
         at = pages.index(self.page) if self.page in pages else len(pages)

@@ -74,6 +74,10 @@ class GraphPane(MouseGestures, can_focus=True):
         self._extent: Extent | None = None
         self._extent_of: tuple[object, ...] = ()
         self._marks: tuple[object, ...] = ()
+        self._failed = ""
+        """What is said in place of a graph after a start that failed."""
+        self._is_earlier = False
+        """Whether the page is of a run before a start that failed."""
         self.keys_shown = True
         self.reading: graph_cursor.Reading | None = None
         self._cursor: float | None = None
@@ -122,7 +126,8 @@ class GraphPane(MouseGestures, can_focus=True):
     def page_mark(self) -> str:
         """Which page is shown, if it is not the newest, and whether it is magnified."""
         zoomed = not self.is_fitted and not self.window.is_whole
-        marks = [self.paging.place(self._pages()), "zoom" if zoomed else ""]
+        earlier = "earlier run" if self._is_earlier else ""
+        marks = [self.paging.place(self._pages()) or earlier, "zoom" if zoomed else ""]
         told = " · ".join(mark for mark in marks if mark)
         return f" {told} " if told else ""
 
@@ -153,12 +158,24 @@ class GraphPane(MouseGestures, can_focus=True):
         """Show a graph that was just begun; the window stays if the same variables are drawn again."""
         if graph is None:
             return
+        self._is_earlier = False
         if graph is self.page:
             if self.paging.under:
                 self._drawn = ()
             self._show_keys()
         elif self.paging.follow(graph):
             self.window, self.fit = Window(), None
+
+    def show_failed(self, program: str) -> None:
+        """Say that a program made no graph: another program's leaves the screen, its own is marked."""
+        page = self.page
+        if page is not None and page.program == program:
+            self._is_earlier = True
+        else:
+            older = " · Alt+PgUp: graph before" if page is not None else ""
+            self._failed = f"{program} made no graph{older}"
+            self.paging.show_none()
+        self.tick()
 
     def tick(self) -> bool:
         """Draw what is new; returns whether anything was.
@@ -212,11 +229,20 @@ class GraphPane(MouseGestures, can_focus=True):
     def _state(self) -> tuple[object, ...]:
         page = self.page
         if page is None:
-            return self.paper, self.size
+            return self.paper, self.size, self._failed
         under = tuple(len(graph.curves) for graph in self.paging.under)
         curves = len(page.curves) if under else 0
         title = page.title(fitted=self.is_fitted)
-        look = (page.frame, title, page.caption, page.net, self.paper, self.window, self.size)
+        look = (
+            page.frame,
+            title,
+            self._is_earlier,
+            page.caption,
+            page.net,
+            self.paper,
+            self.window,
+            self.size,
+        )
         return page, look, under, curves
 
     def _begin_page(self, state: tuple[object, ...]) -> None:
@@ -225,7 +251,8 @@ class GraphPane(MouseGestures, can_focus=True):
         columns, rows = self.size.width, max(self.size.height - 1, 1)
         page = self.page
         if page is None:
-            notice = "No graph yet · F5 runs the program" if columns > NOTICE_COLUMNS_MIN else ""
+            notice = self._failed or "No graph yet · F5 runs the program"
+            notice = notice if columns > max(NOTICE_COLUMNS_MIN, len(notice)) else notice[:columns]
             lines = [""] * (rows // 2) + [notice.center(columns)]
             self.sheet.lay(columns, rows, SheetStyles(ground, ground + Style(dim=True), ground, white), lines)
             self._refresh_cells(self.sheet.cells)

@@ -307,3 +307,59 @@ async def test_fitting_follows_a_run_that_goes_on(program):
         await desk.until(lambda: graph.window.top > 2 * first.top)
         await desk.press("shift+f10")
         await desk.idle()
+
+
+async def test_a_failed_start_does_not_leave_another_programs_graph(program):
+    good, bad = program(OSCILLATOR, "good.src"), program("write 1/0\n" + OSCILLATOR, "bad.src")
+    async with desktop(good, size=(120, 36)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.tick()
+        assert "good.src · run 1" in shown(graph)
+        await desk.line(f"load '{bad}'")
+        await desk.press("f5")
+        await desk.idle()
+        assert "bad.src made no graph" in shown(graph)
+        assert "good.src" not in shown(graph)
+        await desk.press("alt+pageup")
+        assert "good.src · run 1" in shown(graph)
+
+
+async def test_a_graph_of_before_a_failed_start_is_marked(program):
+    async with desktop(program(OSCILLATOR)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        desk.app.editor.front.text = OSCILLATOR.replace("drun", "write 1/0 | drun")
+        await desk.press("f5")
+        await desk.idle()
+        assert "earlier run" in shown(graph)
+        desk.app.editor.front.text = OSCILLATOR
+        await desk.press("f5")
+        await desk.idle()
+        graph.tick()
+        assert "earlier run" not in shown(graph)
+
+
+async def test_the_cursor_reads_nothing_where_the_run_has_not_come(program):
+    text = "TMAX = 4 | DT = 0.01 | NN = 401 | scale = 9\ndrun\nDYNAMIC\nd/dt x = 1\nterm x - 1\ndispt x\n"
+    async with desktop(program(text), size=(120, 40)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.tick()
+        graph.focus()
+        await desk.press("r")
+        assert graph.reading.head == "t = 2"
+        assert [value for _, _, value in graph.reading.values] == ["–"]
+
+
+async def test_pages_of_quantities_have_a_title(program):
+    async with desktop(program(OSCILLATOR), size=(120, 36)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        await desk.line("graph x")
+        await desk.idle()
+        desk.app.graph.tick()
+        assert "osc.src · run 1 · fitted" in shown(desk.app.graph)

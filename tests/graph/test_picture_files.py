@@ -10,6 +10,7 @@ import pytest
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.graph.colors import rgb
 from desire_tui.engine.graph.pages import GraphPages
+from desire_tui.engine.outputs.formats import PictureOptions
 from desire_tui.engine.outputs.matplotlib_figure import picture_of
 from desire_tui.engine.outputs.picture_files import write_picture
 from tests.graph.graphing import displayed, page_of, record_of
@@ -58,7 +59,7 @@ def test_pictures_are_made_for_paper_unless_the_program_chooses_colours(tmp_path
     image = pixels(page, tmp_path)
     assert share(image, (255, 255, 255)) > 0.8
     assert share(image[:680], rgb(14, white=True), 8) > 0.001  # yellow is no colour on white
-    assert share(np.rint(_image(picture_of(page, "png", style="screen"))), (0, 0, 0)) > 0.8
+    assert share(np.rint(_image(picture_of(page, "png", PictureOptions(style="screen")))), (0, 0, 0)) > 0.8
 
 
 def test_a_fitted_picture_holds_all_curves(tmp_path):
@@ -72,6 +73,17 @@ def test_a_fitted_picture_holds_all_curves(tmp_path):
     text = (tmp_path / "g.svg").read_text()
     assert "fitted" in text
     assert ">40<" in text
+
+
+def test_size_and_dots_per_inch(tmp_path):
+    write_picture(page_of("dispt", T, {"x": T}), tmp_path / "g.png", PictureOptions((6, 4), 300))
+    assert _image((tmp_path / "g.png").read_bytes()).shape[:2] == (1200, 1800)
+
+
+def test_few_points_are_seen(tmp_path):
+    t = np.arange(17.0)
+    page = page_of("dispxy", t, {"x": 0.1 * t - 0.8, "y": 0.05 * t - 0.4}, "N12", rule=0)
+    assert share(pixels(page, tmp_path)[:680], rgb(12), 8) > 17 * 50 / (680 * 1200)
 
 
 def test_an_empty_frame_says_why(tmp_path):

@@ -133,6 +133,22 @@ def test_a_window_zooms():
     assert (19, 0) in dots
 
 
+def test_few_points_are_crosses_and_many_are_dots():
+    t = np.arange(500.0)
+    record = record_of("dispxy", t, {"x": t / 250 - 1, "y": np.sin(t / 20)}, rule=0)
+    record.count = 5
+    canvas = Canvas(100, 30)
+    painter = Painter(canvas, GraphPages().begin_run(record))
+    painter.update()
+    assert len(lit(canvas)) > 3 * 5
+    record.count = 500
+    painter.update()
+    at_once = Canvas(100, 30)
+    Painter(at_once, painter.graph).update()
+    assert lit(canvas) == lit(at_once)
+    assert len(lit(canvas)) <= 500
+
+
 def test_erasing_empties_the_canvas():
     pages = GraphPages()
     page = pages.begin_run(record_of("dispt", np.linspace(0, 1, 50), {"x": np.zeros(50)}))

@@ -22,6 +22,7 @@ SQUARE_MOST = 0.9
 Fit = Literal["no", "asked", "unset"]
 """Whether a graph is fitted to its curves: `display fit`; `unset`: the program never sets `scale`, and a
 curve leaves the scale of 1 that Desire starts with."""
+FEW_POINTS = 100
 _NAME_LEAST = 4
 FrameKind = Literal["dispt", "dispxy", "DISPXY", "plot", "picture"]
 
@@ -176,6 +177,11 @@ class Graph:
     def keys(self) -> tuple[Key, ...]:
         """Colour keys, each name and colour once; none in graphs of one colour."""
         return color_keys(self.curves) if self.has_keys else ()
+
+    @property
+    def has_few_points(self) -> bool:
+        """Whether points that no lines join are so few that single dots would be overlooked."""
+        return self.points.count + sum(c.count for c in self.curves if not c.joined) <= FEW_POINTS
 
     @property
     def is_empty(self) -> bool:

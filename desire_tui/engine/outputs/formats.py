@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.results import Result
+
+    PictureStyle = Literal["paper", "screen"]
 
 
 # Every start of the program reads this list: what draws and writes is imported when it is needed, and these
@@ -27,10 +29,31 @@ class OutputFormat:
         return f".{self.name}"
 
 
+class PictureOptions:
+    """How a picture is made: width and height in inches, dots per inch, style.
+
+    Style `paper` is dark on white, `screen` in the program's colours; None: for paper unless the program says
+    which colours to use.
+    """
+
+    def __init__(
+        self,
+        inches: tuple[float, float] = (8.0, 5.0),
+        dots_per_inch: float = 150,
+        style: PictureStyle | None = None,
+    ) -> None:
+        self.inches, self.dots_per_inch, self.style = inches, dots_per_inch, style
+
+
+FOR_PAPER = PictureOptions()
+
+
 class PictureFormat(OutputFormat):
     """A format for one graph: `content` returns what its file holds."""
 
-    def __init__(self, name: str, title: str, about: str, content: Callable[[Graph], bytes]) -> None:
+    def __init__(
+        self, name: str, title: str, about: str, content: Callable[[Graph, PictureOptions], bytes]
+    ) -> None:
         super().__init__(name, title, about)
         self.content = content
 
@@ -56,11 +79,11 @@ class DataFormat(OutputFormat):
         self.write, self.is_text, self.memory = write, is_text, memory
 
 
-def _picture(kind: str) -> Callable[[Graph], bytes]:
-    def content(graph: Graph) -> bytes:
+def _picture(kind: str) -> Callable[[Graph, PictureOptions], bytes]:
+    def content(graph: Graph, options: PictureOptions) -> bytes:
         from desire_tui.engine.outputs.matplotlib_figure import picture_of
 
-        return picture_of(graph, kind)
+        return picture_of(graph, kind, options)
 
     return content
 

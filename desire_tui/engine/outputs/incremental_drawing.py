@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Window = tuple[float, float, float, float]
 
+CROSS = 3
+"""The thickness that makes crosses of points."""
 SAMPLES_MOST = 200_000
 """Samples of a curve that one call draws at most, so that ten million of them do not block the screen."""
 
@@ -32,6 +34,7 @@ class Painter:
         self._drawn: dict[Curve, int] = {}
         self._points = 0
         self._pictures = 0
+        self._few = graph.has_few_points
         self._erased = graph.erased
         self.clipped = ClipMarks(canvas.columns, canvas.rows)
         canvas.clear()
@@ -43,6 +46,11 @@ class Painter:
             self._drawn.clear()
             self._points = self._pictures = 0
             self.clipped = ClipMarks(self.canvas.columns, self.canvas.rows)
+            self.canvas.clear()
+        if self._few != self.graph.has_few_points:
+            self._few = self.graph.has_few_points
+            self._drawn.clear()
+            self._points = self._pictures = 0
             self.canvas.clear()
         more = False
         for curve in list(self.graph.curves):
@@ -66,7 +74,7 @@ class Painter:
                 x, y = thin_columns(x, y, self.canvas.width)
             self.canvas.line(x, y, curve.color, curve.thickness)
         else:
-            self.canvas.dots(x, y, curve.color, curve.thickness)
+            self.canvas.dots(x, y, curve.color, self._thickness(curve.thickness))
         self._drawn[curve] = stop
         return stop < count
 
@@ -81,7 +89,11 @@ class Painter:
         self.clipped.add(x, y)
         for color in np.unique(colors):
             chosen = colors == color
-            self.canvas.dots(x[chosen], y[chosen], int(color), self.graph.thickness)
+            self.canvas.dots(x[chosen], y[chosen], int(color), self._thickness(self.graph.thickness))
+
+    def _thickness(self, asked: int) -> int:
+        """Return the thickness of points: few are drawn as crosses, which are seen."""
+        return CROSS if self._few else asked
 
     def _picture(self) -> None:
         """SHOW: side by side, sign by colour; large values are dense dots (dithering) or large squares."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from io import BytesIO
 from threading import Lock
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from desire_tui.engine.graph.fit import WHOLE, Extent, limits, notice
 from desire_tui.engine.graph.model import SQUARE_MOST
 from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, through, to_unit
 from desire_tui.engine.graph.ticks import minor_ticks, round_ticks, tick_labels
+from desire_tui.engine.outputs.formats import FOR_PAPER, PictureOptions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,15 +23,14 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.graph.fit import View
     from desire_tui.engine.graph.model import Curve, Graph, ShownArray
+    from desire_tui.engine.outputs.formats import PictureStyle
 
     Floats = NDArray[np.float64]
     Tint = tuple[float, float, float]
 
-PictureStyle = Literal["paper", "screen"]
-INCHES = (8.0, 5.0)
-DOTS_PER_INCH = 150
 _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
-_SPINE = 2 * 72 / DOTS_PER_INCH  # two dots: crisp
+_FEW_WIDTH = 5.0  # points; of points that are few
+_SPINE = 2 * 72 / FOR_PAPER.dots_per_inch  # two dots: crisp
 _COLUMNS = 4000  # finer than any printer shows at this size
 _FONT = 11
 _drawing = Lock()  # matplotlib's settings are global, and two threads may draw at once
@@ -38,21 +38,12 @@ _drawing = Lock()  # matplotlib's settings are global, and two threads may draw 
 
 def png_of(graph: Graph, width: int, height: int) -> bytes:
     """Return a graph as a PNG of `width` × `height` dots."""
-    wide = INCHES[0]
-    return picture_of(graph, "png", (wide, wide * height / width), width / wide)
+    wide = FOR_PAPER.inches[0]
+    return picture_of(graph, "png", PictureOptions((wide, wide * height / width), width / wide))
 
 
-def picture_of(
-    graph: Graph,
-    kind: str,
-    inches: tuple[float, float] = INCHES,
-    dots_per_inch: float = DOTS_PER_INCH,
-    style: PictureStyle | None = None,
-) -> bytes:
+def picture_of(graph: Graph, kind: str, options: PictureOptions = FOR_PAPER) -> bytes:
     """Return a graph as the content of a picture file; `kind` is a format of matplotlib (png, svg, pdf).
-
-    Style `paper` is dark on white, `screen` in the program's colours; None: for paper unless the program says
-    which colours to use.
 
     It is drawn in memory: matplotlib's PDF writer cannot cope with a disk that is full.
     """
@@ -66,9 +57,9 @@ def picture_of(
         "svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000, "text.usetex": False,
     })  # fmt: skip
     with _drawing, fixed:
-        figure = draw(graph if _in_own_colors(graph, style) else _on_paper(graph), inches)
+        figure = draw(graph if _in_own_colors(graph, options.style) else _on_paper(graph), options.inches)
         buffer = BytesIO()
-        figure.savefig(buffer, format=kind, dpi=dots_per_inch, facecolor=figure.get_facecolor())
+        figure.savefig(buffer, format=kind, dpi=options.dots_per_inch, facecolor=figure.get_facecolor())
     return buffer.getvalue()
 
 
@@ -80,7 +71,7 @@ def _on_paper(graph: Graph) -> Graph:
     return replace(graph, white=True, net=BLACK if graph.net is not None else None)
 
 
-def draw(graph: Graph, inches: tuple[float, float] = INCHES) -> Figure:
+def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure:
     """Return a graph as a figure: same window, colours, caption, keys and thickness as on the screen."""
     from matplotlib.figure import Figure
 
@@ -140,11 +131,12 @@ def _draw_curve(axes: Axes, curve: Curve, graph: Graph, window: View) -> None:
     x, y = through(window, *to_unit(curve.frame, *curve.samples()))
     color, width = _curve_tint(curve.color, graph), _WIDTHS[curve.thickness]
     if not curve.joined:
+        few = _FEW_WIDTH if graph.has_few_points else 0.0
         with np.errstate(invalid="ignore"):
             inside = (x >= 0) & (x <= 1) & (y >= 0) & (y <= 1)
         axes.plot(
-            x[inside], y[inside], linestyle="none", marker="o", markersize=0.8 * width, markeredgewidth=0,
-            color=color, transform=axes.transAxes,
+            x[inside], y[inside], linestyle="none", marker="o", markersize=few or 0.8 * width,
+            markeredgewidth=0, color=color, transform=axes.transAxes,
         )  # fmt: skip
         return
     if curve.frame.kind == "dispt":
@@ -175,8 +167,9 @@ def _draw_points(axes: Axes, graph: Graph) -> None:
     x, y, colors = graph.points.so_far()
     if not len(x):
         return
+    few = _FEW_WIDTH if graph.has_few_points else 0.0
     axes.scatter(
-        x, y, s=(2.0 * _WIDTHS[graph.thickness]) ** 2, c=[_curve_tint(int(c), graph) for c in colors],
+        x, y, s=max(few, 2.0 * _WIDTHS[graph.thickness]) ** 2, c=[_curve_tint(int(c), graph) for c in colors],
         linewidths=0, zorder=3,
     )  # fmt: skip
 

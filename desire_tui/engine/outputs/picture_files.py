@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import write_bytes
-from desire_tui.engine.outputs.formats import PICTURES
+from desire_tui.engine.outputs.formats import FOR_PAPER, PICTURES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
     from desire_tui.engine.graph.model import Graph
-    from desire_tui.engine.outputs.formats import PictureFormat
+    from desire_tui.engine.outputs.formats import PictureFormat, PictureOptions
 
 
 def picture_format(path: Path) -> PictureFormat:
@@ -24,16 +24,16 @@ def picture_format(path: Path) -> PictureFormat:
     return known
 
 
-def write_picture(graph: Graph, path: Path) -> None:
+def write_picture(graph: Graph, path: Path, options: PictureOptions = FOR_PAPER) -> None:
     """Write a graph. DesireError 34: an ending that is no picture's; 106: the file cannot be written."""
-    content = picture_format(path).content(graph)
+    content = picture_format(path).content(graph, options)
     write_bytes(path, lambda file: file.write(content))
 
 
-def write_pictures(graphs: Sequence[Graph], path: Path) -> None:
+def write_pictures(graphs: Sequence[Graph], path: Path, options: PictureOptions = FOR_PAPER) -> None:
     """Write one graph to `path`, several to `NAME-1.png`, `NAME-2.png` …. DesireError as `write_picture`."""
     if len(graphs) == 1:
-        write_picture(graphs[0], path)
+        write_picture(graphs[0], path, options)
         return
     for number, graph in enumerate(graphs, 1):
-        write_picture(graph, path.with_name(f"{path.stem}-{number}{path.suffix}"))
+        write_picture(graph, path.with_name(f"{path.stem}-{number}{path.suffix}"), options)
