@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from desire_tui.engine.outputs.formats import FORMATS, DataFormat, PictureOptions
+from desire_tui.engine.outputs.formats import FORMATS, DataFormat
+from desire_tui.engine.outputs.picture_options import PictureOptions
 from desire_tui.engine.user_folders import ignored_variables
 from desire_tui.engine.visible_text import visible
 from desire_tui.version import __version__

@@ -10,15 +10,17 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import write_bytes, write_file
-from desire_tui.engine.outputs.formats import DATA, FOR_PAPER, PICTURES
+from desire_tui.engine.outputs.formats import DATA, PICTURES
 from desire_tui.engine.outputs.picture_files import write_pictures
+from desire_tui.engine.outputs.picture_options import FOR_PAPER
 from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from desire_tui.engine.graph.model import Graph
-    from desire_tui.engine.outputs.formats import DataFormat, PictureFormat, PictureOptions
+    from desire_tui.engine.outputs.formats import DataFormat, PictureFormat
+    from desire_tui.engine.outputs.picture_options import PictureOptions
     from desire_tui.engine.outputs.results import Result
     from desire_tui.engine.session.session import Session
 

@@ -10,9 +10,9 @@ import pytest
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.graph.colors import rgb
 from desire_tui.engine.graph.pages import GraphPages
-from desire_tui.engine.outputs.formats import PictureOptions
 from desire_tui.engine.outputs.matplotlib_figure import picture_of
 from desire_tui.engine.outputs.picture_files import write_picture
+from desire_tui.engine.outputs.picture_options import PictureOptions
 from tests.graph.graphing import displayed, page_of, record_of
 
 T = np.linspace(0, 1, 200)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import IO, TYPE_CHECKING, Any, Literal
+from typing import IO, TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.outputs.picture_options import PictureOptions
     from desire_tui.engine.outputs.results import Result
-
-    PictureStyle = Literal["paper", "screen"]
 
 
 # Every start of the program reads this list: what draws and writes is imported when it is needed, and these
@@ -27,25 +26,6 @@ class OutputFormat:
     def ending(self) -> str:
         """Ending of a file's name, with its dot."""
         return f".{self.name}"
-
-
-class PictureOptions:
-    """How a picture is made: width and height in inches, dots per inch, style.
-
-    Style `paper` is dark on white, `screen` in the program's colours; None: for paper unless the program says
-    which colours to use.
-    """
-
-    def __init__(
-        self,
-        inches: tuple[float, float] = (8.0, 5.0),
-        dots_per_inch: float = 150,
-        style: PictureStyle | None = None,
-    ) -> None:
-        self.inches, self.dots_per_inch, self.style = inches, dots_per_inch, style
-
-
-FOR_PAPER = PictureOptions()
 
 
 class PictureFormat(OutputFormat):

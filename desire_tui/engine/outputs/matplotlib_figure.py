@@ -14,7 +14,7 @@ from desire_tui.engine.graph.fit import WHOLE, Extent, limits, notice
 from desire_tui.engine.graph.model import SQUARE_MOST
 from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, through, to_unit
 from desire_tui.engine.graph.ticks import minor_ticks, round_ticks, tick_labels
-from desire_tui.engine.outputs.formats import FOR_PAPER, PictureOptions
+from desire_tui.engine.outputs.picture_options import FOR_PAPER, PictureOptions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.graph.fit import View
     from desire_tui.engine.graph.model import Curve, Graph, ShownArray
-    from desire_tui.engine.outputs.formats import PictureStyle
+    from desire_tui.engine.outputs.picture_options import PictureStyle
 
     Floats = NDArray[np.float64]
     Tint = tuple[float, float, float]

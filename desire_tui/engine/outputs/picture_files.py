@@ -6,14 +6,16 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import write_bytes
-from desire_tui.engine.outputs.formats import FOR_PAPER, PICTURES
+from desire_tui.engine.outputs.formats import PICTURES
+from desire_tui.engine.outputs.picture_options import FOR_PAPER
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
     from desire_tui.engine.graph.model import Graph
-    from desire_tui.engine.outputs.formats import PictureFormat, PictureOptions
+    from desire_tui.engine.outputs.formats import PictureFormat
+    from desire_tui.engine.outputs.picture_options import PictureOptions
 
 
 def picture_format(path: Path) -> PictureFormat:
