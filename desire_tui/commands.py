@@ -92,6 +92,7 @@ COMMANDS = (
     Command("edit.next_problem", "Next problem", "Go to the next problem in the front tab", "f8"),
     Command("edit.previous_problem", "Previous problem", "Go to the problem before", "shift+f8"),
     Command("edit.fix", "Take the suggestion", "Replace the word at the problem by the one meant", "alt+u"),
+    Command("edit.fold", "Fold", "Fold what an example must show at its end, or open it", "alt+z"),
     Command("edit.duplicate", "Duplicate line", "Repeat the cursor's line below it", "ctrl+d"),
     Command("edit.move_up", "Move line up", "Move the selected lines up by one", "alt+shift+up"),
     Command("edit.move_down", "Move line down", "Move the selected lines down by one", "alt+shift+down"),
@@ -147,6 +148,7 @@ COMMANDS = (
     # --------------------------------------------------------------------------------------------------- help
     Command("help.word", "Help", "Help on the word at the cursor", "f1", ("help",), "'topic'"),
     Command("help.keys", "Keys", "A list of all keys", "shift+f1", ("keys",)),
+    Command("help.tour", "Tour", "Point at one pane after the other; again: the next", "alt+n", ("tour",)),
     Command("help.config", "Configuration", "Open the configuration file in a tab", words=("config",)),
 )  # fmt: skip
 

@@ -147,6 +147,15 @@ class EditActions(Controller):
         area.replace_as_one(new, (row, start), (row, start + len(old)))
         app.notify(f"{mark.fix.text} · Ctrl+Z takes it back", timeout=3, markup=False)
 
+    def fold(self, argument: str = "") -> None:
+        """Fold what the program must show, or open it."""
+        del argument
+        area = self.app.editor.front
+        if area.fold is not None:
+            area.set_fold(None)
+        elif not area.fold_expectations():
+            self.app.notify("No lines with --? or --| at the end of this program.", timeout=3)
+
     def duplicate(self, argument: str = "") -> None:
         """Repeat the cursor's row."""
         del argument

@@ -77,7 +77,13 @@ class GraphActions(Controller):
     def read(self, argument: str = "") -> None:
         """Show or hide the cursor with the values of all curves."""
         del argument
-        self.app.graph.toggle_readout()
+        on = self.app.graph.toggle_readout()
+        self.app.notify(
+            "Read-out on: a cursor line with all values. ← → in the graph move it, Alt+R takes it away."
+            if on
+            else "Read-out off.",
+            timeout=4,
+        )
 
     def legend(self, argument: str = "") -> None:
         """Show or hide the colour keys."""

@@ -32,6 +32,11 @@ class HelpActions(Controller):
         self.app.open_side("help")
         self.app.help_pane.show_topic("keys")
 
+    def tour(self, argument: str = "") -> None:
+        """Begin the tour, or go to its next step."""
+        del argument
+        self.app.tour.step()
+
     async def config(self, argument: str = "") -> None:
         """Open the configuration in a tab, filled with the defaults if there is none."""
         del argument

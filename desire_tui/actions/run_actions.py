@@ -181,6 +181,9 @@ class RunActions(Controller):
         del argument
         app = self.app
         app.engine.submit(lambda: app.session.execute("trace"))
+        app.notify(
+            "Trace: the script stops before each statement. F10 the next · Shift+F10 ends it.", timeout=4
+        )
 
     def breakpoint(self, argument: str = "") -> None:
         """Set or remove a breakpoint on the cursor's row, or on the numbered one."""

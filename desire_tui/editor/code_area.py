@@ -193,7 +193,9 @@ class CodeArea(ProgramView):
 
     def action_to_end(self, step: int, select: bool = False) -> None:
         """Move the cursor to the top (-1) or the end (1) of the text."""
-        self.move_cursor((0, 0) if step < 0 else self.document.end, select=select)
+        last = self.wrapped_document.height - 1
+        end = (last, len(self.document.get_line(last)))
+        self.move_cursor((0, 0) if step < 0 else end, select=select)
 
     def go_to(self, row: int, column: int = 0) -> None:
         """Put the cursor on a row (from 0), in the middle of the view."""

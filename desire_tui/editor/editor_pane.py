@@ -111,6 +111,7 @@ class EditorPane(Vertical):
             buffer.label = free_label(buffer.label, {area.buffer.name for area in self.areas})
         area = CodeArea(buffer, buffer.ended_text if text is None else text, self._completion)
         buffer.line_ends = kind(area.document.ends)
+        area.fold_expectations()
         blank = self._front
         if blank is not None and (blank.text or blank.buffer.path is not None):
             blank = None

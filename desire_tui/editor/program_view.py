@@ -12,16 +12,15 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from rich.cells import cell_len
-from textual.document._document_navigator import DocumentNavigator
 from textual.geometry import Size
 from textual.widgets import TextArea
 from textual.widgets.text_area import Selection
 
-from desire_tui.editor import indent
+from desire_tui.editor import folding, indent
 from desire_tui.editor.line_marks import Marks
 from desire_tui.editor.program_lines import ProgramLines
 from desire_tui.editor.text_rendering import RenderedText
-from desire_tui.editor.unwrapped_lines import UnwrappedDocument
+from desire_tui.editor.unwrapped_lines import ShownRows, UnwrappedDocument
 from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
@@ -85,10 +84,11 @@ class ProgramView(RenderedText):
     def show_lines(self, lines: ProgramLines) -> None:
         """Show other lines."""
         self._width_most = _width(lines.lines)
+        self.fold = None
         self.document = lines
         lines.followers.append(self._replaced)
         self.wrapped_document = UnwrappedDocument(lines, tab_width=self.indent_width)
-        self.navigator = DocumentNavigator(self.wrapped_document)
+        self.navigator = ShownRows(self.wrapped_document)
         self._build_highlight_map()
         self.move_cursor((0, 0))
         self._rewrap_and_refresh_virtual_size()
@@ -110,6 +110,8 @@ class ProgramView(RenderedText):
 
     def edit(self, edit: Edit) -> EditResult:
         """Carry out an edit."""
+        if self.fold is not None and edit.bottom[0] >= self.fold:
+            self.set_fold(None)
         self.marks.problems.pop(edit.top[0], None)
         with self._changing():
             return super().edit(edit)
@@ -140,12 +142,42 @@ class ProgramView(RenderedText):
     def _replaced(self, top: Location, bottom: Location, end: Location) -> None:
         """Note how wide the new lines are; keep the cursor on its text while another view changes it."""
         self._width_most = max(self._width_most, _width(self.document.lines[top[0] : end[0] + 1]))
+        if self.fold is not None:
+            self._keep_fold(None if bottom[0] >= self.fold else self.fold + end[0] - bottom[0])
         if self._is_changing:
             return
         rows_above = end[0] - bottom[0] if bottom[0] < self.scroll_offset.y else 0
         moved = Selection(*(self.document.followed(place, top, bottom, end) for place in self.selection))
         self.set_reactive(TextArea.selection, moved)  # without scrolling to it
         self._rows_moved += rows_above
+
+    # ---------------------------------------------------------------------------------------------- folding
+
+    def fold_expectations(self) -> bool:
+        """Fold what the program must show; False if there is no such thing."""
+        row = folding.fold_row(self.document.lines)
+        if row is not None:
+            if max(self.selection)[0] > row:
+                self.move_cursor((row, len(self.document.get_line(row))))
+            self.set_fold(row)
+        return row is not None
+
+    def set_fold(self, row: int | None) -> None:
+        """Show nothing behind a row; None: show everything."""
+        self._keep_fold(row)
+        self._refresh_size()
+        self.draw_again()
+
+    def _keep_fold(self, row: int | None) -> None:
+        self.fold = row
+        assert isinstance(self.wrapped_document, UnwrappedDocument)
+        self.wrapped_document.fold = row
+
+    def _watch_selection(self, previous_selection: Selection, selection: Selection) -> None:
+        """Open the fold where the cursor goes into it: a place found, a problem, the whole text."""
+        if self.fold is not None and max(selection)[0] > self.fold:
+            self.set_fold(None)
+        super()._watch_selection(previous_selection, selection)
 
     def follow_text(self) -> None:
         """Draw the text anew after another view changed it; what is seen stays in its place."""
@@ -179,7 +211,7 @@ class ProgramView(RenderedText):
         if self._is_changing:
             return  # TextArea's undo comes here while the cursor stands where the text no longer is
         width = -(-(self._width_most + self.gutter_width + 1) // WIDTH_STEP) * WIDTH_STEP
-        size = Size(width, self.document.line_count)
+        size = Size(width, self.wrapped_document.height)
         if size == self.virtual_size:
             return
         self.set_reactive(TextArea.virtual_size, size)  # no new layout of the whole desktop

@@ -21,6 +21,7 @@ from textual.strip import Strip
 from textual.widgets import TextArea
 
 from desire_tui.editor.brackets import partner
+from desire_tui.editor.folding import folded_line
 from desire_tui.editor.highlighting import LineHighlights
 from desire_tui.engine.visible_text import visible
 
@@ -57,6 +58,8 @@ class RenderedText(TextArea):
         """How each row of the window looked when it was drawn."""
         self._common: tuple[object, ...] = ()
         self._is_due = False
+        self.fold: int | None = None
+        """The row behind which nothing is shown, where what a program must show is folded."""
         super().__init__(show_line_numbers=True, soft_wrap=False, tab_behavior="indent", max_checkpoints=500)
         self._coloured = LineHighlights()
         self._highlights = self._coloured
@@ -103,7 +106,10 @@ class RenderedText(TextArea):
 
     def get_line(self, line_index: int) -> Text:
         """Return a line as it is drawn: control characters are seen, each in a column of its own."""
-        return Text(visible(self.document.get_line(line_index)), end="", no_wrap=True)
+        line = visible(self.document.get_line(line_index))
+        if line_index == self.fold:
+            line = folded_line(line, self.document.line_count - line_index - 1)
+        return Text(line, end="", no_wrap=True)
 
     def get_column_width(self, row: int, column: int) -> int:
         """Return the cell at which a column is drawn."""
@@ -139,12 +145,13 @@ class RenderedText(TextArea):
         return (
             self.size.width, max(self.virtual_size.width, self.size.width), self.gutter_width,
             self.scroll_offset.x, self.theme, self.rich_style, self.has_focus,
-            LineHighlights.are_on() and self.marks.is_program,
+            LineHighlights.are_on() and self.marks.is_program, self.fold,
+            self.document.line_count if self.fold is not None else 0,
         )  # fmt: skip
 
     def _looks(self, row: int, common: tuple[object, ...]) -> tuple[object, ...]:
         """Return all that a row's looks depend on."""
-        if row >= self.document.line_count:
+        if row >= self.wrapped_document.height:
             return common
         (top, left), (bottom, right) = sorted(self.selection)
         selected = None

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 from textual._cells import cell_width_to_column_index
+from textual.document._document_navigator import DocumentNavigator
 from textual.document._wrapped_document import WrappedDocument
 from textual.expand_tabs import get_tab_widths
 
@@ -46,7 +47,9 @@ class _Rows(Sequence[Any]):
 
 
 class UnwrappedDocument(WrappedDocument):
-    """A document whose lines are never broken."""
+    """A document whose lines are never broken; those behind `fold` are not shown."""
+
+    fold: int | None = None
 
     def wrap(self, width: int, tab_width: int | None = None) -> None:
         """Nothing is wrapped, whatever the width."""
@@ -72,13 +75,21 @@ class UnwrappedDocument(WrappedDocument):
 
     def offset_to_location(self, offset: Offset) -> Location:
         """Return the place that is drawn in a row and a cell."""
-        row = min(max(offset.y, 0), self.document.line_count - 1)
+        row = min(max(offset.y, 0), self.height - 1)
         return row, cell_width_to_column_index(self._shown(row), max(offset.x, 0), self._tab_width)
 
     @property
     def height(self) -> int:
-        """As many rows as lines."""
-        return self.document.line_count
+        """As many rows as lines are shown."""
+        return self.document.line_count if self.fold is None else self.fold + 1
 
     def wrap_range(self, start: Location, old_end: Location, new_end: Location) -> None:
         """Nothing to bring up to date after an edit."""
+
+
+class ShownRows(DocumentNavigator):
+    """Finds the way among the rows that are shown: the last of them is the end."""
+
+    def is_last_document_line(self, location: Location) -> bool:
+        """Whether a place is in the last row that is shown."""
+        return location[0] >= self._wrapped_document.height - 1

@@ -361,11 +361,12 @@ class GraphPane(MouseGestures, can_focus=True):
 
     # ---------------------------------------------------------------------------------------------- read-out
 
-    def toggle_readout(self) -> None:
-        """Show or hide the cursor."""
+    def toggle_readout(self) -> bool:
+        """Show or hide the cursor; returns whether it is shown."""
         self._cursor = 0.5 if self._cursor is None else None
         self._read()
         self.mark_cells()
+        return self._cursor is not None
 
     def action_arrow(self, x: int, y: int) -> None:
         """Move the cursor if it is shown, else the window."""
