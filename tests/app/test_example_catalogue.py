@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from desire_tui.panes.example_catalogue import CHAPTERS, examples, search
@@ -58,3 +60,10 @@ def test_a_search_looks_into_descriptions_and_programs_and_wants_every_word():
     assert search("lorenz nosuchword", EVERY) == []
     assert search("  ", EVERY) == EVERY
     assert {e.name for e in EVERY if e.folder == "ch7"} <= {e.name for e in search("chapter 7", EVERY)}
+
+
+def test_no_example_prints_a_word_and_a_number_without_a_blank():
+    """`write 'speed'; v` prints `speed53.9`."""
+    joined = re.compile(r"\bwrite\b.*?'[^']*[\w:=]'\s*;\s*\w")
+    lines = [(example.name, line) for example in examples() for line in example.text.splitlines()]
+    assert [entry for entry in lines if joined.search(entry[1])] == []
