@@ -98,7 +98,9 @@ class Tour:
             if number:
                 self._app.command.console.add(step.sentence, "notice")
             return
-        self._note = TourNote(step, f"{number + 1} of {len(STEPS)}", self.step)
+        self._note = TourNote(
+            step.pane, step.title, step.sentence, f"{number + 1} of {len(STEPS)}", self.step
+        )
         screen = self._app.main_screen
         screen.query_one(f"#{step.pane}").add_class("-pointed")
         screen.mount(self._note)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from textual.widget import Widget
 
-    from desire_tui.desktop.tour import Step
+    from desire_tui.desktop.layout_rules import Pane
 
 WIDTH, HEIGHT = 36, 7
 ROOM = Size(72, 20)
@@ -35,17 +35,19 @@ class TourNote(Static):
     """
     can_focus = False
 
-    def __init__(self, step: Step, number: str, leads_on: Callable[[], None]) -> None:
-        super().__init__(step.sentence, markup=False)
-        self._step, self._leads_on = step, leads_on
+    def __init__(
+        self, pane: Pane, title: str, sentence: str, number: str, leads_on: Callable[[], None]
+    ) -> None:
+        super().__init__(sentence, markup=False)
+        self._pane, self._leads_on = pane, leads_on
         self._stands_at: Offset | None = None
-        self.border_title = f"◀ {step.title}"
+        self.border_title = f"◀ {title}"
         self.border_subtitle = f"{number} · Alt+N goes on"
 
     @property
     def target(self) -> Widget:
         """The pane the note is about."""
-        return self.screen.query_one(f"#{self._step.pane}")
+        return self.screen.query_one(f"#{self._pane}")
 
     def on_mount(self) -> None:
         """Go to the pane."""
