@@ -12,6 +12,8 @@ from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_l
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.scalar.slot_usage import survey
+from desire_tui.engine.integration.rules import rule_numbered
+from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, RunMemory
@@ -46,13 +48,17 @@ class NativeModel:
     def __init__(
         self, code: CodeCache, improver: Improver, segment: Segment, rule: int, values: Values
     ) -> None:
+        vital = vital_columns(segment)
+        segment, self._numbers = stepped_segment(
+            segment, values.room, variable=rule_numbered(rule).kind == "variable"
+        )
         self._store = code
         self._segment = segment
         self._rule = rule
         self._values = values
         self._states = _state_slots(segment)
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
-        self._vital = np.array(vital_columns(segment), dtype=np.int64)
+        self._vital = np.array(vital, dtype=np.int64)
         self._vital_slots = self._columns[self._vital]
         self._passes = passes_of(segment)
         self._tables = PieceTables(self._store, self._passes)
@@ -116,6 +122,8 @@ class NativeModel:
         """Run on (`runtime.run_memory`)."""
         self.context.memory = ctypes.addressof(memory)
         at, context = ctypes.addressof(memory), ctypes.addressof(self.context)
+        checked = memory.checked
+        memory.checked = checked_state(checked, self._numbers)
         while True:
             self.context.hurry = 0  # before looking: who raises it has put the better code there first
             better, self._better = self._better, None
@@ -124,8 +132,11 @@ class NativeModel:
             ended = Ended(self._run(at, context))
             if ended is not Ended.RUNNING or memory.row >= memory.row_limit:
                 break
+        memory.checked = checked
         if ended is Ended.NOT_FINITE:
             memory.which = first_not_finite(self._values.data, self._states, self._columns, self._vital)
+        if ended in {Ended.NOT_FINITE, Ended.DEADLOCK} and memory.which >= 0:
+            memory.which = self._numbers[memory.which]
         return ended
 
 

@@ -26,6 +26,26 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
 
 
+def stepped_segment(
+    segment: Segment, allocate: Callable[[int], int], *, variable: bool
+) -> tuple[Segment, Sequence[int]]:
+    """Return what an explicit rule integrates, and the numbers that its states have in the whole segment.
+
+    `variable`: the rule controls its steps: an assigned state would have a test difference there. Fixed steps
+    may move it with the others: it is assigned again before anything reads it, unless a line further up does.
+    """
+    if variable or any(early for _, early in _assignments(segment)):
+        return without_assigned_states(segment, allocate)
+    return segment, range(segment.order)
+
+
+def checked_state(checked: int, numbers: Sequence[int]) -> int:
+    """Return CHECKN as a number among the states that are left; behind all of them for one that is not."""
+    if not checked:
+        return 0
+    return numbers.index(checked - 1) + 1 if checked - 1 in numbers else len(numbers) + 1
+
+
 def without_assigned_states(
     segment: Segment, allocate: Callable[[int], int]
 ) -> tuple[Segment, Sequence[int]]:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.tableaus import TABLEAUS
+from desire_tui.engine.passes.assigned_states import stepped_segment
+from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.reference.model import ReferenceModel
 
 if TYPE_CHECKING:
@@ -22,8 +24,11 @@ class ReferenceBackend:
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
         """Prepare `segment` for an integration rule. DesireError 460, 461: a multistep one wants SUNDIALS."""
-        if rule_numbered(rule).kind != "multistep":
-            return ReferenceModel(segment, TABLEAUS.get(rule), values)
+        kind = rule_numbered(rule).kind
+        if kind != "multistep":
+            vital = vital_columns(segment)
+            segment, numbers = stepped_segment(segment, values.room, variable=kind == "variable")
+            return ReferenceModel(segment, TABLEAUS.get(rule), values, numbers, vital)
         from desire_tui.engine.reference.stiff import StiffReferenceModel
 
         return StiffReferenceModel(segment, rule, values)

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
-from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.states import make_states
 from desire_tui.engine.reference.steps import fixed_step, variable_step
@@ -21,7 +20,7 @@ from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.lowered.segment import Segment
@@ -38,14 +37,21 @@ class ReferenceModel:
     """A segment under rule 0 (`tableau` None) or an explicit rule."""
 
     def __init__(
-        self, segment: Segment, tableau: Tableau | None, values: Values, vital: Iterable[int] | None = None
+        self,
+        segment: Segment,
+        tableau: Tableau | None,
+        values: Values,
+        numbers: Sequence[int],
+        vital: Iterable[int],
     ) -> None:
         self.cells = values.cells
+        self.numbers = numbers
+        """What the states' numbers were before those that the segment assigns were taken out."""
         self.tableau = tableau
         self.nodes = [] if tableau is None else [(i, float(c)) for i, c in enumerate(tableau.c) if i]
         """Stages behind the first, and where in the step they stand."""
         self.columns = [column.slot for column in segment.columns]
-        self.vital = frozenset(vital_columns(segment) if vital is None else vital)
+        self.vital = frozenset(vital)
         """Numbers of the columns that states depend on."""
         self.statements = StatementClosures(values, segment.order)
         self.states = make_states(segment, tableau, values, self.statements.derivatives)
@@ -159,6 +165,6 @@ class ReferenceModel:
         finite = np.isfinite(self.states.fetch())
         if finite.all():
             return False
-        memory.which = int(np.argmin(finite))
+        memory.which = self.numbers[int(np.argmin(finite))]
         memory.phase = Phase.ENDED
         return True

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.integration.tableaus import STILL_MOST, whole_multiples
+from desire_tui.engine.passes.assigned_states import checked_state
 from desire_tui.engine.reference.states import sum_of_multiples
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, ERRMAX, T
@@ -27,6 +28,7 @@ class SteppedModel(Protocol):
     cells: memoryview[float]
     states: States
     nodes: list[tuple[int, float]]
+    numbers: Sequence[int]
 
     def run_stage(self, stage: int, memory: RunMemory) -> None:
         """Make a pass with both flags off; its derivatives are k[stage]."""
@@ -71,14 +73,15 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
             states.move(stage, start, dt)
             cells[T] = here + node * dt
             model.run_stage(stage, memory)
-        difference, state = _difference(model, tableau, dt, start, memory.checked)
+        checked = checked_state(memory.checked, model.numbers)
+        difference, state = _difference(model, tableau, dt, start, checked)
         if not difference > memory.error_max:
             break
         dt = 0.5 * dt
         if dt < memory.dt_min:
             states.put(start)
             cells[T], cells[ERRMAX] = here, difference
-            memory.which, memory.phase = state, Phase.ENDED
+            memory.which, memory.phase = model.numbers[state], Phase.ENDED
             return Ended.DEADLOCK
         memory.rejected += 1
         cells[DT] = dt
@@ -104,12 +107,15 @@ def _difference(
 ) -> tuple[float, int]:
     """Return the largest test difference, and the number of its state.
 
-    Relative to |x| + 1 with x at the step's start; absolute, and of one state, with CHECKN. A state that
+    Relative to |x| + 1 with x at the step's start; absolute, and of one state, with CHECKN (0: that state is
+    not integrated). A state that
     is nan has no difference: the run ends at it when the step is done.
     """
     assert tableau.test is not None
     denominator, multiples = whole_multiples(tableau.test)
     absolute = dt / denominator * np.abs(sum_of_multiples(multiples, model.states.k))
+    if checked > len(absolute):
+        return 0.0, 0
     if checked:
         return float(np.nan_to_num(absolute[checked - 1], posinf=np.inf)), checked - 1
     relative = np.nan_to_num(absolute / (np.abs(np.asarray(start)) + 1.0), posinf=np.inf)

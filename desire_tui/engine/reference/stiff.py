@@ -25,7 +25,7 @@ from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.integration.tableaus import EULER
-from desire_tui.engine.lowered.jacobian_array import checked_array
+from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
 from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
@@ -55,9 +55,10 @@ class StiffReferenceModel(ReferenceModel):
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         if rule_numbered(rule).corrector == "jacobian" and segment.jacobian is not None:
             checked_array(segment, values)
+        self._given = segment.jacobian and (segment.jacobian.slot, segment.order)
         vital = vital_columns(segment)
-        segment, self._numbers = without_assigned_states(segment, values.room)
-        super().__init__(segment, EULER, values, vital)
+        segment, numbers = without_assigned_states(segment, values.room)
+        super().__init__(segment, EULER, values, numbers, vital)
         self.values, self.data, self.order = values, values.data, segment.order
         self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._segment = segment
@@ -154,16 +155,12 @@ class StiffReferenceModel(ReferenceModel):
             if self._array:
                 self.data[self._array : self._array + self.order**2] = 0.0
         ended = super().advance(memory)
+        if self._array and self._given and ended is not Ended.RUNNING:
+            fill_array(self.values, *self._given, self._array, self.numbers)
         system.report(memory)
         if ended is Ended.SOLVER:
-            memory.suspect = self._numbers[system.suspect()]
+            memory.suspect = self.numbers[system.suspect()]
         return ended
-
-    def _not_finite(self, memory: RunMemory) -> bool:
-        if not super()._not_finite(memory):
-            return False
-        memory.which = self._numbers[memory.which]
-        return True
 
     def _chatters(self, memory: RunMemory, t: float) -> bool:
         """Whether steps fail about as often as they succeed and get nowhere; looked at now and then."""

@@ -18,7 +18,7 @@ from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import is_own, plan
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
-from desire_tui.engine.lowered.jacobian_array import checked_array
+from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
 from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
@@ -61,6 +61,7 @@ class StiffModel:
         self.rule, self._values = rule, values
         if rule_numbered(rule).reads_jacobian and segment.jacobian is not None:
             checked_array(segment, values)
+        self._given = segment.jacobian and (segment.jacobian.slot, segment.order)
         self._vital = np.array(vital_columns(segment), dtype=np.int64)
         segment, self._numbers = without_assigned_states(segment, values.room)
         self._segment = segment
@@ -169,6 +170,8 @@ class StiffModel:
         system = self.system
         system.problem.memory = self.context.memory = ctypes.addressof(memory)
         ended = Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
+        if self._array and self._given and ended is not Ended.RUNNING:
+            fill_array(self._values, *self._given, self._array, self._numbers)
         system.report(memory)
         if ended is Ended.SOLVER:
             memory.suspect = self._numbers[system.suspect()]
