@@ -237,7 +237,7 @@ class GraphPane(MouseGestures, can_focus=True):
             page.frame,
             title,
             self._is_earlier,
-            page.caption,
+            page.label,
             page.net,
             self.paper,
             self.window,

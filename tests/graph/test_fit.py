@@ -9,6 +9,7 @@ from desire_tui.engine.graph.fit import WHOLE, Extent, fitted_view, limits
 from desire_tui.engine.graph.pages import GraphPages
 from desire_tui.engine.outputs.braille_canvas import Canvas
 from desire_tui.engine.outputs.incremental_drawing import Painter
+from desire_tui.engine.outputs.picture_files import write_picture
 from desire_tui.engine.outputs.text_plot import text_plot
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
@@ -140,3 +141,31 @@ def test_long_names_give_way_to_run_and_scale():
     assert page.title(room=32) == "a_program_o… · run 1 · scale = 1"
     assert len(page.title(room=32)) <= 32
     assert page.title(room=20) == "run 1 · scale = 1"
+
+
+def test_titles_and_names_of_axes(tmp_path):
+    session = Session()
+    texts = "title 'Foxes' | xlabel 'years' | ylabel 'heads' | scale = 50"
+    session.erun(Source(RABBITS.format(texts), "r.src"))
+    page = session.graph
+    assert page.title() == "Foxes · scale = 50"
+    assert "heads vs. years" in text_plot(page, 80, 24, colored=False)
+    write_picture(page, tmp_path / "g.svg")
+    svg = (tmp_path / "g.svg").read_text()
+    assert all(f">{text}<" in svg for text in ("Foxes", "years", "heads"))
+    session.execute("title 'Hares'")
+    assert page.title() == "Hares · scale = 50"
+
+
+def test_a_title_after_the_run_names_a_graph_without_one():
+    session = Session()
+    session.erun(Source(RABBITS.format("scale = 50").replace("drun", "drun | title 'A' | drunr | title 'B'")))
+    assert [page.heading for page in session.graphs] == ["A", "A"]
+
+
+def test_names_of_axes_are_those_of_the_request_unless_the_program_names_them():
+    page = page_of("dispxy", T, {"x": T, "y": T})
+    assert page.axis_names == ("x", "y")
+    page.texts["xlabel"] = "place"
+    assert page.label == "y vs. place"
+    assert page_of("DISPXY", T, {"a": T, "b": T, "c": T, "d": T}).axis_names is None

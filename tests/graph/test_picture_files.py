@@ -175,5 +175,6 @@ def test_other_endings_are_refused(tmp_path, name):
 def test_svg_keeps_text_as_text(tmp_path):
     write_picture(page_of("dispt", T, {"x": T, "y": T}), tmp_path / "g.svg")
     text = (tmp_path / "g.svg").read_text()
-    assert "x, y vs. t" in text
+    assert ">x, y<" in text
+    assert ">t<" in text
     assert "scale = 1" in text

@@ -53,6 +53,9 @@ class RecordingHost:
     def display(self, mode, args) -> None:
         self.calls.append(("display", mode, *args))
 
+    def name_graph(self, part, text) -> None:
+        self.calls.append(("name_graph", part, text))
+
     def plot(self, x, y, color) -> None:
         self.calls.append(("plot", x, y, color))
 

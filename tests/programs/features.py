@@ -9,7 +9,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import (
     Binary,
     Call,
@@ -54,7 +54,7 @@ SCRIPT = (
     "write #n", "write ##n", "connect input", "connect output", "disconnect", "dump #n", "time", "note",
     "irule n", "irule", "SEED", "drun", "drun NAME", "drun *", "drunr", "reset", "clear", "STOP",
     "MATRIX", "MATRIX = number", "A%", "$In", "$Tr", "Vector", "DOT", "AVG", "FFT F", "FFT I", "FFT R", "FFT C",
-    "plot x, y", "plot z", "SHOW", *(f"display {code}" for code in (*"012ABCFNQRWY", "fit")),
+    "title", "xlabel", "ylabel", "plot x, y", "plot z", "SHOW", *(f"display {code}" for code in (*"012ABCFNQRWY", "fit")),
 )  # fmt: skip
 """Rows about the script; every one must be used by a program that checks something."""
 
@@ -157,6 +157,8 @@ def _names(part: object) -> Iterator[str]:
             yield f"FFT {kind}"
         case Display(mode=mode):
             yield f"display {mode}"
+        case GraphText(part=word):
+            yield word
         case Plot(args=args):
             yield "plot x, y" if len(args) > 1 else "plot z"
         case Binary(op="&"):

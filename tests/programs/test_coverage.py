@@ -11,7 +11,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Simple
 from desire_tui.engine.nodes.control import For, GoTo, If
 from desire_tui.engine.nodes.declarations import Declare
-from desire_tui.engine.nodes.display import Display, Plot, Request
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request
 from desire_tui.engine.nodes.files import Connect, Dump, Input, Restore, Write
 from desire_tui.engine.nodes.segment import Delay, Derivative, FunctionTable, Learn
 from desire_tui.engine.nodes.statements import Statement
@@ -49,7 +49,7 @@ def test_the_table_has_every_statement():
     statements = set(get_args(Statement))
     with_rows = set(_ONE) | {
         Simple, Assign, If, For, GoTo, Declare, Restore,
-        Input, Write, Connect, Dump, Irule, Drun, Fft, Display, Plot,
+        Input, Write, Connect, Dump, Irule, Drun, Fft, Display, GraphText, Plot,
         Derivative, Delay, FunctionTable, Bare, Request, Learn, VectorAssign,
         MatrixAssign, Dot, FileCommand,
     }  # fmt: skip

@@ -21,7 +21,7 @@ SEGMENT = [
     "SUBMODEL {n}(a$)\na$ = 4\nend\nNN = 2 | drun\nDYNAMIC\ninvoke {n}(y)",
     "FUNCTION {n}(a$) = a$ + 1 | NN = 2 | drun\nDYNAMIC\ny = {n}(3)",
 ]
-BEYOND = ["max", "min", "compare", "snapshot", "notebook"]
+BEYOND = ["max", "min", "compare", "snapshot", "notebook", "title", "xlabel", "ylabel"]
 
 
 @pytest.mark.parametrize("name", [*LIBRARY, *BEYOND[2:], "auto", "delta", "UPDATE", "SHOW"])

@@ -12,7 +12,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Declared, DeclaredGroup, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import (
     Binary,
     Call,
@@ -337,6 +337,9 @@ FORMS = {
     "display N -18": Display("N", (Unary("-", N(18)),)),
     "display N-18": Display("N", (Unary("-", N(18)),)),
     "display N colr + 1": Display("N", (op("+", V("colr"), N(1)),)),
+    "title 'Rabbits | foxes'": GraphText("title", "Rabbits | foxes"),
+    'xlabel "time, s"': GraphText("xlabel", "time, s"),
+    "ylabel''": GraphText("ylabel", ""),
     "plot x, y": Plot((x, y)),
     "plot x, y, 3": Plot((x, y, N(3))),
     "plot z": Plot((z,)),

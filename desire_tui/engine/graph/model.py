@@ -149,20 +149,46 @@ class Graph:
     shown: list[ShownArray] = field(default_factory=list)
     program: str = ""
     """File name of the program that made it."""
+    texts: dict[str, str] = field(default_factory=dict)
+    """What `title`, `xlabel`, `ylabel` say."""
     fit: Fit = "no"
     erased: int = 0
     """Goes up when something drawn before must go: what a painter has kept is void."""
 
     def title(self, *, fitted: bool = False, room: int | None = None) -> str:
         """Return the line above the graph: program, run, scale; of a long program's name what has room."""
-        parts = [self.run_name, "fitted" if fitted else f"scale = {self.frame.scale:g}"]
+        name = self.heading or self.program
+        parts = [
+            "" if self.heading else self.run_name,
+            "fitted" if fitted else f"scale = {self.frame.scale:g}",
+        ]
         rest = " · ".join(filter(None, parts))
-        if not self.program:
+        if not name:
             return rest
-        spare = len(self.program) if room is None else room - len(rest) - len(" · ")
-        if spare >= len(self.program):
-            return f"{self.program} · {rest}"
-        return f"{self.program[: spare - 1]}… · {rest}" if spare > _NAME_LEAST else rest
+        spare = len(name) if room is None else room - len(rest) - len(" · ")
+        if spare >= len(name):
+            return f"{name} · {rest}"
+        return f"{name[: spare - 1]}… · {rest}" if spare > _NAME_LEAST else rest
+
+    @property
+    def heading(self) -> str:
+        """What the program calls its graph by `title`."""
+        return self.texts.get("title", "")
+
+    @property
+    def axis_names(self) -> tuple[str, str] | None:
+        """Names of abscissa and ordinate; None for pairs (DISPXY) and others that have none."""
+        y, _, x = self.caption.partition(" vs. ")
+        if " vs. " in x:
+            y = x = ""
+        x, y = self.texts.get("xlabel") or x, self.texts.get("ylabel") or y
+        return (x, y) if x and y else None
+
+    @property
+    def label(self) -> str:
+        """The line below the graph: `x, y vs. t`, with the program's names of the axes."""
+        names = self.axis_names
+        return self.caption if names is None else f"{names[1]} vs. {names[0]}"
 
     @property
     def run_name(self) -> str:

@@ -87,6 +87,18 @@ class GraphPages:
             return True
         return False
 
+    def name(self, part: str, text: str, *, at_once: bool = False) -> bool:
+        """Give the following graphs a `title`, `xlabel` or `ylabel`; returns whether a page changed.
+
+        The program's newest page gets it too if it has none yet, or with `at_once`.
+        """
+        self.settings.texts[part] = text
+        page = self.current
+        if page is None or (not at_once and (self._fresh or page.texts.get(part))):
+            return False
+        page.texts[part] = text
+        return True
+
     def plot(self, x: float, y: float, color: int | None, scale: float) -> None:
         """Put a point on the interpreter plot, opening one (`display A`) if there is none."""
         page = self.current
@@ -205,6 +217,7 @@ class GraphPages:
 
     def _apply_settings(self, page: Graph) -> None:
         page.net, page.white = self.settings.net_color, self.settings.white
+        page.texts.update(self.settings.texts)
         page.has_own_colors = self.settings.own_colors
         page.thickness, page.has_keys = self.settings.thickness, not self.settings.one_color
 

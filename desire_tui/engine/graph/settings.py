@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.graph.colors import BLACK, WHITE
@@ -30,6 +30,8 @@ class DisplaySettings:
     white: bool = False
     by_size: bool = False
     fit: bool = False
+    texts: dict[str, str] = field(default_factory=dict)
+    """What `title`, `xlabel`, `ylabel` say."""
     own_colors: bool = False
     """Whether the program says which colours to use."""
 

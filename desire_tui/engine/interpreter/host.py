@@ -35,6 +35,9 @@ class Host(Protocol):
     def display(self, mode: str, args: Sequence[float]) -> None:
         """Carry out a `display` statement."""
 
+    def name_graph(self, part: str, text: str) -> None:
+        """Give graphs a `title`, `xlabel` or `ylabel`."""
+
     def plot(self, x: float, y: float, color: int | None) -> None:
         """Draw one point of an interpreter plot."""
 

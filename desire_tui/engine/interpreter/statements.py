@@ -22,7 +22,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple, Word
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import (
@@ -117,6 +117,8 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
             return fft(context, node)
         case Display():
             return host_statements.display(context, node)
+        case GraphText():
+            return context.then(lambda: context.host.name_graph(node.part, node.text))
         case Plot():
             return host_statements.plot(context, node)
         case ShowArea():

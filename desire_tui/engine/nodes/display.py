@@ -21,6 +21,16 @@ class Display(Node):
 
 
 @node
+class GraphText(Node):
+    """`title 'x'`, `xlabel 'x'`, `ylabel 'x'`."""
+
+    part: Literal["title", "xlabel", "ylabel"]
+    text: str
+    start: int = 0
+    end: int = 0
+
+
+@node
 class Plot(Node):
     """`plot x, y [, c]`, `plot z [, c]`."""
 

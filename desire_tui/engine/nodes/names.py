@@ -8,7 +8,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Call, Element, Name
 from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
@@ -73,7 +73,18 @@ def assigned(node: Statement) -> Assigned:
             return _NOTHING
         case Declare() | Function() | Submodel() | Bare() | Invoke() | Faulty():
             return _NOTHING
-        case Term() | Sample() | Show() | ShowArea() | Plot() | Display() | Drun() | Irule() | Seed():
+        case (
+            Term()
+            | Sample()
+            | Show()
+            | ShowArea()
+            | Plot()
+            | Display()
+            | GraphText()
+            | Drun()
+            | Irule()
+            | Seed()
+        ):
             return _NOTHING
         case Data() | Restore() | Write() | Note() | Dump() | Connect() | Disconnect() | FileCommand():
             return _NOTHING

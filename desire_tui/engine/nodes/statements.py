@@ -10,7 +10,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
 from desire_tui.engine.nodes.segment import SegmentOnly
@@ -22,7 +22,7 @@ ScriptOnlyStatement = (
     For | While | Until | Label | GoTo | Procedure | CallProcedure
     | Declare | Function | Submodel
     | Data | Read | Restore | Input | Write | Connect | Disconnect | Dump | Note
-    | FileCommand | Irule | Seed | Drun | Fft | Display | Plot
+    | FileCommand | Irule | Seed | Drun | Fft | Display | GraphText | Plot
 )  # fmt: skip
 """Statements and commands that no segment may hold."""
 

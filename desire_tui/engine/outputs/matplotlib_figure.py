@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     Tint = tuple[float, float, float]
 
 _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
+_NAME_MOST = 40  # characters; a longer name of the ordinate stands in the caption
 _FEW_WIDTH = 5.0  # points; of points that are few
 _SPINE = 2 * 72 / FOR_PAPER.dots_per_inch  # two dots: crisp
 _COLUMNS = 4000  # finer than any printer shows at this size
@@ -90,8 +91,15 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
     for curve in graph.curves:
         _draw_curve(axes, curve, graph, window)
     _draw_points(axes, graph)
-    axes.set_title(graph.title(fitted=extent.is_fitted), loc="left", color=ink, fontsize=_FONT)
-    axes.set_xlabel(graph.caption, color=ink, fontsize=_FONT)
+    axes.set_title(
+        graph.heading or graph.title(fitted=extent.is_fitted), loc="left", color=ink, fontsize=_FONT
+    )
+    names = graph.axis_names
+    if names is None or len(names[1]) > _NAME_MOST or (graph.has_own_colors and not graph.texts):
+        axes.set_xlabel(graph.label, color=ink, fontsize=_FONT)
+    else:
+        axes.set_xlabel(names[0], color=ink, fontsize=_FONT)
+        axes.set_ylabel(names[1], color=ink, fontsize=_FONT)
     if extent.outside and not extent.inside and not extent.is_fitted:
         _say(axes, notice(extent, "display fit shows all"), ink)
     if graph.keys:

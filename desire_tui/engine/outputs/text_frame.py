@@ -58,12 +58,12 @@ def text_frame(
     columns, rows = max(columns, COLUMNS_LEAST), max(rows, ROWS_LEAST)
     title = graph.title(fitted=fitted, room=columns - 2 * reserved)
     if graph.frame.kind == "picture":
-        return _frame(columns, rows, title, graph.caption, _NO_TICKS, _NO_TICKS, graph.net is not None)
+        return _frame(columns, rows, title, graph.label, _NO_TICKS, _NO_TICKS, graph.net is not None)
     left, right, bottom, top = limits(graph, window)
     y_axis = _ticks(bottom, top, max(min((rows - 4) // 2, 7), 2))
     inside = columns - max((len(label) for _, label in y_axis), default=0) - 2
     x_axis = _x_ticks(left, right, inside)
-    return _frame(columns, rows, title, graph.caption, x_axis, y_axis, graph.net is not None)
+    return _frame(columns, rows, title, graph.label, x_axis, y_axis, graph.net is not None)
 
 
 def _x_ticks(low: float, high: float, columns: int) -> Ticks:

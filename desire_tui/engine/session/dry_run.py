@@ -115,6 +115,9 @@ class DryHost:
     def display(self, mode: str, args: Sequence[float]) -> None:
         """Show nothing."""
 
+    def name_graph(self, part: str, text: str) -> None:
+        """Name nothing."""
+
     def plot(self, x: float, y: float, color: int | None) -> None:
         """Show nothing."""
 

@@ -107,6 +107,12 @@ class ScriptHost:
         if changed and self._graphs.current is not None:
             self._listener.graph_changed(self._graphs.current)
 
+    def name_graph(self, part: str, text: str) -> None:
+        """Give graphs a `title`, `xlabel` or `ylabel`."""
+        if self._graphs.name(part, text, at_once=self._workspace.command is not None):
+            assert self._graphs.current is not None
+            self._listener.graph_changed(self._graphs.current)
+
     def plot(self, x: float, y: float, color: int | None) -> None:
         """Draw one point."""
         before = self._graphs.current

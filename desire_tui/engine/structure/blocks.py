@@ -12,7 +12,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Call, Element
 from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
@@ -145,7 +145,7 @@ class BlockSurvey:
                 return None  # where they lead is checked when all is known
             case Read() | Input() | Write() | Connect() | Disconnect() | Dump() | Note() | FileCommand():
                 return None
-            case Irule() | Seed() | Fft() | Display() | Plot() | Show() | ShowArea():
+            case Irule() | Seed() | Fft() | Display() | GraphText() | Plot() | Show() | ShowArea():
                 return None
         if isinstance(node, SegmentOnlyStatement):
             return None

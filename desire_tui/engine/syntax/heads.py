@@ -21,6 +21,8 @@ _DELTA = re.compile(r"[ \t]*(delta)(?=[ \t]+[A-Za-z])")
 _NAMED = re.compile(r"[ \t]+[A-Za-z]")
 _OF_ARRAYS = frozenset({"delta", "UPDATE"})
 """Likely names of variables: keywords only where a name follows."""
+_TITLES = frozenset({"title", "xlabel", "ylabel"})
+_QUOTED = re.compile(r"[ \t]*['\"]")
 _BEYOND = frozenset({"compare", "notebook", "snapshot"})
 """Words that the original does not have: a program's own submodels of these names win."""
 _RUN = re.compile(r"[ \t]+(run)(?![A-Za-z0-9$_])")
@@ -87,6 +89,8 @@ def _gives_way(text: str, lexeme: str, pos: int) -> bool:
     """Whether a word that is a likely name is one: `delta` alone, or a submodel's call `compare(a, b)`."""
     if lexeme in _OF_ARRAYS:
         return not _NAMED.match(text, pos)
+    if lexeme in _TITLES:
+        return not _QUOTED.match(text, pos)
     return lexeme in _BEYOND and text.startswith("(", pos)
 
 

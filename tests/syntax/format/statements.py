@@ -8,7 +8,7 @@ from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign,
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Request, Show, ShowArea
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.files import (
     Connect,
     Data,
@@ -106,6 +106,8 @@ def format_statement(node: Statement) -> str:
             return f"FFT {node.kind}, {listed(node.args)}"
         case Display():
             return _display(node)
+        case GraphText():
+            return f"{node.part} {quoted(node.text)}"
         case Plot():
             return f"plot {listed(node.args)}"
         case Show():

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed
 from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label, Procedure, Until, While
 from desire_tui.engine.nodes.declarations import Declare, Declared, DeclaredGroup, Function, Submodel
-from desire_tui.engine.nodes.display import Display, Plot, Show, ShowArea
+from desire_tui.engine.nodes.display import Display, GraphText, Plot, Show, ShowArea
 from desire_tui.engine.nodes.files import (
     Connect,
     Data,
@@ -173,6 +173,9 @@ class ScriptProductions:
                 {"mode": str(mode), "wanted": ("no numbers", "one number", "two numbers")[wanted]},
             )
         return Display(mode, args, first, last)
+
+    def graph_text(self, kids: Kids, first: int, last: int) -> Statement:
+        return GraphText(kids[0].kind, kids[1], first, last)
 
     def plot(self, kids: Kids, first: int, last: int) -> Statement:
         args = tuple(map(plain, nodes_in(kids)))
