@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from textual.binding import BindingType
+    from textual.command import Provider
     from textual.dom import DOMNode
     from textual.screen import Screen
     from textual.widget import Widget
@@ -74,6 +75,12 @@ IN_EDITOR_ONLY = {
 """Their keys mean something else outside the editor."""
 
 
+def _palette() -> type[Provider]:
+    from desire_tui.desktop.palette import Actions
+
+    return Actions
+
+
 class DesireApp(AppBase):
     """`DesireApp(files).run()` opens the IDE with these files in tabs."""
 
@@ -81,6 +88,7 @@ class DesireApp(AppBase):
     CSS_PATH = "app.tcss"
     BINDINGS: ClassVar[list[BindingType]] = list(commands.bindings())
     COMMAND_PALETTE_BINDING = "ctrl+p"
+    COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {_palette}
     ENABLE_COMMAND_PALETTE = True
 
     def __init__(self, files: Sequence[Path] = (), *, permissions: Permissions | None = None) -> None:

@@ -1,0 +1,87 @@
+"""What the command palette finds: titles first, then descriptions, words of the command line and synonyms."""
+
+from __future__ import annotations
+
+import re
+
+from textual.command import DiscoveryHit, Hit, Hits, Provider
+
+from desire_tui.commands import COMMANDS, Command
+
+SYNONYMS = {
+    "run.start": "execute simulate go compute",
+    "run.accept": "compile check",
+    "run.pause": "stop interrupt break halt",
+    "run.end": "stop abort kill cancel terminate quit",
+    "run.trace": "debug debugger step",
+    "run.breakpoint": "debug debugger stop",
+    "run.live": "slider parameter knob interactive vary",
+    "run.report": "statistics steps time info",
+    "file.open": "load read import recent",
+    "file.save": "write store keep",
+    "file.examples": "samples demo library models",
+    "file.quit": "exit leave close",
+    "edit.find": "search grep",
+    "edit.replace": "substitute rename",
+    "edit.fix": "quick fix spelling typo correct mend did you mean",
+    "edit.fold": "collapse expand hide expectations tests",
+    "edit.duplicate": "copy repeat",
+    "edit.goto": "jump",
+    "edit.complete": "autocomplete intellisense suggest",
+    "graph.fit": "autoscale auto scale autorange whole",
+    "graph.reset": "autoscale home unzoom",
+    "graph.zoom_in": "magnify enlarge scale",
+    "graph.zoom_out": "shrink scale",
+    "graph.read": "cursor crosshair values measure coordinates",
+    "graph.legend": "legend names",
+    "graph.older": "history previous",
+    "graph.snapshot": "png svg pdf image picture export save figure print",
+    "graph.picture": "image kitty sixel",
+    "graph.export": "csv table data spreadsheet excel save",
+    "graph.chart": "plot draw array",
+    "graph.overlay": "compare superimpose",
+    "view.copy_graph": "csv data clipboard spreadsheet excel",
+    "view.copy_output": "clipboard console",
+    "view.quantities": "variables parameters states inspect watch values",
+    "view.problems": "errors warnings diagnostics",
+    "view.theme": "colours colors dark light appearance",
+    "view.maximize": "full screen zoom pane",
+    "help.keys": "shortcuts keyboard bindings cheat sheet",
+    "help.config": "settings preferences options",
+    "help.tour": "introduction tutorial welcome",
+}
+"""Words that people of other programs look for."""
+BY_DESCRIPTION = 0.1
+"""A hit in a description stands below all hits in titles."""
+
+
+class Actions(Provider):
+    """The actions of the command table."""
+
+    async def discover(self) -> Hits:
+        """Offer all actions, in the order of the table."""
+        for title, about, callback, _ in self.app.get_system_commands(self.screen):
+            yield DiscoveryHit(title, callback, help=about)
+
+    async def search(self, query: str) -> Hits:
+        """Offer the actions in whose title the letters stand, or whose description has all words."""
+        matcher = self.matcher(query)
+        listed = (command for command in COMMANDS if command.id != "view.palette")
+        offered = self.app.get_system_commands(self.screen)
+        for command, (title, about, callback, _) in zip(listed, offered, strict=True):
+            if is_described(command, query):
+                score = max(matcher.match(title), BY_DESCRIPTION)
+            else:
+                score = matcher.match(title)
+            if score > 0:
+                yield Hit(score, matcher.highlight(title), callback, help=about)
+
+
+def is_described(command: Command, query: str) -> bool:
+    """Whether each word of a query begins a word of an action's description or synonyms."""
+    words = re.findall(
+        r"[\w+]+",
+        f"{command.title} {command.help} {' '.join(command.words)} {SYNONYMS.get(command.id, '')}".casefold(),
+    )
+    wanted = query.casefold().split()
+    return bool(wanted) and all(any(word.startswith(part) for word in words) for part in wanted)
