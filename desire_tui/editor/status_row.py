@@ -1,9 +1,14 @@
-"""The row below the editor: what is wrong at the cursor, where the cursor is, and the OK button."""
+"""The row below the editor: what is wrong at the cursor, where the cursor is, and the OK button.
+
+A problem that one row is too short for takes several.
+"""
 
 from __future__ import annotations
 
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
+from rich.cells import cell_len
 from textual.containers import Horizontal
 from textual.content import Content
 from textual.message import Message
@@ -16,13 +21,16 @@ if TYPE_CHECKING:
     from desire_tui.editor.code_area import CodeArea
 
 
+ROWS_MOST = 4
+"""A problem takes no more rows from the text."""
+
+
 class StatusRow(Horizontal):
     """One row about the text in front."""
 
     DEFAULT_CSS = """
     StatusRow { height: 1; background: $panel; }
-    StatusRow #problem { width: 1fr; height: 1; color: $text-muted; text-overflow: ellipsis;
-            text-wrap: nowrap; }
+    StatusRow #problem { width: 1fr; height: 100%; color: $text-muted; text-overflow: ellipsis; }
     StatusRow #problem.-error { color: $text-error; }
     StatusRow #place { width: auto; padding: 0 1; color: $text-muted; }
     StatusRow #ok { width: auto; background: $primary; color: $background; text-style: bold; }
@@ -31,6 +39,8 @@ class StatusRow(Horizontal):
 
     class Accepted(Message):
         """The OK button was pressed."""
+
+    _rows = 1
 
     def compose(self) -> ComposeResult:
         """Problem, place, button."""
@@ -58,6 +68,16 @@ class StatusRow(Horizontal):
         label = self._set_label("#problem", sentence)
         label.set_class(mark is not None and mark.style == "error", "-error")
         label.tooltip = Content(mark.text) if mark else None
+        self._make_room(area, sentence if mark is not None else "", label.size.width)
+
+    def _make_room(self, area: CodeArea, sentence: str, width: int) -> None:
+        """Show a problem whole: over several rows where one is too short."""
+        rows = 1
+        if width and cell_len(sentence) > width:
+            rows = min(len(wrap(sentence, width)), ROWS_MOST)
+        if rows != self._rows:
+            self._rows = self.styles.height = rows
+            area.call_after_refresh(area.scroll_cursor_visible)
 
     def _set_label(self, place: str, text: str) -> Label:
         """Show a text in the row below; a key that changes nothing there draws nothing, lays out nothing."""

@@ -103,3 +103,19 @@ async def test_selected_text_is_copied_during_a_run_and_the_run_goes_on(program)
         assert desk.app.session.status.state is State.RUNNING
         await desk.press("ctrl+c")
         await desk.until(lambda: desk.app.session.status.state is State.PAUSED)
+
+
+async def test_a_problem_is_shown_whole_at_the_cursor_and_the_cursor_stays_in_sight(program):
+    text = "-- a line\n" * 30 + OSCILLATOR.replace("dispt x, v", "dispt xspeed, v")
+    async with desktop(program(text), size=(80, 24)) as desk:
+        area, row = desk.app.editor.front, desk.app.editor.query_one(StatusRow)
+        await desk.until(lambda: area.marks.problems)
+        await desk.press("f8")
+        await desk.until(lambda: row.size.height > 1)
+        label = row.query_one("#problem")
+        lines = [label.render_line(y).text.strip() for y in range(label.size.height)]
+        mark = area.marks.all_problems()[0]
+        assert " ".join(lines).split() == mark.text.split()
+        assert area.scroll_offset.y <= area.cursor_location[0] < area.scroll_offset.y + area.size.height
+        await desk.press("up")
+        await desk.until(lambda: row.size.height == 1)
