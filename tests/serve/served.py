@@ -87,11 +87,26 @@ class Browser:
         """Wait until a text stands on the screen."""
         end = time.monotonic() + PATIENCE_S
         while text not in self.shown:
-            assert time.monotonic() < end, self.shown
-            message = await asyncio.wait_for(self.websocket.receive(), max(0.1, end - time.monotonic()))
-            assert message.type in (WSMsgType.BINARY, WSMsgType.TEXT), f"{message}\n{self.shown}"
-            if message.type == WSMsgType.BINARY:
-                self._stream.feed(message.data.decode(errors="replace"))
+            await self._receive(end)
+
+    async def _until_below(self, mark: str, text: str) -> None:
+        """Wait until a text stands below another, and no part of the screen is still to come."""
+        end = time.monotonic() + PATIENCE_S
+        while True:
+            if text in self.shown.rpartition(mark)[2]:
+                try:
+                    await self._receive(time.monotonic() + 0.1)
+                except TimeoutError:
+                    return
+            else:
+                await self._receive(end)
+
+    async def _receive(self, end: float) -> None:
+        assert time.monotonic() < end, self.shown
+        message = await asyncio.wait_for(self.websocket.receive(), max(0.1, end - time.monotonic()))
+        assert message.type in (WSMsgType.BINARY, WSMsgType.TEXT), f"{message}\n{self.shown}"
+        if message.type == WSMsgType.BINARY:
+            self._stream.feed(message.data.decode(errors="replace"))
 
     @property
     def shown(self) -> str:
@@ -108,3 +123,10 @@ class Browser:
     async def command(self, line: str) -> None:
         self._screen.reset()
         await self.type(line + ENTER)
+
+    async def fails(self, line: str, error: str, *, mark: int) -> None:
+        """Give a command line and wait for its error: the one below `mark`, a number of its own."""
+        await self.type(f"write {mark - 1} + 1{ENTER}")
+        await self.until(str(mark))
+        await self.type(line + ENTER)
+        await self._until_below(str(mark), error)

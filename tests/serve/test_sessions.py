@@ -18,12 +18,24 @@ if TYPE_CHECKING:
 CTRL_O, CLICK = "\x0f", "\x1b[<0;20;2M\x1b[<0;20;2m"
 
 
+NAMES_OUTSIDE = ("../secret.src", "{folder}/secret.src", "~/secret.src", "link.src", ".hidden.src")
+NAMES_NOT_TO_WRITE = ("../new.src", ".profile", "numpy.py", "Makefile.mk", "sub/.git/x.src")
+
+
+def fill(folder: Path) -> None:
+    """Make the files of the one who serves: programs of a folder, and what a visitor must not see."""
+    for name in ("models", "home", "state/desire-tui"):
+        (folder / name).mkdir(parents=True)
+    (folder / "models" / "own.src").write_text("own = 1\n")
+    for name in ("secret.src", "home/secret.src", "models/.hidden.src"):
+        (folder / name).write_text("password = 1234\n")
+    (folder / "models" / "link.src").symlink_to(folder / "secret.src")
+
+
 @pytest.fixture
 def serve(tmp_path: Path) -> Iterator[Callable[..., Served]]:
     servers: list[Served] = []
-    (tmp_path / "secret.src").write_text("password = 1234\n")
-    (tmp_path / "models").mkdir()
-    (tmp_path / "models" / "own.src").write_text("own = 1\n")
+    fill(tmp_path)
 
     def start(*words: str) -> Served:
         servers.append(Served(tmp_path, *words))
@@ -33,6 +45,19 @@ def serve(tmp_path: Path) -> Iterator[Callable[..., Served]]:
     for server in servers:
         if server.process.poll() is None:
             assert server.end() == 0
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """A server for all tests of what one visitor can do; its owner has left unsaved work."""
+    folder = tmp_path_factory.mktemp("served")
+    fill(folder)
+    (folder / "state" / "desire-tui" / "recovery-999999.json").write_text(
+        '{"version": 1, "tabs": [{"path": null, "label": "diary", "text": "dear diary", "row": 0, "column": 0, "front": true}]}'
+    )
+    server = Served(folder, "own.src")
+    yield server
+    assert server.end() == 0
 
 
 def until(condition: Callable[[], object]) -> None:
@@ -47,64 +72,42 @@ def children(pid: int) -> list[int]:
     return [int(word) for word in open(path).read().split()] if os.path.exists(path) else []  # noqa: PTH110, PTH123
 
 
-async def test_shell_and_files_outside_are_refused_without_a_question(
-    serve: Callable[..., Served], tmp_path: Path
-):
-    served = serve("own.src")
+async def test_a_visitor_gets_no_shell_and_no_file_outside_and_is_not_asked(served: Served):
+    outside = served.folder.parent
     async with ClientSession() as session:
         browser = await Browser.connect(session, served)
         await browser.until("own.src")
-        await browser.command(f"sh touch {tmp_path}/shelled")
-        await browser.until("error 450")
-        await browser.command(f"connect '{tmp_path}/outside.dat' as output 3")
-        await browser.until("error 451")
-        await browser.command(f"notebook '{tmp_path}/models/../outside.md'")
-        await browser.until("error 451")
+        await browser.fails(f"sh touch {outside}/shelled", "error 450", mark=7001)
+        await browser.fails(f"connect '{outside}/outside.dat' as output 3", "error 451", mark=7002)
+        await browser.fails(f"notebook '{outside}/models/../outside.md'", "error 451", mark=7003)
+        for mark, name in enumerate(NAMES_OUTSIDE, 7004):
+            await browser.fails(f"old '{name.format(folder=outside)}'", "error 451", mark=mark)
+            assert "password" not in browser.shown, name
         assert "Permission" not in browser.shown
-    assert not any((tmp_path / name).exists() for name in ("shelled", "outside.dat", "outside.md"))
+        assert "Unsaved work" not in browser.shown  # the owner's is not a visitor's
+    assert not any((outside / name).exists() for name in ("shelled", "outside.dat", "outside.md"))
 
 
-@pytest.mark.parametrize(
-    "name", ["../secret.src", "{folder}/secret.src", "~/secret.src", "link.src", ".hidden.src"]
-)
-async def test_the_desktop_opens_no_file_outside(serve: Callable[..., Served], tmp_path: Path, name: str):
-    (tmp_path / "home").mkdir()
-    (tmp_path / "home" / "secret.src").write_text("password = 1234\n")
-    (tmp_path / "models" / ".hidden.src").write_text("password = 1234\n")
-    (tmp_path / "models" / "link.src").symlink_to(tmp_path / "secret.src")
-    served = serve()
-    async with ClientSession() as session:
-        browser = await Browser.connect(session, served)
-        await browser.until("F5")
-        await browser.command(f"old '{name.format(folder=tmp_path)}'")
-        await browser.until("error 451")
-        assert "password" not in browser.shown
-
-
-@pytest.mark.parametrize("name", ["../new.src", ".profile", "numpy.py", "Makefile.mk", "sub/.git/x.src"])
-async def test_the_desktop_saves_programs_in_the_folder_only(
-    serve: Callable[..., Served], tmp_path: Path, name: str
-):
-    served = serve("own.src")
+async def test_the_desktop_saves_programs_in_the_folder_only(served: Served):
     async with ClientSession() as session:
         browser = await Browser.connect(session, served)
         await browser.until("own.src")
-        await browser.command(f"keep '{name}'")
-        await browser.until("error 451")
-        assert not (served.folder / name).exists()
+        for mark, name in enumerate(NAMES_NOT_TO_WRITE, 7001):
+            await browser.fails(f"keep '{name}'", "error 451", mark=mark)
+            assert not (served.folder / name).exists()
         await browser.command("keep 'other.src'")
         await browser.until("Saved")
     assert (served.folder / "other.src").read_text() == "own = 1\n"
 
 
-async def test_the_open_dialog_shows_the_folder_only(serve: Callable[..., Served]):
-    served = serve("own.src")
+async def test_the_open_dialog_shows_the_folder_only(served: Served):
     (served.folder / "second.src").write_text("second = 2\n")
     async with ClientSession() as session:
         browser = await Browser.connect(session, served)
         await browser.until("own.src")
         await browser.type(CTRL_O)
         await browser.until("second.src")
+        assert "secret" not in browser.shown
         await browser.command("second")
         await browser.until("second = 2")
 
@@ -158,18 +161,3 @@ async def test_desktops_end_with_the_server(serve: Callable[..., Served]):
         (child,) = children(served.process.pid)
         assert served.end() == 0
         until(lambda: not os.path.exists(f"/proc/{child}"))  # noqa: PTH110
-
-
-async def test_the_owners_unsaved_work_is_not_a_visitors(serve: Callable[..., Served], tmp_path: Path):
-    state = tmp_path / "state" / "desire-tui"
-    state.mkdir(parents=True)
-    (state / "recovery-999999.json").write_text(
-        '{"version": 1, "tabs": [{"path": null, "label": "diary", "text": "dear diary", "row": 0, "column": 0, "front": true}]}'
-    )
-    served = serve("own.src")
-    async with ClientSession() as session:
-        browser = await Browser.connect(session, served)
-        await browser.until("own.src")
-        await browser.command("x = 41 + 1 | write x")
-        await browser.until("42")
-        assert "Unsaved work" not in browser.shown
