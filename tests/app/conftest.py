@@ -37,7 +37,7 @@ PATIENCE_S = 60.0
 
 @pytest.fixture(autouse=True)
 def own_places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("CONFIG", "STATE", "DATA", "CACHE"):
+    for name in ("CONFIG", "STATE", "DATA"):
         monkeypatch.setenv(f"XDG_{name}_HOME", str(tmp_path / name.lower()))
     for name in ("TMUX", "NO_COLOR", "VISUAL", "EDITOR"):
         monkeypatch.delenv(name, raising=False)
@@ -45,6 +45,7 @@ def own_places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("desire_tui.common.dialogs.GRACE_SECONDS", 0.0)
     for module in ("app", "pilot"):
         monkeypatch.setattr(f"textual.{module}.wait_for_idle", settled)
+    monkeypatch.setattr("textual.pilot.Pilot._wait_for_screen", messages_read)
 
 
 async def settled(min_sleep: float = 0.0, max_sleep: float = 1.0) -> None:
@@ -53,12 +54,28 @@ async def settled(min_sleep: float = 0.0, max_sleep: float = 1.0) -> None:
     Textual's own `wait_for_idle` asks for the processor time of the whole process: while a simulation runs in another
     thread, each key would take a second. What the event loop has ready is what counts.
     """
-    loop = asyncio.get_running_loop()
     end = monotonic() + max_sleep
     for _ in range(3):
         await asyncio.sleep(max(0.007, min_sleep / 3))  # longer in all than the screen's timer takes: 1/60 s
-        while loop._ready and monotonic() < end:  # noqa: ASYNC110 - an idle loop tells nobody
-            await asyncio.sleep(0)
+        await nothing_ready(end)
+
+
+async def messages_read(_: Pilot[None], timeout: float = 1.0) -> bool:  # noqa: ASYNC109 - Textual's own name
+    """Wait until all messages that widgets have are read.
+
+    Textual's own `_wait_for_screen` sends one more to each of a hundred widgets, at each key: a sixth of the time
+    of these tests.
+    """
+    await asyncio.sleep(0)
+    await nothing_ready(monotonic() + timeout)
+    return True
+
+
+async def nothing_ready(end: float) -> None:
+    """Wait until the event loop has nothing ready: whoever has a message to read is ready."""
+    loop = asyncio.get_running_loop()
+    while loop._ready and monotonic() < end:  # noqa: ASYNC110 - an idle loop tells nobody
+        await asyncio.sleep(0)
 
 
 async def until(pilot: Pilot[None], condition: Callable[[], object]) -> None:
