@@ -52,14 +52,14 @@ def test_hundreds_of_edits_end_where_they_began():
 
 def test_compiling_leaves_nothing_behind():
     def compile_some(first):
-        for number in range(first, first + 200):
+        for number in range(first, first + 100):
             name = f"staying_up_{number}"
             text = f"define void @{name}(ptr %v) #0 {{\nstore double {number}.5, ptr %v\nret void\n}}"
             compile_text(module_text([text], ()), level=2, slp=True)
 
     compile_some(0)
     before = resources()
-    compile_some(200)
+    compile_some(100)
     assert resources().memory < before.memory + 4
 
 

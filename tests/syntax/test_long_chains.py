@@ -33,15 +33,15 @@ def summed(terms: list[float]) -> str:
 
 def test_a_chain_of_any_length_is_parsed() -> None:
     began = process_time()
-    program = parse(Source("x = 1" + "+y*z" * 200_000))
+    program = parse(Source("x = 1" + "+y*z" * 60_000))
     assert not program.problems
     node = program.script[0].node
     assert isinstance(node, Assign)
     first, steps = chain(node.value)
     assert first.end == 5
-    assert len(steps) == 200_000
+    assert len(steps) == 60_000
     assert all(step.op == "+" and isinstance(step.right, Binary) for step in steps)
-    assert process_time() - began < 20
+    assert process_time() - began < 6
 
 
 def test_a_long_chain_is_written_as_it_was_read() -> None:
