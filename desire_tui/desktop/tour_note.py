@@ -41,6 +41,7 @@ class TourNote(Static):
         super().__init__(sentence, markup=False)
         self._pane, self._leads_on = pane, leads_on
         self._stands_at: Offset | None = None
+        self.visible = False  # until it stands where it belongs
         self.border_title = f"◀ {title}"
         self.border_subtitle = f"{number} · Alt+N goes on"
 
