@@ -112,3 +112,16 @@ def test_together_with_trace():
     assert stops(kept) == [1, 2, 3, 4]
     session.go()
     assert value(session, "d") == 4
+
+
+def test_one_on_any_row_of_a_joined_statement_holds_before_it():
+    joined = "x = 1\nx = x + _\n1_\n0 | y = x\nif x_\n > 5 then z = 3 | w = _\n4\nproceed\n"
+    assert Session.script_lines(Source(joined)) == {1, 2, 3, 4, 5, 6, 7, 8}
+    assert stops(started(joined, 3)[1]) == [2]
+    assert stops(started(joined, 4)[1]) == [4]  # where `y = x` begins
+    assert stops(started(joined, 6)[1]) == [6]  # z = 3 begins there, which the condition lets through
+    session, kept = started(joined, 7)
+    assert stops(kept) == [6]
+    assert value(session, "z") == 3
+    session.go()
+    assert value(session, "w") == 4

@@ -54,12 +54,16 @@ class Interpreter:
         self._machine.code_table.halt_at(self._places(frozenset(lines)))
 
     def _places(self, lines: frozenset[int]) -> frozenset[int]:
-        """Return the places of the first statements of lines, where they have one."""
+        """Return the places of the first statements that begin in lines, or else that go on in them."""
         first: dict[int, int] = {}
-        if lines:
-            for place, placed in enumerate(self.program.script):
-                first.setdefault(self.program.source.position(placed.at).row, place)
-        return frozenset(first[line] for line in lines if line in first)
+        goes_on: dict[int, int] = {}
+        row_of = self.program.source.position
+        for place, placed in enumerate(self.program.script if lines else ()):
+            row, last = row_of(placed.at).row, row_of(placed.at + placed.node.end - 1).row
+            first.setdefault(row, place)
+            goes_on.update(dict.fromkeys(range(row + 1, last + 1), place))
+        found = goes_on | first
+        return frozenset(found[line] for line in lines if line in found)
 
     @property
     def position(self) -> Placed | None:

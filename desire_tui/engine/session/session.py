@@ -218,10 +218,15 @@ class Session:
 
     @staticmethod
     def script_lines(source: Source) -> frozenset[int]:
-        """Return the lines (from 1) of a text in which a statement of the script begins."""
+        """Return the lines (from 1) of a text that hold a statement of the script or go on with one."""
         from desire_tui.engine.syntax.parse import parse
 
-        return frozenset(source.position(placed.at).row for placed in parse(source).script)
+        row_of = source.position
+        return frozenset(
+            row
+            for placed in parse(source).script
+            for row in range(row_of(placed.at).row, row_of(placed.at + placed.node.end - 1).row + 1)
+        )
 
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
@@ -264,8 +269,9 @@ class Session:
             return
         with self._notebook.task(text, lambda: self.graph):
             waiting: list[Placed] = []
+            divides = self._commands.divides(statements)
             for placed in statements:
-                if self._commands.is_own(placed.node):
+                if divides and self._commands.is_own(placed.node):
                     self._script.interpret(waiting, source)
                     waiting = []
                     self._commands.carry_out_statement(placed, source)

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Protocol
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes.commands import FileCommand, Simple
+from desire_tui.engine.nodes.control import For, If, While
 from desire_tui.engine.nodes.files import Dump
 from desire_tui.engine.session.comparison import Variation, compare_runs
 from desire_tui.engine.session.report import run_report
 from desire_tui.engine.session.status import State
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.nodes.statements import Statement
@@ -27,6 +30,8 @@ if TYPE_CHECKING:
 _OWN_WORDS = frozenset(
     {"erun", "run", "go", "list", "list+", "bye", "new", "NEW", "ed", "edit", "auto", "reload", "keep+"}
 )
+
+_REPLACES_THE_PROGRAM = frozenset({"erun", "run", "go", "new", "NEW", "reload", "bye"})
 
 
 class ProgramControl(Protocol):
@@ -82,6 +87,16 @@ class SessionCommands:
             case Dump(what="run"):
                 return True
         return False
+
+    def divides(self, statements: Sequence[Placed]) -> bool:
+        """Whether own commands part a line: not those in blocks, which the interpreter hands back in turn."""
+        nodes = [placed.node for placed in statements]
+        if any(isinstance(node, Simple) and node.word in _REPLACES_THE_PROGRAM for node in nodes):
+            return True
+        return not any(
+            isinstance(node, If | For | While) or (isinstance(node, Simple) and node.word == "repeat")
+            for node in nodes
+        )
 
     def carry_out_statement(self, placed: Placed, source: Source) -> None:
         """Carry out a command; its problems get its place."""
