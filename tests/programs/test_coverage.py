@@ -12,6 +12,7 @@ from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Simp
 from desire_tui.engine.nodes.control import For, GoTo, If
 from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request
+from desire_tui.engine.nodes.faulty import Faulty
 from desire_tui.engine.nodes.files import Connect, Dump, Input, Restore, Write
 from desire_tui.engine.nodes.segment import Delay, Derivative, FunctionTable, Learn
 from desire_tui.engine.nodes.statements import Statement
@@ -46,7 +47,7 @@ def test_command_has_a_test(word, files):
 
 def test_the_table_has_every_statement():
     """A new class of node or keyword must get a row."""
-    statements = set(get_args(Statement))
+    statements = set(get_args(Statement)) - {Faulty}  # which no program that works has
     with_rows = set(_ONE) | {
         Simple, Assign, If, For, GoTo, Declare, Restore,
         Input, Write, Connect, Dump, Irule, Drun, Fft, Display, GraphText, Plot,

@@ -41,6 +41,9 @@ JOINED = {
     "i_\nf x <_\n= 3 t_\nhen y = 1 | pro_\nceed": ["if x <= 3 then", "y = 1", "proceed"],
     "x = a + _\n-- between\nb": ["x = a + b"],
     "x = a *\nb_\nc": ["x = a * bc"],
+    "d_\nrun *\nSHO_\nW *\nx = 1": ["drun *", "SHOW *", "x = 1"],
+    "sh echo a_\nb +\nx = 1": ["sh 'echo ab +'", "x = 1"],
+    "x = 1 -_\n- all +\ny = 2": ["x = 1", "y = 2"],
 }
 
 

@@ -57,7 +57,7 @@ def trees(text):
     ]
 
 
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=100)
 @given(programs(), st.data())
 def test_an_older_text_is_the_same_program(program, data) -> None:
     text = format_program(program)

@@ -29,7 +29,7 @@ from desire_tui.engine.syntax.tokens import CONTINUES, scan
 from desire_tui.engine.syntax.words import keyword_like
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
@@ -41,6 +41,8 @@ ROOM = 1_000_000
 """Characters of lines of earlier programs that are cached; their nodes take ten times as many bytes."""
 FIRST_NUMBER, NUMBER_STEP = 210, 10
 """How the lines of a program without numbers count."""
+ROWS_LOOKED_AT = 50
+"""Of more joined rows, the last one is looked at alone: else long statements would take time squared."""
 LINE_COST = 100
 """What a line adds to that beside its characters."""
 
@@ -234,7 +236,7 @@ def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, 
             while more and i < count:
                 parts.append(rows[i])
                 next_at += len(rows[i]) + 1
-                more = goes_on(rows[i], more)
+                more = goes_on(rows[i], more, parts)
                 i += 1
             whole = known("\n".join(parts)) or _parse_line("\n".join(parts))
             if _swallowed(line, whole, parts):
@@ -250,16 +252,20 @@ def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, 
         at = next_at
 
 
-def goes_on(row: str, before: str = "") -> str:
+def goes_on(row: str, before: str = "", rows: Sequence[str] = ()) -> str:
     """Return what makes a row go on in the next one, if anything (`LogicalLine.continues`).
 
-    `before` is what made the row above go on in this one.
+    `before` is what made the row above go on in this one; `rows` are those above and the row itself: where
+    `_` joins them, `run *` may be the end of `drun *`.
     """
     if before and before not in CONTINUES:
         return scan(before + row).continues  # the row begins inside a string
     if before and row.lstrip().startswith("--"):
         return before  # a comment may stand between
-    return (_lines[row] or _parse_line(row))[1]
+    more = (_lines[row] or _parse_line(row))[1]
+    if before == "_" and more not in ("", "_") and len(rows) <= ROWS_LOOKED_AT:
+        return scan("\n".join(rows)).continues
+    return more
 
 
 class NumberedLine(NamedTuple):

@@ -50,7 +50,12 @@ def _end(lines: Sequence[str], start: int, row: int) -> int:
     most = min(len(lines), row + ROWS_SEARCHED)
     at, more = start, ""
     while at < most:
-        more = _goes_on(lines[at], more)
+        if more == "_":
+            more = goes_on(
+                lines[at], more, [lines[start][numbered(lines[start]) :], *lines[start + 1 : at + 1]]
+            )
+        else:
+            more = _goes_on(lines[at], more)
         at += 1
         if not more:
             break
