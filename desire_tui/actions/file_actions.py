@@ -77,7 +77,7 @@ class FileActions(Controller):
             return await self._ask_within("Open", "")
         from desire_tui.common.file_dialog import FileDialog
 
-        dialog = FileDialog("open", self._folder(), recent=recent_files(), suffix=SUFFIX)
+        dialog = FileDialog(self._folder(), SUFFIX, recent=recent_files())
         return await self.app.push_screen_wait(dialog)
 
     async def open_path(self, path: Path, *, focus: bool = True) -> CodeArea | None:
@@ -163,7 +163,7 @@ class FileActions(Controller):
         from desire_tui.common.file_dialog import FileDialog
 
         name = area.buffer.name if Path(area.buffer.name).suffix else area.buffer.name + SUFFIX
-        return await self.app.push_screen_wait(FileDialog("save", self._folder(), name=name, suffix=SUFFIX))
+        return await self.app.push_screen_wait(FileDialog(self._folder(), SUFFIX, name=name))
 
     async def _ask_within(self, title: str, value: str) -> Path | None:
         """Ask for a file of the folder that is served."""

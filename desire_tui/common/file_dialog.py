@@ -1,208 +1,173 @@
-"""Which file to open, or to save as: a name typed, with a list that follows it."""
+"""textual-fspicker's dialog, name first: the cursor stands in the name, the list follows what is typed."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
 
+from rich.style import Style
 from rich.text import Text
+from textual.await_complete import AwaitComplete
 from textual.binding import Binding, BindingType
-from textual.containers import Vertical
-from textual.widgets import Input, Label, OptionList
-from textual.widgets.option_list import Option
+from textual.widgets import Input
+from textual_fspicker.base_dialog import Dialog
+from textual_fspicker.file_dialog import BaseFileDialog
+from textual_fspicker.parts import CurrentDirectory, DirectoryNavigation
+from textual_fspicker.parts.directory_navigation import DirectoryEntry, DirectoryEntryStyling
+from textual_fspicker.path_filters import Filter
+from textual_fspicker.safe_tests import is_dir
 
-from desire_tui.common.dialogs import Question
-from desire_tui.common.file_listing import UP, Entry, listed, short, split_typed
 from desire_tui.common.paths import exists, full
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from pathlib import Path
+    from collections.abc import Iterable, Sequence
+    from typing import Self
 
     from textual.app import ComposeResult
+    from textual.widgets import OptionList
 
-HINTS = {
-    "open": "type a part of a name · ↑↓ choose · Tab completes · / and ~ change the folder",
-    "save": "Enter saves · ↑↓ take a name · Tab completes · / and ~ change the folder",
-}
+HINT = "part of a name · ↑↓ choose · Tab completes · / ~/ ../ folder"
+MOVES = {"down": "cursor_down", "up": "cursor_up", "pagedown": "page_down", "pageup": "page_up"}
+RECENT_MOST = 5
 
 
-class FileDialog(Question["Path | None"]):
-    """Dismissed with a path, Esc: None. To save, the cursor stands in the name, its stem selected."""
+class FileList(DirectoryNavigation):
+    """Files opened last, then the folder's entries: those whose names have a part that was typed."""
+
+    def __init__(self, folder: Path, suffix: str, recent: Sequence[Path]) -> None:
+        self.paths: list[Path] = []
+        self._first_folder, self._suffix, self._recent, self._part = folder, suffix, recent, ""
+        super().__init__(folder)
+        self.can_focus = False  # the cursor stays in the name
+
+    def narrow(self, part: str) -> None:
+        """List names with `part` in them: of none folders and programs, of a dot hidden ones, too."""
+        self._part = part.casefold()
+        self.show_hidden = part.startswith(".")
+        self.file_filter = Filter(part, lambda path: bool(part) or path.suffix.casefold() == self._suffix)
+
+    def hide(self, path: Path) -> bool:
+        """Narrow folders, too; entries of the folder just left are no choice any more."""
+        return self._part not in path.name.casefold() or path.parent != self.location or super().hide(path)
+
+    def add_options(self, new_options: Iterable[object]) -> Self:
+        """Begin with recent files, keep each name in its line, highlight the best match."""
+        recent = self._recent if self.is_mounted and self.location == self._first_folder else ()
+        recent = [path for path in recent if self._part in path.name.casefold()][:RECENT_MOST]
+        plain = DirectoryEntryStyling(*[Style.null()] * 4)
+        first = [] if self.option_count else [DirectoryEntry(path, plain) for path in recent]
+        new = [new for new in new_options if isinstance(new, DirectoryEntry) and new.location not in recent]
+        super().add_options([*first, *new])
+        self.paths = [entry.location for entry in self.options if isinstance(entry, DirectoryEntry)]
+        for at, path in enumerate(self.paths):
+            label = f"{path.name} · recent, {path.parent}" if path in recent else path.name
+            if visible_line(label) != path.name:
+                self.replace_option_prompt_at_index(at, Text(f"    {visible_line(label)}"))
+
+        def unlikely(at: int) -> tuple[bool, bool, bool]:
+            name = self.paths[at].name
+            return name == "..", not name.casefold().startswith(self._part), is_dir(self.paths[at])
+
+        # the library highlights an entry when it saves, too, though Enter then takes it after an arrow only
+        self.highlighted = min(range(self.option_count), key=unlikely, default=None)
+        return self
+
+    def on_option_list_option_selected(self, event: OptionList.OptionSelected) -> None:
+        """Leave folders to the dialog, too."""
+        event.stop()
+        event.prevent_default()
+        self.post_message(self.Selected(self, self.paths[event.option_index]))
+
+
+class FileDialog(BaseFileDialog):
+    """Dismissed with a path, Esc: None. With a name it asks where to save; the stem is selected."""
 
     DEFAULT_CSS = """
-    FileDialog { align: center middle; background: $background 60%; }
-    FileDialog > Vertical { width: 76; max-width: 96%; height: 90%; max-height: 30; padding: 0 1;
-            background: $panel; border: round $primary; border-title-color: $accent;
-            border-subtitle-color: $text-error; }
-    FileDialog Label { width: 1fr; height: 1; color: $text-muted; text-overflow: ellipsis;
-            text-wrap: nowrap; }
-    FileDialog Input { border: none; height: 1; padding: 0 1; background: $surface; }
-    FileDialog Input:focus { border: none; }
-    FileDialog OptionList { border: none; padding: 0; height: 1fr; background: $panel; text-wrap: nowrap;
-            text-overflow: ellipsis; overflow-x: hidden; }
+    FileDialog Dialog { width: 90%; height: 90%; max-width: 90; border: round $primary; padding: 0 1; }
+    FileDialog CurrentDirectory { border: none; padding: 0; color: $text-muted; }
+    FileDialog DirectoryNavigation, FileDialog DirectoryNavigation:focus { border: none; padding: 0; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("escape", "dismiss(None)", "Cancel"),
-        Binding("down", "move(1)", show=False, priority=True),
-        Binding("up", "move(-1)", show=False, priority=True),
-        Binding("pagedown", "move(10)", show=False, priority=True),
-        Binding("pageup", "move(-10)", show=False, priority=True),
         Binding("tab", "complete", show=False, priority=True),
+        *(Binding(key, f"move('{move}')", show=False, priority=True) for key, move in MOVES.items()),
     ]
 
-    def __init__(
-        self,
-        purpose: Literal["open", "save"],
-        folder: Path,
-        *,
-        name: str = "",
-        recent: Sequence[Path] = (),
-        suffix: str,
-    ) -> None:
-        super().__init__()
-        self._purpose = purpose
-        self._folder = self._first_folder = full(folder)
-        self._proposed = name
-        self._recent = recent
-        self._suffix = suffix
-        self._entries: list[Entry] = []
-        self._put = name
-        """What the dialog itself put into the field."""
-        self._moved = False
-        """Whether the arrows chose the entry, which then counts more than what was typed."""
+    def __init__(self, folder: Path, suffix: str, *, name: str = "", recent: Sequence[Path] = ()) -> None:
+        super().__init__(title="Save as" if name else "Open")
+        self._saves, self._suffix, self._moved = bool(name), suffix, False
+        there = next(path for path in (full(folder), *full(folder).parents) if is_dir(path))
+        self._list = FileList(there, suffix, recent)
+        self._field = Input(name, HINT, compact=True, select_on_focus=False)
 
     def compose(self) -> ComposeResult:
-        """Folder, name, list, keys."""
-        box = Vertical()
-        box.border_title = "Open" if self._purpose == "open" else "Save as"
-        with box:
-            yield Label("", id="folder", markup=False)
-            yield Input(self._proposed, placeholder="name", id="file-name", select_on_focus=False)
-            yield OptionList()
-            yield Label(HINTS[self._purpose], markup=False)
+        """Put the name above the list."""
+        with Dialog() as dialog:
+            dialog.border_title = self._title
+            yield CurrentDirectory(markup=False)
+            yield self._field
+            yield self._list
 
     def on_mount(self) -> None:
         """Begin in the field."""
-        self.query_one(OptionList).can_focus = False
-        field = self._field
-        self.set_focus(field)
-        stem = len(self._proposed.removesuffix(self._suffix))
-        field.selection = type(field.selection)(0, stem)
-        self._list()
+        stem = len(self._field.value.removesuffix(self._suffix))
+        self._field.selection = type(self._field.selection)(0, stem)
+        self._list.narrow("")
 
-    @property
-    def _field(self) -> Input:
-        return self.query_one("#file-name", Input)
-
-    @property
-    def _chosen(self) -> Entry | None:
-        at = self.query_one(OptionList).highlighted
-        return self._entries[at] if at is not None and at < len(self._entries) else None
-
-    def _list(self) -> None:
-        typed = self._field.value
-        if self._purpose == "save":  # what is there already; a whole name typed hides nothing
-            typed = typed[: typed.rfind("/") + 1]
-        base, _ = split_typed(self._folder, typed)
-        self.query_one("#folder", Label).update(visible_line(short(base)))
-        recent = self._recent if self._folder == self._first_folder else ()
-        self._entries = listed(self._folder, typed, recent, (self._suffix,))
-        options = self.query_one(OptionList)
-        options.clear_options()
-        options.add_options([Option(self._drawn(entry)) for entry in self._entries])
-        if self._purpose == "open":  # Enter opens the first file, it never goes up by itself
-            wanted = (n for n, entry in enumerate(self._entries) if entry.label != f"{UP}/")
-            options.highlighted = next(wanted, 0 if self._entries else None)
-
-    def _drawn(self, entry: Entry) -> Text:
-        theme = self.app.current_theme
-        label = visible_line(entry.label)
-        if entry.is_folder:
-            return Text(label, style=str(theme.primary))
-        return Text(f"{label}  · recent", style=str(theme.accent)) if entry.is_recent else Text(label)
+    def dismiss(self, result: Path | None = None) -> AwaitComplete:
+        """Answer once; what has no ending gets that of programs."""
+        if result is not None and not result.suffix and not exists(result):
+            result = result.with_name(result.name + self._suffix)
+        return super().dismiss(result) if self.is_current else AwaitComplete()
 
     def on_input_changed(self, event: Input.Changed) -> None:
-        """Follow what is typed."""
-        event.stop()
-        if event.value != self._put:
-            self._put = event.value
-            self._moved = False
-            self.query_one(Vertical).border_subtitle = ""
-            self._list()
+        """Narrow the list; a folder is gone into at its slash."""
+        self._moved = False
+        head, slash, name = event.value.rpartition("/")
+        with suppress(OSError, RuntimeError):  # a name too long; ~nobody
+            if slash and is_dir(folder := full(Path(head + slash), self._list.location)):
+                cursor = self._field.cursor_position - len(head + slash)
+                self._list.location, self._field.value, self._field.cursor_position = folder, name, cursor
+        self._list.narrow("" if self._saves else name)
 
-    def action_move(self, by: int) -> None:
-        """Choose another entry; to save, its name is taken over."""
-        options, count = self.query_one(OptionList), len(self._entries)
-        if not count:
-            return
+    async def action_move(self, move: str) -> None:
+        """Choose in the list, which then counts more than what was typed."""
+        await self._list.run_action(move)
         self._moved = True
-        at = options.highlighted
-        options.highlighted = (0 if by > 0 else count - 1) if at is None else min(max(at + by, 0), count - 1)
-        chosen = self._chosen
-        if self._purpose == "save" and chosen is not None and not chosen.is_folder:
-            self._fill(self._typed_folder + chosen.path.name)
 
     def action_complete(self) -> None:
-        """Put the chosen entry into the field."""
-        if (chosen := self._chosen) is not None:
-            self._enter(chosen) if chosen.is_folder else self._fill(self._typed_folder + chosen.path.name)
+        """Complete what was typed."""
+        if self._list.highlighted is not None:
+            self._take(self._list.paths[self._list.highlighted])
 
-    @property
-    def _typed_folder(self) -> str:
-        value = self._field.value
-        return value[: value.rfind("/") + 1]
-
-    def _fill(self, text: str) -> None:
-        self._put = text
-        self._field.value = text
-        self._field.cursor_position = len(text)
-
-    def _enter(self, entry: Entry) -> None:
-        """Go into a folder; the name to save stays."""
-        name = self._field.value[len(self._typed_folder) :] if self._purpose == "save" else ""
-        self._folder = full(entry.path)
-        self._fill(name)
-        self._list()
-
-    def on_option_list_option_selected(self, event: OptionList.OptionSelected) -> None:
-        """Take the entry clicked."""
-        event.stop()
-        entry = self._entries[event.option_index]
-        if entry.is_folder:
-            self._enter(entry)
-        elif self._purpose == "open":
-            self.dismiss(entry.path)
+    def _take(self, path: Path) -> None:
+        """Go into a folder, or put a file's name into the field."""
+        self._moved = False
+        if not is_dir(path):
+            self._field.value = path.name
         else:
-            self._fill(self._typed_folder + entry.path.name)
+            self._list.location = full(path)
+            self._field.value = self._field.value if self._saves else ""
+        self._field.action_end()
+
+    def on_directory_navigation_selected(self, event: DirectoryNavigation.Selected) -> None:
+        """Open the file; to save, take over its name."""
+        event.prevent_default()
+        self._take(event.path) if self._saves or is_dir(event.path) else self.dismiss(event.path)
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Open or save; a folder is gone into."""
-        event.stop()
-        chosen, typed = self._chosen, event.value.strip()
-        base, name = split_typed(self._folder, typed)
-        path = full(base / name)
-        if chosen is not None and (self._moved or not (typed and exists(path))):
-            if chosen.is_folder:
-                self._enter(chosen)
-                return
-            if self._purpose == "open":
-                self.dismiss(chosen.path)
-                return
-        if not typed:
-            self._wrong("A name, please.")
+        """Take the list's entry if the arrows chose it, or what was typed to open is no file."""
+        try:
+            is_there = bool(event.value) and (self._list.location / event.value).exists()
+        except OSError as error:  # a name too long
+            self._set_error(error.strerror or "")
+            event.prevent_default()
             return
-        if path.is_dir():
-            self._folder = path
-            self._fill("")
-            self._list()
-        elif self._purpose == "save":
-            named = path if path.suffix or exists(path) else path.with_name(path.name + self._suffix)
-            self.dismiss(named)
-        elif exists(path):
-            self.dismiss(path)
-        else:
-            self._wrong(f"No file {visible_line(typed)} here.")
-
-    def _wrong(self, sentence: str) -> None:
-        self.query_one(Vertical).border_subtitle = sentence
+        if self._moved or not (self._saves or is_there):
+            event.prevent_default()
+            at = self._list.highlighted
+            if at is not None and (self._moved or self._list.paths[at].name != ".."):
+                self._list.action_select()
+            else:
+                self._set_error("No such file here")

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from textual.widgets import Input
 
-from textual.widgets import Input, OptionList
-
-from desire_tui.common.file_dialog import FileDialog
-from desire_tui.common.file_listing import listed
+from desire_tui.common.file_dialog import FileDialog, FileList
 from desire_tui.common.recent_files import KEPT, note_recent, recent_files
 
 from .conftest import Desktop, desktop
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 async def opened(desk: Desktop, key: str) -> FileDialog:
@@ -21,12 +15,18 @@ async def opened(desk: Desktop, key: str) -> FileDialog:
     await desk.until(lambda: isinstance(desk.app.screen, FileDialog) and desk.app.screen.focused)
     dialog = desk.app.screen
     assert isinstance(dialog, FileDialog)
+    await loaded(desk, dialog)
     return dialog
 
 
+async def loaded(desk: Desktop, dialog: FileDialog) -> None:
+    """Wait until the folder was read."""
+    files = dialog.query_one(FileList)
+    await desk.until(lambda: all(worker.is_finished for worker in desk.app.workers if worker.node is files))
+
+
 def shown(dialog: FileDialog) -> list[str]:
-    options = dialog.query_one(OptionList)
-    return [str(options.get_option_at_index(n).prompt) for n in range(options.option_count)]
+    return [path.name for path in dialog.query_one(FileList).paths]
 
 
 async def test_a_new_program_is_saved_under_the_name_typed_at_once(tmp_path):
@@ -34,7 +34,7 @@ async def test_a_new_program_is_saved_under_the_name_typed_at_once(tmp_path):
         await desk.do("file.new")
         await desk.press("x", "=", "1")
         dialog = await opened(desk, "ctrl+s")
-        field = dialog.query_one("#file-name", Input)
+        field = dialog.query_one(Input)
         assert dialog.focused is field
         assert field.selected_text == "untitled-1"  # the ending stays
         await desk.press(*"pendulum", "enter")
@@ -59,17 +59,18 @@ async def test_open_lists_what_was_open_last_and_follows_what_is_typed(program, 
     program("y = 2\n", "programs/models/pilot.src")
     async with desktop(folder / "rotor.src") as desk:
         dialog = await opened(desk, "ctrl+o")
-        assert shown(dialog) == ["rotor.src  · recent", "../", "models/", "alpha.src", "torpedo.src"]
+        assert shown(dialog) == ["rotor.src", "..", "models", "alpha.src", "torpedo.src"]
         await desk.press("t", "o")
-        assert shown(dialog) == ["rotor.src  · recent", "torpedo.src"]
+        assert shown(dialog) == ["rotor.src", "..", "torpedo.src"]
         await desk.press("r", "p", "enter")
         await desk.until(lambda: desk.app.editor.front.buffer.name == "torpedo.src")
         dialog = await opened(desk, "ctrl+o")
-        assert shown(dialog)[:2] == ["torpedo.src  · recent", "rotor.src  · recent"]
+        assert shown(dialog)[:2] == ["torpedo.src", "rotor.src"]
         await desk.press("n", "o", "t")
-        assert shown(dialog) == ["notes.md"]
+        assert shown(dialog) == ["..", "notes.md"]
         await desk.press("ctrl+u", "m", "o", "tab")
-        assert shown(dialog) == ["../", "pilot.src"]
+        await loaded(desk, dialog)
+        assert shown(dialog) == ["..", "pilot.src"]
         await desk.press("p", "enter")
         await desk.until(lambda: desk.app.editor.front.buffer.name == "pilot.src")
 
@@ -92,6 +93,47 @@ async def test_a_file_that_is_not_there_leaves_the_dialog_open(program):
         await desk.until(lambda: desk.app.screen is desk.app.main_screen)
 
 
+async def test_the_arrows_choose_from_the_name(program):
+    program("x = 1\n", "a.src")
+    program("x = 2\n", "b.src")
+    async with desktop(program("x = 3\n", "c.src")) as desk:
+        await opened(desk, "ctrl+o")
+        await desk.press("down", "up", "up", "enter")  # up from the first entry is the last
+        await desk.until(lambda: desk.app.editor.front.buffer.name == "b.src")
+        await desk.do("file.new")
+        await desk.press("x")
+        dialog = await opened(desk, "ctrl+s")
+        await desk.press("down", "enter")  # from a.src
+        await desk.until(lambda: dialog.query_one(Input).value == "b.src")
+        assert desk.app.screen is dialog  # a second Enter saves
+
+
+async def test_a_name_too_long_leaves_the_dialog_open(program):
+    async with desktop(program("x = 1\n")) as desk:
+        for key in ("ctrl+o", "ctrl+shift+s"):
+            dialog = await opened(desk, key)
+            dialog.query_one(Input).value = "é" * 200
+            await desk.press("enter")
+            assert desk.app.screen is dialog
+            await desk.press("escape")
+            await desk.until(lambda: desk.app.screen is desk.app.main_screen)
+
+
+async def test_the_folder_may_be_gone(program, tmp_path):
+    async with desktop(program("x = 1\n", "gone/a.src")) as desk:
+        (tmp_path / "gone" / "a.src").unlink()
+        (tmp_path / "gone").rmdir()
+        program("x = 2\n", "b.src")
+        assert "b.src" in shown(await opened(desk, "ctrl+o"))
+
+
+async def test_control_characters_of_names_are_shown_in_their_line(program):
+    program("x = 1\n", "a\nb\x1b]0;c.src")
+    async with desktop(program("x = 1\n")) as desk:
+        files = (await opened(desk, "ctrl+o")).query_one(FileList)
+        assert "    a␊b␛]0;c.src" in [str(option.prompt) for option in files.options]
+
+
 def test_the_list_of_recent_files_forgets_the_oldest_and_the_missing(tmp_path):
     paths = [tmp_path / f"{n}.src" for n in range(KEPT + 5)]
     for path in paths:
@@ -102,9 +144,10 @@ def test_the_list_of_recent_files_forgets_the_oldest_and_the_missing(tmp_path):
     assert recent_files()[0] == paths[-2]
 
 
-def test_hidden_files_come_with_a_dot(tmp_path: Path):
-    (tmp_path / ".hidden.src").write_text("")
-    (tmp_path / "seen.src").write_text("")
-    names = [entry.label for entry in listed(tmp_path, "", (), (".src",))]
-    assert names == ["../", "seen.src"]
-    assert [entry.label for entry in listed(tmp_path, ".h", (), (".src",))] == [".hidden.src"]
+async def test_hidden_files_come_with_a_dot(program):
+    program("x = 1\n", ".hidden.src")
+    async with desktop(program("x = 2\n", "seen.src")) as desk:
+        dialog = await opened(desk, "ctrl+o")
+        assert ".hidden.src" not in shown(dialog)
+        await desk.press(".", "h")
+        assert ".hidden.src" in shown(dialog)
