@@ -138,7 +138,7 @@ def test_messages_name_the_rules_of_the_table():
 def test_the_help_page_is_made_from_the_table():
     page = topics()["irule"].text
     assert markdown_table() in page
-    assert "Rules 9–16 need `ERMAX`" in page
+    assert "Rules 9–16 want `ERMAX`" in page
     assert not any(
         re.search(r"\{[^}]*rules[^}]*\}", topic.text + topic.summary) for topic in topics().values()
     )

@@ -231,9 +231,10 @@ def test_more_accuracy_than_doubles_have(backend):
     assert failure(SIMPLE.format(rule=15, ermax="1E-30", x=1, f="-x"), backend)[1].code == 221
 
 
-def test_ermax_must_be_set(backend):
-    text = SIMPLE.format(rule=15, ermax="1", x=1, f="-x").replace("ERMAX = 1 |", "")
-    assert failure(text, backend)[1].code == 87
+def test_ermax_never_set_is_a_thousandth(backend):
+    unset, _ = run(SIMPLE.format(rule=15, ermax="1", x=1, f="-x").replace("ERMAX = 1 |", ""), backend)
+    thousandth, _ = run(SIMPLE.format(rule=15, ermax="0.001", x=1, f="-x"), backend)
+    assert unset.runs[-1].values("x").tolist() == thousandth.runs[-1].values("x").tolist()
 
 
 def test_a_jump_of_the_right_hand_side_is_got_over(backend):
