@@ -51,7 +51,7 @@ async def test_the_picture_is_the_programs_own_graph(program):
         exact = 1.1 * (1 + (b * np.exp(a * t) - a * np.exp(b * t)) / (a - b)) - 1
         assert np.abs(x - exact).max() < 1e-3
         text = rows(picture(screen))
-        assert text[0].strip() == "scale = 1"
+        assert text[0].strip() == "step_response.src · runs 1–5 · scale = 1"
         assert "■ X" in text[-1]
         assert sum(map(dots, text)) > 200
 
