@@ -53,4 +53,4 @@ def test_pictures_and_the_text_plot(kind, tmp_path):
     result = CliRunner().invoke(main, ["run", str(file), "--plot", "--png", str(picture)])
     assert result.exit_code == 0, result.output
     assert picture.stat().st_size
-    assert "scale = 1" in result.output
+    assert "gaps.src · run 1 · fitted" in result.output

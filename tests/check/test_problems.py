@@ -94,7 +94,7 @@ CASES = [
     ("Vector v = B*u3", [(74, 1), (74, 1)]),
     ("Vector v = A", [(75, 1)]),
     ("Vector v = nowhere", [(70, 1)]),
-    ("Vector nowhere = v", [(70, 1)]),
+    ("Vector nowhere = v", [(19, 1)]),
     ("Vector a = v", [(19, 1)]),
     ("Vector A = v", [(75, 1)]),
     ("Vector v = A*v", [(85, 1)]),
@@ -154,7 +154,7 @@ CASES = [
     # history
     ("store D = a", []),
     ("store A = a", [(75, 1)]),
-    ("store nowhere = a", [(70, 1)]),
+    ("store nowhere = a", [(19, 1)]),
     ("get y = D\nd/dt x = y", []),
     ("d/dt x = y\nget y = D", [(200, 1)]),
     ("tdelay y = buf(a, 0.1", []),

@@ -103,13 +103,15 @@ def test_dt_may_change_under_rule_5():
     assert value(session, "x") == pytest.approx(1, rel=1e-14)
 
 
-def test_a_nan_names_the_variable():
+def test_a_nan_names_the_state():
     from desire_tui.engine.diagnostics import DesireError
 
     with pytest.raises(DesireError) as caught:
-        run("TMAX = 1 | DT = 0.01 | NN = 11\ndrun\nDYNAMIC\nd/dt x = 1\ny = sqrt(0.45 - x)\ndispt x, y")
+        run(
+            "TMAX = 1 | DT = 0.01 | NN = 11\ndrun\nDYNAMIC\nd/dt x = 1\ny = sqrt(0.45 - x)\nd/dt z = y\ndispt x, y"
+        )
     problem = caught.value.diagnostics[0]
-    assert problem.facts["name"] == "y"
+    assert problem.facts["name"] == "z"  # y alone would leave a gap in its curve
     with pytest.raises(DesireError) as caught:
         run("TMAX = 9 | DT = 0.01 | NN = 11 | x = 1\ndrun\nDYNAMIC\nd/dt x = x*x")
     assert caught.value.diagnostics[0].facts["name"] == "x"
