@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+import gc
+import time
+from concurrent.futures import ThreadPoolExecutor
 from math import sqrt
 
 import numpy as np
@@ -424,3 +427,29 @@ def test_comparisons_of_equal_numbers_and_of_nan(sign):
         assert (floating(x, y), whole(x, y)) == (expected, expected)
     for x, y in ((float("nan"), 1.0), (1.0, float("nan"))):
         assert floating(x, y) == (sign == "!=")
+
+
+@pytest.fixture
+def threads_change_within_a_parse():
+    """A collection of garbage runs Python code, at which another thread may go on."""
+    before = gc.get_threshold()
+
+    def give_way(*_):
+        time.sleep(0)
+
+    gc.callbacks.append(give_way)
+    gc.set_threshold(50)
+    yield
+    gc.set_threshold(*before)
+    gc.callbacks.remove(give_way)
+
+
+def test_two_threads_may_write_programs(threads_change_within_a_parse):
+    """A large model compiles its fast code in a thread while the next one is begun."""
+    text = "def f(x: float) -> float:\n    return " + "x" + " + x" * 100 + "\n"
+
+    def write(_):
+        return write_program([Module(text, NAMES)], Outside({}), "")
+
+    with ThreadPoolExecutor(4) as threads:
+        assert len(set(threads.map(write, range(40)))) == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import threading
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 from desire_tui.engine.codegen.ir.text import IrText
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 _HARMLESS = (ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign, ast.Expr, ast.If)
 """At a module's top: they make the names that functions find in the module."""
+_one_parse_at_a_time = threading.Lock()
+"""Python 3.11 counts the depth of trees once for all threads: two at a time may end in a SystemError."""
 
 
 class Module(NamedTuple):
@@ -51,7 +54,9 @@ def write_program(
 
 
 def _functions(module: Module) -> Iterable[ast.FunctionDef]:
-    for node in ast.parse(module.text).body:
+    with _one_parse_at_a_time:
+        tree = ast.parse(module.text)
+    for node in tree.body:
         if isinstance(node, ast.FunctionDef):
             yield node
         elif not isinstance(node, _HARMLESS):
