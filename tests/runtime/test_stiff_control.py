@@ -59,7 +59,7 @@ def steered(text, action, rows):
         session.erun(Source(text, "test.src"))
     except DesireError as problem:
         error = problem
-    assert kept.done
+    assert kept.done, error
     return session, error
 
 
