@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
 import inspect
-import signal
-import threading
-import traceback
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -25,18 +21,16 @@ from desire_tui.actions.view_actions import ViewActions
 from desire_tui.common import config, paths, themes
 from desire_tui.common.key_names import key_names
 from desire_tui.common.reach import Reach
-from desire_tui.desktop import alt_keys, fault_barrier, visible_screen
-from desire_tui.desktop.app_base import AppBase
+from desire_tui.desktop import alt_keys, visible_screen
 from desire_tui.desktop.command_line import CommandLine
-from desire_tui.desktop.engine_messages import CheckFinished, EngineFault, EngineMessage
+from desire_tui.desktop.engine_messages import CheckFinished, EngineMessage
 from desire_tui.desktop.first_tabs import open_first
 from desire_tui.desktop.frame_pacing import FramePacing
+from desire_tui.desktop.lasting_app import LastingApp
 from desire_tui.desktop.live_mode import LiveMode
 from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.message_handlers import MessageHandlers
 from desire_tui.desktop.tour import Tour
-from desire_tui.editor import recovery
-from desire_tui.editor.checkpoints import Checkpoints
 from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.editor.live_check import LiveChecker
@@ -54,9 +48,7 @@ if TYPE_CHECKING:
 
     from textual.binding import BindingType
     from textual.command import Provider
-    from textual.dom import DOMNode
     from textual.screen import Screen
-    from textual.widget import Widget
 
     from desire_tui.actions import Controller
     from desire_tui.engine.diagnostics import Diagnostic
@@ -81,7 +73,7 @@ def _palette() -> type[Provider]:
     return Actions
 
 
-class DesireApp(AppBase):
+class DesireApp(LastingApp):
     """`DesireApp(files).run()` opens the IDE with these files in tabs."""
 
     TITLE = "Desire"
@@ -112,14 +104,9 @@ class DesireApp(AppBase):
             "graph": GraphActions(self),
             "view": self.view_actions, "help": HelpActions(self),
         }  # fmt: skip
-        self.checkpoints = Checkpoints(self.editor)
         self.checker = LiveChecker(
-            partial(self._check, quick=True), self._checked, self._check_fault, self._check
+            partial(self._check, quick=True), self._checked, self.report_fault, self._check
         )
-        fault_barrier.install()
-        self.faults = fault_barrier.FaultBarrier(self.checkpoints.checkpoint, self.log_fault)
-        self.is_shown = False
-        """Whether the desktop stands; before, a fault ends it."""
         self.is_ready = False
         """Whether the tabs are open and the timers run."""
         self.stylesheet.set_variables(self.get_css_variables())
@@ -151,9 +138,7 @@ class DesireApp(AppBase):
         for sentence in (*self.config_errors, *self._theme_errors()):
             self.report_error(sentence, code=None)
         self.main_screen.set_interval(self.settings.checkpoint_seconds, self.checkpoint_soon)
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            if threading.current_thread() is threading.main_thread():
-                asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
+        self.listen_to_signals()
         self.theme_changed_signal.subscribe(self.main_screen, lambda _: self.follow_theme())
         self.call_later(self._show)
 
@@ -182,99 +167,20 @@ class DesireApp(AppBase):
     def _checked(self, number: int, version: int, problems: tuple[Diagnostic, ...]) -> None:
         self.post_message(CheckFinished(number, version, problems))
 
-    def _check_fault(self, error: BaseException) -> None:
-        self.post_message(
-            EngineFault(f"{type(error).__name__}: {error}", "".join(traceback.format_exception(error)))
-        )
-
     def _theme_errors(self) -> list[str]:
         wanted = self.settings.theme
         if wanted in self.available_themes:
             return []
         return [f"{paths.config_file()}: no theme '{wanted}'; there are: {', '.join(self.available_themes)}"]
 
-    def _ended_from_outside(self) -> None:
-        """End at a signal or a lost connection: the work is kept, the terminal restored."""
-        self.checkpoint()
-        self._stop_engine()
-        self.exit()
-
-    def leave(self) -> None:
-        """End well."""
-        self.checkpoints.leave()
-        self._stop_engine()
-        self.exit()
-
-    def _stop_engine(self) -> None:
-        if self.engine.is_ready:
-            self.session.end()
-
     def show_problems(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Show problems as those of a program."""
         self.message_handlers.show(diagnostics)
-
-    def checkpoint(self) -> None:
-        """Write unsaved work to the recovery file, as soon as there can be any."""
-        if not self.checkpoints.checkpoint():
-            self._not_kept()
-
-    def checkpoint_soon(self) -> None:
-        """Write unsaved work while the user types on."""
-        self.checkpoints.begin(lambda: self.on_screen(self._not_kept))
-
-    def on_exit_app(self) -> None:
-        """Keep the work when a served page goes away."""
-        if not self._exit:
-            self.checkpoint()
-            self._stop_engine()
-
-    def _not_kept(self) -> None:
-        folder = paths.state_folder()
-        self.notify(
-            f"Unsaved work cannot be kept safe: {folder} cannot be written.",
-            severity="warning",
-            markup=False,
-        )
-
-    def on_app_blur(self) -> None:
-        """Keep the work safe when the window loses the focus."""
-        self.checkpoint()
 
     def on_app_focus(self) -> None:
         """Take notice of what happened to files while the window did not have the focus."""
         if self.is_ready:
             self.file_actions.save_and_reload.notice_changes()
-
-    def _handle_exception(self, error: Exception) -> None:
-        """Go on after a fault of ours; end where that is not possible."""
-        if self.is_headless and self._exception is None:  # what runs the desktop without a terminal is told
-            self._exception = error
-            self._exception_event.set()
-        if not self.faults.survived(error) or not self.is_shown:
-            self.end_badly(error)
-
-    def end_badly(self, error: Exception) -> None:
-        """End the desktop; why, and where the work is, stands on the normal screen."""
-        from rich.text import Text
-
-        if self._return_code == 1:
-            return  # it is ending
-        self.checkpoints.checkpoint()  # says nothing, unlike the app's own
-        kept = recovery.recovery_file()
-        sentences = [f"Desire ended: {type(error).__name__}: {error}"]
-        if (log := self.write_fault("".join(traceback.format_exception(error)))) is not None:
-            sentences.append(f"Details are in {log}.")
-        if kept.exists():
-            sentences.append(f"Unsaved work is kept in {kept}; the next start offers it.")
-        self._exit_renderables.append(Text("\n".join(sentences)))
-        self._return_code = 1
-        self._close_messages_no_wait()
-
-    def _register(self, parent: DOMNode, *widgets: Widget, **options: Any) -> list[Widget]:
-        """Let no widget that cannot be drawn keep the others from being drawn."""
-        for widget in widgets:
-            self.faults.guard(widget)
-        return super()._register(parent, *widgets, **options)
 
     # --------------------------------------------------------------------------------------------- actions
 
@@ -321,17 +227,6 @@ class DesireApp(AppBase):
             keys = key_names(self.settings.keys.get(command.id, command.keys))
             title = f"{command.title}  {keys}" if keys else command.title
             yield SystemCommand(title, command.help, lambda command_id=command.id: self.do(command_id))
-
-    def in_background(self, job: Callable[[], None]) -> None:
-        """Do something slow that is not the engine's, such as drawing a picture."""
-
-        def watched() -> None:
-            try:
-                job()
-            except Exception as error:  # noqa: BLE001 - the last line: threads have nobody else to tell
-                self._check_fault(error)
-
-        threading.Thread(target=watched, daemon=True, name="desire-picture").start()
 
     # ------------------------------------------------------------------------------ what panes ask for
 

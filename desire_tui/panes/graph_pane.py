@@ -10,6 +10,7 @@ from textual.binding import Binding, BindingType
 from textual.geometry import Region
 
 from desire_tui.panes import graph_cursor
+from desire_tui.panes.graph_fit import CurveFit
 from desire_tui.panes.graph_key_row import KeyRow, KeyRowContent
 from desire_tui.panes.graph_paging import GraphPaging
 from desire_tui.panes.graph_sheet import TILE_COLUMNS, GraphSheet, SheetStyles
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 
     from textual.app import ComposeResult
 
-    from desire_tui.engine.graph.fit import Extent
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.braille_canvas import Canvas
     from desire_tui.engine.outputs.incremental_drawing import Painter
@@ -69,10 +69,7 @@ class GraphPane(MouseGestures, can_focus=True):
         self.canvas: Canvas | None = None
         self.frame: TextFrame | None = None
         self.window = Window()
-        self.fit: bool | None = None
-        """Whether the window follows the curves; None: as the program says."""
-        self._extent: Extent | None = None
-        self._extent_of: tuple[object, ...] = ()
+        self.fit = CurveFit()
         self._marks: tuple[object, ...] = ()
         self._failed = ""
         """What is said in place of a graph after a start that failed."""
@@ -125,27 +122,11 @@ class GraphPane(MouseGestures, can_focus=True):
     @property
     def page_mark(self) -> str:
         """Which page is shown, if it is not the newest, and whether it is magnified."""
-        zoomed = not self.is_fitted and not self.window.is_whole
+        zoomed = not self.fit.is_on and not self.window.is_whole
         earlier = "earlier run" if self._is_earlier else ""
         marks = [self.paging.place(self._pages()) or earlier, "zoom" if zoomed else ""]
         told = " · ".join(mark for mark in marks if mark)
         return f" {told} " if told else ""
-
-    @property
-    def is_fitted(self) -> bool:
-        """Whether the window is the one that holds all curves."""
-        if self.fit is not None or self._extent is None:
-            return bool(self.fit)
-        return self._extent.is_fitted
-
-    @property
-    def notice(self) -> str:
-        """What is said of curves that leave the program's scale, while that is shown."""
-        if self._extent is None or self.is_fitted or not self.window.is_whole:
-            return ""
-        from desire_tui.engine.graph.fit import notice
-
-        return notice(self._extent, "Alt+F fits")
 
     @property
     def cursor_column(self) -> int | None:
@@ -164,7 +145,7 @@ class GraphPane(MouseGestures, can_focus=True):
                 self._drawn = ()
             self._show_keys()
         elif self.paging.follow(graph):
-            self.window, self.fit = Window(), None
+            self.window, self.fit.wanted = Window(), None
 
     def show_failed(self, program: str) -> None:
         """Say that a program made no graph: another program's leaves the screen, its own is marked."""
@@ -184,7 +165,7 @@ class GraphPane(MouseGestures, can_focus=True):
         """
         if not self.size.width or not self.is_on_screen:
             return False
-        self._measure()
+        self.window = self.fit.window(self.paging, self.window)
         state = self._state()
         begins = state != self._drawn
         if begins:
@@ -196,35 +177,16 @@ class GraphPane(MouseGestures, can_focus=True):
         self._refresh_cells((row + top, tile) for row, tile in dirty)
         if self._marks != (marks := self._marks_now()):
             self._marks = marks
-            self._lay()
-            self._refresh_cells(self.sheet.cells)
+            self._refresh_cells(self._lay())
         if self._cursor is not None:
             self._read()
         return begins or bool(dirty)
-
-    def _measure(self) -> None:
-        """Have the window follow the curves, if it is to."""
-        page = self.page
-        if page is None or page.frame.kind == "picture":
-            self._extent, self._extent_of = None, ()
-            return
-        key = (page, *self.paging.under)
-        if self._extent is None or self._extent_of != key:
-            from desire_tui.engine.graph.fit import Extent
-
-            self._extent, self._extent_of = Extent(self.paging.with_all_under(page)), key
-        before = self.is_fitted
-        if self._extent.update() or before != self.is_fitted or self.is_fitted:
-            if self.is_fitted:
-                self.window = Window(*self._extent.view())
-            elif before:
-                self.window = Window()
 
     def _marks_now(self) -> tuple[object, ...]:
         painter = self._painter
         if painter is None or not self.window.is_whole:
             return ()
-        return (*painter.clipped.counts(), self.notice)
+        return (*painter.clipped.counts(), self.fit.notice)
 
     def _state(self) -> tuple[object, ...]:
         page = self.page
@@ -232,7 +194,7 @@ class GraphPane(MouseGestures, can_focus=True):
             return self.paper, self.size, self._failed
         under = tuple(len(graph.curves) for graph in self.paging.under)
         curves = len(page.curves) if under else 0
-        title = page.title(fitted=self.is_fitted)
+        title = page.title(fitted=self.fit.is_on)
         look = (
             page.frame,
             title,
@@ -264,7 +226,7 @@ class GraphPane(MouseGestures, can_focus=True):
         before, canvas = self.frame, self.canvas
         mark = self.page_mark
         frame = self.frame = text_frame(
-            page, columns, rows, self.window, fitted=self.is_fitted, reserved=len(mark)
+            page, columns, rows, self.window, fitted=self.fit.is_on, reserved=len(mark)
         )
         place = (frame.left, frame.columns, frame.rows)
         if before is None or canvas is None or place != (before.left, before.columns, before.rows):
@@ -277,19 +239,19 @@ class GraphPane(MouseGestures, can_focus=True):
         self._lay()
         self.mark_cells()
 
-    def _lay(self) -> None:
-        """Give the sheet the frame's lines, with what is written into them."""
+    def _lay(self) -> list[tuple[int, int]]:
+        """Give the sheet the frame's lines, with what is written into them; return the cells that changed."""
         page, frame, painter = self.page, self.frame, self._painter
         if page is None or frame is None or painter is None:
-            return
+            return []
         ground, white = self.paper
         columns, rows = self.size.width, max(self.size.height - 1, 1)
-        lines = list(painter.clipped.lines(frame, self.notice) if self._marks else frame.lines)
+        lines = list(painter.clipped.lines(frame, self.fit.notice) if self._marks else frame.lines)
         mark = self.page_mark
         lines[0] = lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark
         net = ground if page.net is None else ground + net_style(page.net, white=white)
         look = SheetStyles(ground, ground + Style(bold=True), net, white)
-        self.sheet.lay(columns, rows, look, lines, frame, self.canvas)
+        return self.sheet.lay(columns, rows, look, lines, frame, self.canvas)
 
     def _show_keys(self) -> None:
         """Have the colour keys drawn if they are others than before."""
@@ -351,12 +313,12 @@ class GraphPane(MouseGestures, can_focus=True):
     def look_at(self, window: Window) -> None:
         """Show another part of the page; a picture has no parts."""
         if self.page is not None and self.page.frame.kind != "picture":
-            self.window, self.fit = window, False
+            self.window, self.fit.wanted = window, False
             self.tick()
 
     def fit_curves(self) -> None:
         """Show the window that holds all curves, and follow them while they grow."""
-        self.fit = True
+        self.fit.wanted = True
         self.tick()
 
     # ---------------------------------------------------------------------------------------------- read-out
@@ -402,7 +364,7 @@ class GraphPane(MouseGestures, can_focus=True):
         """Show an older (-1) or newer (1) page; False if there is none."""
         if not self.paging.turn(self._pages(), step):
             return False
-        self.window, self.fit = Window(), None
+        self.window, self.fit.wanted = Window(), None
         self.tick()
         return True
 

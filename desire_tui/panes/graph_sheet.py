@@ -59,14 +59,24 @@ class GraphSheet:
     def lay(
         self, columns: int, rows: int, look: SheetStyles, lines: Iterable[str],
         frame: TextFrame | None = None, canvas: Canvas | None = None,
-    ) -> None:  # fmt: skip
-        """Take a frame of so many cells, and the canvas that lies in it."""
+    ) -> list[tuple[int, int]]:  # fmt: skip
+        """Take a frame of so many cells, and the canvas in it; return the cells with another text."""
         if look != self._look:
             self._made.clear()
         self._look, self._frame, self._canvas = look, frame, canvas
         width = -(-columns // TILE_COLUMNS) * TILE_COLUMNS
+        before = self._lines
         self._lines = [line[:columns].ljust(width) for line in lines][:rows]
         self._lines += [" " * width] * (rows - len(self._lines))
+        if [len(line) for line in before] != [len(line) for line in self._lines]:
+            return self.cells
+        return [
+            (row, at // TILE_COLUMNS)
+            for row, (old, new) in enumerate(zip(before, self._lines, strict=True))
+            if old != new
+            for at in range(0, width, TILE_COLUMNS)
+            if old[at : at + TILE_COLUMNS] != new[at : at + TILE_COLUMNS]
+        ]
 
     @property
     def cells(self) -> list[tuple[int, int]]:

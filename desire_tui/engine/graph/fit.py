@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-_HAIR = 1e-3
+HAIR = 1e-3
 """A curve may leave the frame by so much, less than a dot: a sample near the limit is inside."""
 _POINTS = "points"
 
@@ -88,7 +88,7 @@ class Extent:
             low_y, high_y = _unit(frame.bottom, frame.top, float(y.min()), float(y.max()))
         self._low_x, self._high_x = min(self._low_x, low_x), max(self._high_x, high_x)
         self._low_y, self._high_y = min(self._low_y, low_y), max(self._high_y, high_y)
-        if min(low_x, low_y) < -_HAIR or max(high_x, high_y) > 1 + _HAIR:
+        if min(low_x, low_y) < -HAIR or max(high_x, high_y) > 1 + HAIR:
             self.outside[curve] = None
         if high_x >= 0 and low_x <= 1 and high_y >= 0 and low_y <= 1:
             self.inside[curve] = None

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.graph.fit import HAIR
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -14,8 +16,6 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Flags = NDArray[np.bool_]
 
-_HAIR = 1e-3
-"""Nobody sees that a curve leaves by so much; as in `graph.fit`."""
 ABOVE, BELOW, LEFT, RIGHT = "▲▼◀▶"
 
 
@@ -67,12 +67,12 @@ class ClipMarks:
 
 def _leaves(values: Floats) -> bool:
     low, high = np.fmin.reduce(values, initial=0.0), np.fmax.reduce(values, initial=0.0)
-    return bool(low < -_HAIR or high > 1 + _HAIR)
+    return bool(low < -HAIR or high > 1 + HAIR)
 
 
 def _mark(along: Floats, across: Floats, low: Flags, high: Flags) -> None:
     with np.errstate(invalid="ignore"):
         between = (along >= 0) & (along <= 1)
-        for side, out in ((low, across < -_HAIR), (high, across > 1 + _HAIR)):
+        for side, out in ((low, across < -HAIR), (high, across > 1 + HAIR)):
             cells = (along[between & out] * len(side)).astype(np.intp)
             side[np.minimum(cells, len(side) - 1)] = True
