@@ -164,7 +164,8 @@ class Simulator:
             elif ended is not Ended.RUNNING:
                 return ended
             else:
-                block = max(1.0, min(block * BLOCK_GROWTH, block * BLOCK_SECONDS / max(took, 1e-6)))
+                block *= min(BLOCK_GROWTH, BLOCK_SECONDS / max(took, 1e-6))
+                block = max(1.0, min(block, float(len(record.rows))))
 
     def _held(self) -> bool:
         """Wait while the user pauses the run, whose clock stands still; return whether it may go on."""
