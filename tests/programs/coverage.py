@@ -10,6 +10,7 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.syntax.parse import parse
 from desire_tui.help.page_catalogue import topics
 from tests.programs.expectations import read_expectations
+from tests.programs.facts_of_the_original import FACTS
 from tests.programs.features import DYNAMIC, FUNCTIONS, SCRIPT, features
 
 if TYPE_CHECKING:
@@ -86,6 +87,10 @@ def markdown() -> str:
     lines += [f"| `{row}` | {_some([*script[row], *dynamic[row]])} |" for row in FUNCTIONS]
     lines += ["", "## Commands", "", "| command | tests |", "| --- | --- |"]
     lines += [f"| `{name}` | {_some(where)} |" for name, where in command_tests().items()]
+    lines += ["", "## Programs of the original", "", "| fact | programs |", "| --- | --- |"]
+    for fact in FACTS:
+        names = [f"original/{name}" for name in fact.first] + list(fact.programs)
+        lines.append(f"| {fact.title} | {', '.join(name.removeprefix('../../') for name in names)} |")
     return "\n".join(lines) + "\n"
 
 

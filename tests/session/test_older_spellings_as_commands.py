@@ -18,6 +18,8 @@ label again | k = k + _
 1 | NN = 2
 DYNAMIC
 add[k, k, s) | s2 = s*t
+label counted
+Vector p = P# | n = n + 1 | store g = n
 """
 
 
@@ -81,6 +83,38 @@ def test_lines_are_copied_into_the_notebook(session, tmp_path):
         "220 SUBMODEL add[a$, b$, c$) | c$ = a$ + b$ | end\n240 label again | k = k + _\n1 | NN = 2\n" in text
     )
     assert "230" not in text
+
+
+def test_output_is_the_original_s_to_the_letter(session):
+    session.execute("write W | write %%48879; %%-2")
+    assert session.kept.text == (
+        "\nW[2,2]  : REAL ARRAY (in ROW major sequence)\n0.000000e+00   0.000000e+00   \n\n"
+        "0.000000e+00   0.000000e+00   \n\nbeeffffe\n"
+    )
+    session.kept.text = ""
+    session.execute("dump")
+    assert session.kept.text.startswith(
+        "t = 0                   DT = 0                  TMAX = 0                NN = 2\nMM = 0 "
+    )
+
+
+def test_a_loop_without_a_turn_leaves_its_start_value(session):
+    session.execute("for k = 9.5 to 1 | next")
+    assert value(session, "k") == 9.5
+
+
+def test_runs_without_derivatives_continue_one_another(session):
+    session.execute("NN = 3 | drun | drun")
+    assert value(session, "t") == 5
+
+
+def test_labelled_runs_begin_anew_and_take_the_row_asked_for(session):
+    session.execute("P[1,1] = 4 | P[2,1] = 5 | n = 0 | iRow = 0.5 | drun counted")
+    assert (element(session, "p"), element(session, "g"), value(session, "t")) == (4, 1, 2)
+    session.execute("iRow = 3.5 | drun counted")  # row trnc(2.5) mod 2 + 1
+    assert (element(session, "p"), element(session, "g"), value(session, "t")) == (4, 3, 3)
+    session.execute("iRow = 2 | drun counted")
+    assert element(session, "p") == 5
 
 
 def test_pictures_show_sizes_until_show_says_colours(session):
