@@ -81,7 +81,8 @@ def lower_segment(
     _collect_targets(context, jacobian_lines)
     builder = SegmentBuilder(context, _states(context, lines), rule)
     _ready_from_start(builder, lines)
-    if builder.states.ranges:
+    ranges = builder.states.ranges
+    if ranges and ("t" in context.assigned or any(states.name == "t" for states in ranges)):
         _refuse_to_set_time(context, [*lines, *jacobian_lines])
     with handing_over(context.problems, lambda: context.span(node).start):
         for node, frame in lines:
