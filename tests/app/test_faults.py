@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 from typing import TYPE_CHECKING
 
 import pytest
@@ -142,8 +143,9 @@ async def test_the_engines_thread_outlives_whatever_a_job_raises(program, fault)
         await desk.until(lambda: "42" in desk.output)
 
 
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
 async def test_a_dead_engine_thread_is_reported_and_followed_by_another(program, monkeypatch):
+    ended_by = []
+    monkeypatch.setattr(threading, "excepthook", lambda end: ended_by.append(end.exc_type))
     async with desktop(program("x = 1\n")) as desk:
         engine = desk.app.engine
         post = engine._post
@@ -156,6 +158,7 @@ async def test_a_dead_engine_thread_is_reported_and_followed_by_another(program,
         dead = engine._thread
         dead.join(20)
         assert not dead.is_alive()
+        assert ended_by == [SystemExit]
         monkeypatch.setattr(engine, "_post", post)
         await desk.line("write 6*7")
         await desk.until(lambda: "42" in desk.output)

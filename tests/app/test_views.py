@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from textual import events
 from textual.screen import Screen
-from textual.widgets import TextArea
+from textual.widgets import Input, TextArea
 
 from desire_tui.editor.brackets import partner
 from desire_tui.editor.line_marks import Marks
@@ -367,6 +367,8 @@ async def test_what_is_drawn_row_by_row_is_what_a_new_drawing_gives(program, mon
         area = desk.app.editor.front
         area.focus()
         area.cursor_blink = False
+        for field in desk.app.main_screen.query(Input):
+            field.cursor_blink = False
         for keys in (
             ["x"], ["enter"], ["backspace", "backspace"], ["right"] * 4, ["pagedown"], ["shift+down", "shift+right"], ["tab"],
             ["ctrl+z"], ["ctrl+underscore"], ["f9"], ["end"], ["Y"] * 70, ["home"], ["ctrl+end"], ["ctrl+home"], ["ctrl+l"],

@@ -13,7 +13,7 @@ from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
-LONG = "TMAX = 1 | DT = 1E-7 | NN = 3\ndrun\nDYNAMIC\nd/dt x = 1\ndispt x\n"
+PROGRAM = "TMAX = 1 | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\nd/dt x = 1\ndispt x\n"
 
 
 class Work:
@@ -32,26 +32,29 @@ def test_the_thread_outlives_a_fault():
     try:
         bad, good = Work(ValueError("bad")), Work()
         improver.add(bad)
-        assert bad.done.wait(10)
+        assert bad.done.wait(60)
         improver.add(good)
-        assert good.done.wait(10)
+        assert good.done.wait(60)
         assert [str(fault) for fault in improver.faults()] == ["bad"]
         assert improver.faults() == []
     finally:
         improver.close()
 
 
-def test_a_dead_thread_is_followed_by_another():
+def test_a_dead_thread_is_followed_by_another(monkeypatch):
+    ended_by = []
+    monkeypatch.setattr(threading, "excepthook", lambda end: ended_by.append(end.exc_type))
     improver = Improver()
     try:
         last = Work(SystemExit())  # ends a thread without a word
         improver.add(last)
-        assert last.done.wait(10)
-        improver._thread.join(10)
+        assert last.done.wait(60)
+        improver._thread.join(60)
         assert not improver._thread.is_alive()
+        assert ended_by == [SystemExit]
         good = Work()
         improver.add(good)
-        assert good.done.wait(10)
+        assert good.done.wait(60)
     finally:
         improver.close()
 
@@ -69,13 +72,21 @@ def test_the_user_is_told_once(monkeypatch):
         raise KeyError("no register")
         yield
 
+    advance = NativeModel.advance
+
+    def advance_after_the_fault(model, memory):
+        end = time.monotonic() + 60
+        while not state.improver._faults and time.monotonic() < end:
+            time.sleep(0.001)
+        return advance(model, memory)
+
     monkeypatch.setattr(NativeModel, "improve", fails)
+    monkeypatch.setattr(NativeModel, "advance", advance_after_the_fault)
     told, state = _Told(), CompilerState()
     session = Session(told)
     session._workspace.segments._backend = NativeBackend(state)
     try:
-        session.erun(Source(LONG))
-        time.sleep(0.01)
+        session.erun(Source(PROGRAM))
         assert [(d.code, d.severity) for d in told.found] == [(474, "warning")]
         assert "no register" in told.found[0].message
         assert session.runs[-1].ended == "tmax"

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import io
 import re
 import tokenize
@@ -33,16 +34,18 @@ MARK = re.compile(rf"(?: {BOOK_PLACE}(?:, {BOOK_PLACE})*(?:[;:] .*)?|[,;]? ?[a-z
 HEADING = re.compile(r"^#+ (?:Chapter )?([\dA][\d./, A-]*)", re.MULTILINE)
 
 
-def sections(page: str) -> set[str]:
+@functools.cache
+def sections(page: Path) -> frozenset[str]:
     """Return the numbers of a page's headings, with those of the sections that they lie in."""
     found: set[str] = set()
-    for match in HEADING.finditer(page):
+    for match in HEADING.finditer(page.read_text(encoding="utf-8")):
         for number in re.findall(NUMBER, match[1]):
             parts = number.split(".")
             found.update(".".join(parts[:n]) for n in range(1, len(parts) + 1))
-    return found
+    return frozenset(found)
 
 
+@functools.cache
 def passages(path: Path) -> list[str]:
     """Return a file's prose, a paragraph an item: of Python comments and docstrings, else everything."""
     text = path.read_text(encoding="utf-8")
@@ -77,7 +80,7 @@ def faults(passage: str) -> list[str]:
         if page is None:
             found.append(f"{name}: no such page")
             continue
-        there = sections(page.read_text(encoding="utf-8"))
+        there = sections(page)
         found += [f"{name} {n}: no such section" for n in re.findall(NUMBER, numbers) if n not in there]
     for numbers in BOOK.findall(passage):
         found += [f"book {n}" for n in re.findall(NUMBER, numbers) if not re.fullmatch(BOOK_PLACE, n)]

@@ -45,7 +45,7 @@ _ALL = (
     Kind("commands", "command lines", 30, 2, 15, 300),
     Kind("settings", "values given from outside", 20, 1, 40, 1000),
     Kind("editor", "edits, undo and redo in panes of 1 to 40 rows, one text in two views", 120, 2, 1, 100),
-    Kind("signals", "signals at random moments to `desire run`", 60, 2, 3),
+    Kind("signals", "signals at random moments to `desire run`", 300, 2, 3),
     Kind("kills", "kill -9 to the desktop while somebody types, saves and runs", 120, 2, 1),
     Kind("terminal", "keys, mouse and resizes to the desktop", 120, 3, 1, 30),
 )

@@ -43,8 +43,10 @@ class Report:
         self.faults.setdefault(fault.signature, (number, fault))
 
 
-def try_kind(kind: Kind, seed: int, *, first: int = 0, count: int | None, seconds: float) -> Report:
-    """Try inputs until `count` of them or the time is through."""
+def try_kind(
+    kind: Kind, seed: int, *, first: int = 0, count: int | None, seconds: float, patience: float = 1.0
+) -> Report:
+    """Try inputs until `count` of them or the time is through; `patience`: how much longer each may take."""
     report = Report(kind)
     began = time.monotonic()
     number = first
@@ -52,13 +54,15 @@ def try_kind(kind: Kind, seed: int, *, first: int = 0, count: int | None, second
         last = number + kind.renewed_after
         if count is not None:
             last = min(last, first + count)
-        number = _stretch(kind, seed, number, last, began + seconds, report)
+        number = _stretch(kind, seed, number, last, began + seconds, patience, report)
     report.tried = number - first
     report.seconds = time.monotonic() - began
     return report
 
 
-def _stretch(kind: Kind, seed: int, first: int, last: int, until: float, report: Report) -> int:
+def _stretch(
+    kind: Kind, seed: int, first: int, last: int, until: float, patience: float, report: Report
+) -> int:
     """Try inputs in one process; return the number of the first that was not tried."""
     folder = Path(tempfile.mkdtemp(prefix="desire-fuzz-"))
     at = _SPAWN.Value("q", -1, lock=False)
@@ -73,7 +77,7 @@ def _stretch(kind: Kind, seed: int, first: int, last: int, until: float, report:
             now = time.monotonic()
             if at.value != seen:
                 seen, since = at.value, now
-            elif now - since > (kind.seconds_most if seen >= 0 else _START_SECONDS):
+            elif now - since > patience * (kind.seconds_most if seen >= 0 else _START_SECONDS):
                 report.add(max(seen, first), Fault(f"hang {_place(folder, child)}", _log(folder)))
                 return max(seen, first) + 1
             if now > until and seen >= 0:

@@ -29,7 +29,7 @@ d/dt x = v
 d/dt v = -x
 dispt x, v
 """
-PATIENCE_SECONDS = 50
+PATIENCE_SECONDS = 250
 _OURS = re.compile(rb"desire_tui/__main__\.py\", line \d+, in main")
 """In a traceback without this, Python itself was still starting: nobody can catch a signal there."""
 

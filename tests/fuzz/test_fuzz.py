@@ -12,6 +12,8 @@ from tests.fuzz.minimise import minimised
 from tests.fuzz.runner import SingleInputs, try_kind
 
 SEED = 1
+PATIENCE = 5.0
+"""On a busy machine everything takes longer; what hangs does so all the same."""
 OWN = Kind("test_fuzz", "inputs that say what is to happen", 3, 1, 1)
 
 
@@ -22,7 +24,7 @@ def _first(seed, number):
 @pytest.mark.parametrize("name", KINDS)
 def test_inputs_of_every_kind(name):
     kind = KINDS[name]
-    report = try_kind(kind, SEED, count=kind.in_suite, seconds=float("inf"))
+    report = try_kind(kind, SEED, count=kind.in_suite, seconds=float("inf"), patience=PATIENCE)
     assert report.tried == kind.in_suite
     assert not report.faults
 
