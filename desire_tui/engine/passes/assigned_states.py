@@ -90,33 +90,48 @@ def _assignments(segment: Segment) -> list[tuple[Assignment, bool]]:
     states = SlotSet()
     for given in segment.states:
         states.add(given.slot, given.count)
-    writers: list[tuple[Action, tuple[int, int]]] = []
+    written: tuple[SlotSet, SlotSet] | None = None
+    before, seen = SlotSet(), 0
     found: list[tuple[Assignment, bool]] = []
     for place, action in enumerate(segment.body):
         if not isinstance(action, Assignment) or not any(states.overlaps(*piece) for piece in writes(action)):
             continue
-        if not writers:
-            every = walk_actions(segment.body)
-            writers = [(writer, piece) for writer in every for piece in writes(writer)]
+        if (isinstance(action, SetVec) and action.mode == "add") or isinstance(action, SetMat):
+            continue
         own = SlotSet()
         for slot, count in writes(action):
             own.add(slot, count)
-        if (isinstance(action, SetVec) and action.mode == "add") or isinstance(action, SetMat):
-            continue
         if count_draws(*expressions(action)) or any(own.overlaps(*piece) for piece in reads(action)):
             continue
-        if any(other is not action and own.overlaps(*piece) for other, piece in writers):
+        written = written or _written(segment)
+        anywhere, repeatedly = written
+        if any(repeatedly.overlaps(*piece) for piece in writes(action)):
             continue
-        before = (piece for reader in walk_actions(segment.body[:place]) for piece in reads(reader))
-        early = any(own.overlaps(*piece) for piece in before)
-        if early and any(_overlap(read, piece) for read in reads(action) for _, piece in writers):
+        for reader in walk_actions(segment.body[seen:place]):
+            for slot, count in reads(reader):
+                before.add(slot, count)
+        seen = place
+        early = any(before.overlaps(*piece) for piece in writes(action))
+        if early and any(anywhere.overlaps(*piece) for piece in reads(action)):
             continue
         found.append((action, early))
     return found
 
 
-def _overlap(a: tuple[int, int], b: tuple[int, int]) -> bool:
-    return a[0] < b[0] + b[1] and b[0] < a[0] + a[1]
+def _written(segment: Segment) -> tuple[SlotSet, SlotSet]:
+    """Return what is written, and what is written by more than one statement.
+
+    Of two statements that overlap the later one stands in the second set as a whole: either overlaps it.
+    """
+    anywhere, repeatedly = SlotSet(), SlotSet()
+    for action in walk_actions(segment.body):
+        pieces = [*writes(action)]
+        for slot, count in pieces:
+            if anywhere.overlaps(slot, count):
+                repeatedly.add(slot, count)
+        for slot, count in pieces:
+            anywhere.add(slot, count)
+    return anywhere, repeatedly
 
 
 def _definition(action: Action) -> Action:
