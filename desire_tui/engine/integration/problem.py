@@ -116,6 +116,7 @@ class SolverProblem(ctypes.Structure):
         ("failed", _INT),  # steps tried again before the last restart
         ("suspect", _INT),  # state whose derivative was not finite; -1: none
         ("restarts", _INT),
+        ("fresh", _INT),  # steps since the last restart
         ("stuck", _INT),  # steps in a row that were too small to change t
         ("watch_steps", _INT),  # steps since chattering was last looked for, and t and failures then
         ("watch_t", _REAL),

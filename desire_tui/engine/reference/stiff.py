@@ -184,6 +184,7 @@ class StiffReferenceModel(ReferenceModel):
             self._follow()
             problem.suspect = problem.suspect if problem.stuck else -1
             flag, t = solver.step(t_next)
+            problem.fresh += 1
             if self._callbacks.failure is not None:
                 failure, self._callbacks.failure = self._callbacks.failure, None
                 raise failure
@@ -218,11 +219,13 @@ class StiffReferenceModel(ReferenceModel):
         self._solution()[:] = x
         if problem.started and t == problem.t and np.array_equal(x, self.system.last):
             return
+        size = problem.first_step
         if problem.started:
             problem.failed += self.system.solver.counts().failed
             problem.restarts += 1
-        self.system.solver.restart(t, 0.0 if problem.started else problem.first_step)
-        problem.started, problem.t = 1, t
+            size = 2.0 * self.system.solver.last_step if problem.fresh == 1 else 0.0
+        self.system.solver.restart(t, size)
+        problem.started, problem.t, problem.fresh = 1, t, 0
 
     def _states(self) -> Array:
         x = np.empty(self.order)

@@ -44,6 +44,7 @@ def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
         if problem.stuck == 0:
             problem.suspect = -1
         flag = take_step(problem, t_next)
+        problem.fresh += 1
         t: float = problem.reached[0]
         done = flag == TSTOP_RETURN or t >= t_next
         if done:
@@ -86,11 +87,13 @@ def synchronise(problem: SolverProblem) -> None:
     if going and t == problem.t and differ == 0:
         return
     problem.failed += failures(problem)  # the solver starts to count at 0
-    if going:  # no step size is left to trust: the solver looks for one
-        begin(problem, t, 0.0)
+    if going:
+        again = problem.fresh == 1  # a state is changed at each step: the step before is the best guess
+        begin(problem, t, 2.0 * last_size(problem) if again else 0.0)
         problem.restarts += 1
     else:
         begin(problem, t, problem.first_step)
+    problem.fresh = 0
     problem.started = 1
     problem.t = t
 
