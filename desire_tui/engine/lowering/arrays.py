@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.left_chains import signed_terms
-from desire_tui.engine.lowered.expressions import Op, Vec
+from desire_tui.engine.lowered.expressions import Op, Outer, Vec
 from desire_tui.engine.lowered.statements import DotTerm, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered.walk import walk_values
 from desire_tui.engine.lowering.products import array, matrix_vector, nonconformable, note_read
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
-from desire_tui.engine.lowering.targets import mark_array, mark_set, matrix, scalar_slot, vector
+from desire_tui.engine.lowering.targets import mark_array, mark_set, matrix, scalar_slot, states, vector
 from desire_tui.engine.nodes.expressions import Binary, Name, Number
 from desire_tui.engine.nodes.signs import unsigned
 
@@ -48,13 +49,18 @@ def vector_assign(builder: SegmentBuilder, node: VectorAssign) -> None:
 
 
 def vector_derivative(builder: SegmentBuilder, node: VectorDerivative) -> None:
-    """`Vectr d/dt x = v`. Error 101 for a second one."""
+    """`Vectr d/dt x = v`, `MAT d/dt S = sum` of a vector's or a matrix' states. Error 101 for a second one."""
     context = builder.context
-    quantity = _target(context, node)
+    quantity = states(context, node, node.name)
     if quantity is None:
+        context.lower(node.value, (UNKNOWN,))
         return
-    count = quantity.shape[0]
-    value = context.lower(node.value, (count,))
+    count = size_of(quantity)
+    value = context.lower(node.value, quantity.shape)
+    if count != UNKNOWN and any(isinstance(part, Outer) for part in walk_values(value)):
+        whole = context.scope.hidden(count)
+        builder.body.append(SetMat(whole, *quantity.shape, value, context.where(node)))
+        value = Vec(whole, count)
     if count != UNKNOWN:
         if builder.is_second_derivative(quantity.slot, count):
             context.report("state-twice", node, name=quantity.name)
@@ -63,7 +69,7 @@ def vector_derivative(builder: SegmentBuilder, node: VectorDerivative) -> None:
     builder.derivative(quantity.slot, count, value, context.where(node), array=True)
 
 
-def _target(context: LoweringContext, node: VectorAssign | VectorDerivative) -> Quantity | None:
+def _target(context: LoweringContext, node: VectorAssign) -> Quantity | None:
     """Return the vector that a statement assigns; None: there is none, its right side has been checked."""
     quantity = vector(context, node, node.name)
     if quantity is None:

@@ -18,7 +18,7 @@ from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
 from desire_tui.engine.lowering.expressions import ExpressionLowering
 from desire_tui.engine.lowering.jacobian import lower_jacobian
-from desire_tui.engine.lowering.scope import UNKNOWN
+from desire_tui.engine.lowering.scope import UNKNOWN, size_of
 from desire_tui.engine.lowering.states import StateTable
 from desire_tui.engine.lowering.submodels import expand
 from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
@@ -226,9 +226,9 @@ def _states(context: LoweringContext, lines: Sequence[Line]) -> StateTable:
         elif isinstance(node, VectorDerivative):
             context.enter(frame)
             quantity = context.quantity(node.name)
-            if quantity is not None and len(quantity.shape) == 1 and quantity.shape[0] != UNKNOWN:
+            if quantity is not None and quantity.shape and (count := size_of(quantity)) != UNKNOWN:
                 quantity.is_state = True
-                count, where = quantity.shape[0], context.where(node)
+                where = context.where(node)
                 found.append(StateRange(quantity.name, quantity.slot, len(found), count, where))
     return StateTable(found)
 

@@ -60,15 +60,20 @@ def mark_held(context: LoweringContext, target: Target) -> None:
 
 def vector(context: LoweringContext, node: Node, name: str) -> Quantity | None:
     """Return the one-dimensional REAL array to be assigned. Errors 70, 69, 75, 218."""
-    return _array(context, node, name, 1)
+    return _array(context, node, name, (1,))
 
 
 def matrix(context: LoweringContext, node: Node, name: str) -> Quantity | None:
     """Return the two-dimensional REAL array to be assigned. Errors 70, 69, 75, 218."""
-    return _array(context, node, name, 2)
+    return _array(context, node, name, (2,))
 
 
-def _array(context: LoweringContext, node: Node, name: str, rank: int) -> Quantity | None:
+def states(context: LoweringContext, node: Node, name: str) -> Quantity | None:
+    """Return the vector or matrix whose derivative is to be computed. Errors 70, 69, 75, 218."""
+    return _array(context, node, name, (1, 2))
+
+
+def _array(context: LoweringContext, node: Node, name: str, ranks: tuple[int, ...]) -> Quantity | None:
     place = Name(name, node.start, node.end)
     quantity = array(context, place, "not-an-array")
     if quantity is None:
@@ -76,8 +81,8 @@ def _array(context: LoweringContext, node: Node, name: str, rank: int) -> Quanti
     if quantity.kind is not Kind.REAL:
         context.report("not-real-target", place, name=quantity.name)
         return None
-    if len(quantity.shape) != rank:
-        key = "vector-target" if rank == 1 else "matrix-target"
+    if len(quantity.shape) not in ranks:
+        key = "vector-target" if 1 in ranks else "matrix-target"
         context.report(key, place, name=quantity.name, dimensions=len(quantity.shape))
         return None
     return quantity
