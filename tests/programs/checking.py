@@ -60,12 +60,17 @@ class ColumnFamily:
 
 
 class Names(dict[str, object]):
-    """What an expectation's names mean: columns of its run first, then final quantities, then functions."""
+    """What an expectation's names mean: columns of its run first, then final quantities, then words of our own."""
 
     def __init__(self, outcome: Outcome, run: RunRecord | None) -> None:
         super().__init__(FUNCTIONS)
-        self["runs"] = len(outcome.runs)
-        self["points"] = outcome.points
+        self.update(runs=len(outcome.runs), points=outcome.points)
+        if run is not None:
+            t = run.t
+            self.update(ended=run.ended, count=len(t), points=len(t), steps=run.steps, rejected=run.rejected)
+            self.update(calls=run.derivative_calls, jacobians=run.jacobian_calls)
+            self.update(least=run.dt_least, most=run.dt_most)
+            self.update(peak=lambda x: peak(x, t), at=lambda x, when: float(np.interp(when, t, x)))
         self.update(
             {name: Elements(v) if isinstance(v, np.ndarray) else v for name, v in outcome.quantities.items()}
         )
@@ -77,20 +82,7 @@ class Names(dict[str, object]):
                 self[family] = ColumnFamily(family, run)
         for column in run.columns:
             self[column.name] = run.values(column.name)
-        t = run.t
-        self.update(
-            t=t,
-            scale=run.scale,
-            ended=run.ended,
-            count=len(t),
-            points=len(t),
-            steps=run.steps,
-            rejected=run.rejected,
-        )
-        self.update(calls=run.derivative_calls, jacobians=run.jacobian_calls)
-        self.update(least=run.dt_least, most=run.dt_most)
-        self["peak"] = lambda x: peak(x, t)
-        self["at"] = lambda x, when: float(np.interp(when, t, x))
+        self.update(t=run.t, scale=run.scale)
 
 
 def check(expected: Check, outcome: Outcome) -> str | None:

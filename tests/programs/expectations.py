@@ -15,7 +15,7 @@
     --? reference TMAX = 1 | NN = 101      the slow reference back end runs with these values overridden
     --? compare 1e-4                       how far the two back ends may differ (relative; 1e-12 if not said)
 
-A number with six or more digits that stands alone on the right is met if it is met to half a unit of its last digit;
+The program's own names come before these words. A number with six or more digits that stands alone on the right is met if it is met to half a unit of its last digit;
 otherwise the tolerance is 1e-9 of it.
 """
 
