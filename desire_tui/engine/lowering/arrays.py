@@ -49,7 +49,7 @@ def vector_assign(builder: SegmentBuilder, node: VectorAssign) -> None:
 
 
 def vector_derivative(builder: SegmentBuilder, node: VectorDerivative) -> None:
-    """`Vectr d/dt x = v`, `MAT d/dt S = sum` of a vector's or a matrix' states. Error 101 for a second one."""
+    """`Vectr d/dt x = v`, and `MAT d/dt S = sum` of a whole matrix. Error 101 for a second one."""
     context = builder.context
     quantity = states(context, node, node.name)
     if quantity is None:
