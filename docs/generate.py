@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.commands import BY_ID
 from desire_tui.common.key_names import key_names
+from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.diagnostics.wording import all_wordings
 from desire_tui.engine.integration.rules import markdown_table
 from desire_tui.help.page_catalogue import topics
 from desire_tui.panes.example_catalogue import CHAPTERS, Example, examples
@@ -31,6 +33,14 @@ RULES_END = "<!-- end of the table of rules -->"
 GALLERY = """\
 {count} programs, one for every system of the book and more. Open them with F11 in the app, or by name:
 `desire examples/ch2/lorenz.src`. The `--?` lines say what they must show; a test holds them to it."""
+
+KINDS = """\
+### Errors and warnings
+
+A warning is legal but hardly meant, or says what a run took in place of a setting: it stops nothing, and
+`desire check` ends with status 0 if there are no others. An error stops a program when the statement or the
+segment that holds it is reached, error 1 at once. `compare` refuses what would be a warning elsewhere, as it
+would compare with another run."""
 
 DESKTOP = """\
 ![The desktop](pictures/main-160x50.svg)
@@ -65,7 +75,24 @@ def errors() -> str:
     """All messages by number."""
     pages = [page for page in topics().values() if page.kind == "error"]
     intro = "Numbers below 400 are Desire's own. `…` stands for what the message fills in."
-    return "\n\n".join(["# Errors", NOTE, intro, *(_section(page) for page in pages)]) + "\n"
+    sections = [_section(page) for page in pages]
+    return "\n\n".join(["# Errors", NOTE, intro, *sections, KINDS, _kinds_of_problems()]) + "\n"
+
+
+def _kinds_of_problems() -> str:
+    """Return the table of all messages, each an error or a warning; notes at second places are neither."""
+    every = sorted(
+        (wording.code, wording.warning, key) for key, wording in all_wordings().items() if wording.code
+    )
+    rows = [
+        f"| {code} | {'**warning**' if warning else 'error'} | {_cell(Diagnostic(key).message)} |"
+        for code, warning, key in every
+    ]
+    return "\n".join(["| number | | message |", "| --- | --- | --- |", *rows])
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "&#124;")
 
 
 def _section(page: Topic) -> str:

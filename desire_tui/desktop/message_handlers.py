@@ -7,8 +7,9 @@ from functools import singledispatchmethod
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
-from desire_tui.commands import BY_WORD
+from desire_tui.commands import BY_ID, BY_WORD
 from desire_tui.common.dialogs import Choice
+from desire_tui.common.key_names import key_names
 from desire_tui.common.problem_marks import mark_of
 from desire_tui.desktop import engine_messages
 from desire_tui.desktop.engine_thread import STOPPED_BY_USER
@@ -21,6 +22,12 @@ if TYPE_CHECKING:
 
 FIRST_SAMPLE_S = 0.003
 """A run's first sample mostly comes sooner: it is drawn together with the graph's frame."""
+
+
+def numbers(problems: Sequence[Diagnostic]) -> str:
+    """Return how many errors and how many warnings these are: `2 errors, 1 warning`."""
+    counts = [(sum(p.severity == kind for p in problems), kind) for kind in ("error", "warning")]
+    return ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for count, kind in counts if count)
 
 
 class MessageHandlers(Controller):
@@ -72,6 +79,10 @@ class MessageHandlers(Controller):
         if area is not None:
             self.app.editor.set_problems(area, message.problems)
             self.app.list_problems()
+        if message.problems:
+            command = BY_ID["edit.next_problem"]
+            keys = key_names(self.app.settings.keys.get(command.id, command.keys))
+            self.app.command.console.add(f"{numbers(message.problems)}: {keys} goes from one to the next")
 
     @handle.register
     def _run_started(self, message: engine_messages.RunStarted) -> None:

@@ -118,6 +118,14 @@ async def test_problems_show_while_typing_and_f8_goes_to_them(program):
         assert area.marks.problems[8][0].message in str(desk.app.editor.query_one("#problem").content)
 
 
+async def test_a_run_begins_by_saying_how_many_problems_the_program_has(program):
+    text = "if 1 > 2 then x = nowhere | go to no_place | proceed\nwrite 'done'\nDYNAMIC\nlabel a\nx = 1\nlabel a\nx = 2\n"
+    async with desktop(program(text)) as desk:
+        await desk.press("f5")
+        await desk.until(lambda: "2 errors, 1 warning: F8 goes from one to the next\n" in desk.output)
+        await desk.until(lambda: "done" in desk.output)
+
+
 async def test_stop_and_go(program):
     async with desktop(program("x = 1\nSTOP\nwrite 'went on'\n")) as desk:
         await desk.line("zz")

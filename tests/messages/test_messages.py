@@ -126,8 +126,8 @@ SPEAKERS = {"parse": messages_of_parse, "check": messages_of_check, "run": messa
 
 
 @cache
-def spoken(path: Path) -> tuple[str, frozenset[str]]:
-    """Return what the user sees for a golden file's program, and the keys of all messages and notes in it."""
+def spoken(path: Path) -> tuple[str, frozenset[str], frozenset[tuple[str, str]]]:
+    """Return what the user sees for a golden file's program, the keys of all messages and notes, problems' severities."""
     parts = sections(path.read_text("utf-8"))
     source = Source(parts["program"].removesuffix("\n"), "program.src")
     with TemporaryDirectory() as name:
@@ -142,13 +142,14 @@ def spoken(path: Path) -> tuple[str, frozenset[str]]:
         problem = rest.pop()
         keys.add(problem.key)
         rest.extend(problem.related)
-    return (f"{shown}\n" if shown else ""), frozenset(keys)
+    severities = frozenset((problem.key, problem.severity) for problem in problems)
+    return (f"{shown}\n" if shown else ""), frozenset(keys), severities
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_message(path: Path) -> None:
     text = path.read_text("utf-8")
-    shown, _ = spoken(path)
+    shown, _, _ = spoken(path)
     if os.environ.get("UPDATE_MESSAGES"):
         head = text[: text.index("===== messages\n") + len("===== messages\n")]
         path.write_text(head + shown, "utf-8")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.diagnostics.wording import all_wordings
 from tests.messages.test_messages import FILES, spoken
 
@@ -58,6 +59,7 @@ def test_sentence(key: str) -> None:
     assert wording.code > 0 or wording.message.endswith("here"), "only a second place needs no number"
     assert wording.message
     assert not wording.message.endswith("."), "one sentence, no full stop"
+    assert Diagnostic(key).message, "it can be said without facts, as summaries do"
     assert not re.search(r"\b(illegal|invalid)\b", wording.message), "say what is wrong, not that it is"
 
 
@@ -67,6 +69,15 @@ def test_every_message_is_produced_by_a_golden_file() -> None:
     assert not sorted(known - produced - ELSEWHERE.keys()), "worded, but no file shows it"
     assert not sorted(ELSEWHERE.keys() & produced), "a file shows it: no need for another test"
     assert ELSEWHERE.keys() <= known
+
+
+def test_a_problem_is_a_warning_where_its_wording_says_so() -> None:
+    """`compare` takes warnings about settings for errors: it would compare with another run."""
+    found = frozenset[tuple[str, str]]().union(*(spoken(path)[2] for path in FILES if path.stem != "compare"))
+    wrong = [
+        (key, severity) for key, severity in found if (severity == "warning") != all_wordings()[key].warning
+    ]
+    assert not wrong
 
 
 @pytest.mark.parametrize("key", sorted(ELSEWHERE))

@@ -97,8 +97,17 @@ def _visible(sentence: str) -> str:
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in sentence)
 
 
+class _Missing(str):
+    """`…`, whatever the form in which it is asked for."""
+
+    __slots__ = ()
+
+    def __format__(self, form: str) -> str:
+        return str(self)
+
+
 class _Facts(dict[str, object]):
     """Facts that never make formatting fail: a missing one shows as `…`."""
 
     def __missing__(self, key: str) -> str:
-        return "…"
+        return _Missing("…")

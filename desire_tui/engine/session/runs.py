@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.diagnostics import DesireError, internal_error
+from desire_tui.engine.diagnostics import DesireError, Diagnostic, internal_error
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
 
-    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Placed, Program
@@ -57,6 +56,7 @@ class Runs:
         self.start: Checkpoint | None = None
         """Where the last run began, unless the model is large."""
         self._gaps: set[Span | None] = set()  # places of the variables that have been warned of since then
+        self._not_stashed = False  # whether the last run of a segment with `stash` was made by `drun *`
         self.run_of: tuple[str, int] | None = None
         """The last run's program text, and `Values.generation` then."""
 
@@ -82,7 +82,13 @@ class Runs:
             raise error.placed(placed.span(), workspace.source_of(placed)) from None
         if segment.recover:
             path = workspace.stash_path("read", self._listener.permit)
+            recovered = segment.recover[0].where.span
             segment = workspace.segments.recovering(segment, path)
+            if self._not_stashed:
+                problem = Diagnostic(
+                    "stash-of-an-earlier-run", recovered, source=segment.source, severity="warning"
+                )
+                self._listener.problems((problem,))
         stash = workspace.stash_path("write", self._listener.permit) if segment.stash and not star else None
         start = self._checkpoint()
         plan = self.simulator.defaults.plan(segment, rule, workspace.source_of(placed), placed.span())
@@ -127,6 +133,8 @@ class Runs:
             self._listener.problems(problems)
         if not finished:
             raise Interrupted
+        if segment.stash:
+            self._not_stashed = star
         if stash is not None:
             self._stash(stash, segment, record)
 
@@ -184,6 +192,7 @@ class Runs:
         self.kept.clear()
         self._gaps.clear()
         self._graphs.limit_memory()
+        self._not_stashed = False
         self.start = self.run_of = None
         self.count = self._bytes = 0
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Wording:
-    """Error number, sentence, hint and the explanation shown on the help page."""
+    """Error number, sentence, hint, the help page's explanation; `warning`: it stops no program."""
 
     code: int
     message: str
     hint: str = ""
     explanation: str = ""
+    warning: bool = False

@@ -43,6 +43,7 @@ MESSAGES: dict[str, Wording] = {
         "A warning: the run goes on with what holds where the setting was never made. Settings never made"
         " read as 0, so that `DT = TMAX/(NN - 1)` in front of `NN = …` gives such a DT. A step that becomes 0"
         " or less *while a run goes on* is an error.",
+        warning=True,
     ),
     "setting-not-finite": Wording(
         87, "{name} = {value:g} is no number for a run", "set {name} above 0, or leave it out"
@@ -67,6 +68,7 @@ MESSAGES: dict[str, Wording] = {
         "rule {rule} needs an error bound, but ERMAX is not set: a run takes {taken:g}",
         "set it before drun, for instance ERMAX = 1.0E-06",
         "This is a warning. 0.001 is coarse for most models.",
+        warning=True,
     ),
     "checkn-out-of-range": Wording(
         93,
@@ -104,6 +106,7 @@ MESSAGES: dict[str, Wording] = {
         "test the divisor or the argument, if the gap is not meant",
         "A warning, given once. No derivative and no variable that keeps its value from pass to pass depends"
         " on such a number: its samples say nan or inf, the curve is interrupted, and the run goes on.",
+        warning=True,
     ),
     "row-not-chosen": Wording(
         124,
@@ -147,6 +150,12 @@ MESSAGES: dict[str, Wording] = {
     ),
     "stash-missing": Wording(
         92, "there is no stash file {path}", "a run with a `stash` line writes it (but not `drun *`)"
+    ),
+    "stash-of-an-earlier-run": Wording(
+        92,
+        "what is recovered was stashed before the last run of that segment: `drun *` writes no stash file",
+        "stash it by `drun`",
+        warning=True,
     ),
     "stash-unreadable": Wording(92, "{path} is no stash file", "a run with a `stash` line writes a new one"),
     "stash-narrow": Wording(

@@ -77,16 +77,19 @@ MESSAGES: dict[str, Wording] = {
         462,
         "J[{row},{column}] is {given:.6g} but the derivative of d/dt {state} by {by} is {found:.6g} here",
         "states count in the order of their d/dt lines; rule 15 needs no JACOBIAN",
+        warning=True,
     ),
     "jacobian-differs": Wording(
         462,
         "J[{row},{column}] is {given:.6g} but the derivative of d/dt {state} by {by} is {exact:.6g}"
         " at {place}",
         "states count in the order of their d/dt lines; without JACOBIAN rule 14 finds its elements itself",
+        warning=True,
     ),
     "jacobian-not-diagonal": Wording(
         463,
         "rule {rule} keeps only the Jacobian's diagonal, but it is far from diagonal: results may be wrong",
         "use rule {better}, or compare with it",
+        warning=True,
     ),
 }

@@ -51,7 +51,7 @@ _SENTENCES: dict[str, Wording] = {
     "statement-end": Wording(33, "the statement should end before '{text}'", "separate statements by |"),
     "statement-cut": Wording(33, "the statement is not complete: '{wanted}' is missing", "add what follows"),
     "continuation-missing": Wording(
-        33, "no row follows that the '_' could join", "remove it, or add the rest of the line"
+        33, "no row follows that the '_' could join", "remove it, or add the rest of the line", warning=True
     ),
     "strange-character": Wording(
         33, "the character '{char}' means nothing here", "remove it, or quote the text"
@@ -117,12 +117,13 @@ _SENTENCES: dict[str, Wording] = {
     "no-such-label": Wording(68, "there is no label '{name}' in the script", "set one with: label NAME"),
     "label-twice": Wording(79, "the label '{name}' is set twice", "choose another name"),
     "segment-label-twice": Wording(
-        79, "this segment never runs: '{name}' labels an earlier one", "choose another name"
+        79, "this segment never runs: '{name}' labels an earlier one", "choose another name", warning=True
     ),
     "segment-label-in-script": Wording(
         79,
         "'{name}' labels this segment and a place in the script",
         "drun {name} runs the segment, go to {name} jumps: two names would be clearer",
+        warning=True,
     ),
     "first-label": Wording(79, "the first one is here"),
     "jump-inside": Wording(82, "'go to {name}' would jump into a block", "jump to its beginning instead"),

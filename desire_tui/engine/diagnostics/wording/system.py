@@ -18,16 +18,19 @@ MESSAGES: dict[str, Wording] = {
         474,
         "internal error while fast code was made: {reason}",
         "the numbers are right, runs take longer; please report it, with the program that shows it",
+        warning=True,
     ),
     "check-incomplete": Wording(
         476,
         "checked up to line {line} only: the text takes too long to check while you type",
         "the run, and `desire check`, look at all of it",
+        warning=True,
     ),
     "check-too-long": Wording(
         476,
         "not checked while you type: the text has more than {most} characters",
         "the run, and `desire check`, look at all of it",
+        warning=True,
     ),
     "no-program": Wording(215, "there is no program to run", "type one into an editor tab, or load one"),
     "no-dynamic-segment": Wording(
@@ -49,7 +52,9 @@ MESSAGES: dict[str, Wording] = {
         "the notebook {path} cannot be written any more ({reason}): it is off",
         "notebook 'other.md' begins another",
     ),
-    "notebook-vanished": Wording(473, "the notebook {path} was removed: a new one begins in its place"),
+    "notebook-vanished": Wording(
+        473, "the notebook {path} was removed: a new one begins in its place", warning=True
+    ),
     "picture-kind": Wording(34, "cannot draw {path}", "end the name with .png, .svg or .pdf"),
     "no-graph": Wording(471, "there is no graph yet", "run a program with dispt, dispxy or DISPXY first"),
     "no-run": Wording(472, "there is no run yet", "start one with zz or drun"),
@@ -94,7 +99,7 @@ MESSAGES: dict[str, Wording] = {
         "if you trust it: desire run --allow-write (for reading, too)",
     ),
     "errors-not-reached": Wording(
-        412, "{count} error(s) stand where the program did not come", "desire check lists them"
+        412, "{count} error(s) stand where the program did not come", "desire check lists them", warning=True
     ),
     "time-limit": Wording(490, "stopped after {seconds:g} second(s), the limit given"),
 }
