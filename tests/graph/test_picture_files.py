@@ -14,6 +14,7 @@ from desire_tui.engine.outputs.matplotlib_figure import picture_of
 from desire_tui.engine.outputs.picture_files import write_picture
 from desire_tui.engine.outputs.picture_options import PictureOptions
 from tests.graph.graphing import displayed, page_of, record_of
+from tests.runtime.running import session_for
 
 T = np.linspace(0, 1, 200)
 
@@ -141,6 +142,22 @@ def test_points_and_pictures(tmp_path):
     pages.show("A", np.linspace(-1, 1, 64), 8, 1.0)
     image = pixels(pages.current, tmp_path)
     assert len(np.unique(image[:, :, 0])) > 30  # a wedge of greys
+
+
+def test_arrays_shown_beside_curves(tmp_path):
+    text = """\
+ARRAY A[1,64] | for i = 1 to 64 | A[1,i] = (i - 32)/32 | next
+display N10 | TMAX = 1 | NN = 11 | drun
+DYNAMIC
+d/dt x = 1
+SHOW A, 8
+dispt x
+"""
+    image = pixels(session_for(text).graph, tmp_path)
+    _, curve = where(image[:680], rgb(10))
+    assert len(curve)
+    grey = image[:680, curve.max() + 10 :]
+    assert len(np.unique(grey[:, :, 0])) > 30  # a wedge of greys, right of the curve
 
 
 def test_a_map_of_fifty_thousand_points(tmp_path):

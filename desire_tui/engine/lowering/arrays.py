@@ -59,7 +59,8 @@ def vector_derivative(builder: SegmentBuilder, node: VectorDerivative) -> None:
     value = context.lower(node.value, quantity.shape)
     if count != UNKNOWN and any(isinstance(part, Outer) for part in walk_values(value)):
         whole = context.scope.hidden(count)
-        builder.body.append(SetMat(whole, *quantity.shape, value, context.where(node)))
+        rows, columns = quantity.shape
+        builder.body.append(SetMat(whole, rows, columns, value, context.where(node)))
         value = Vec(whole, count)
     if count != UNKNOWN:
         if builder.is_second_derivative(quantity.slot, count):

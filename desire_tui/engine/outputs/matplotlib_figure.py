@@ -79,10 +79,15 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
     ground = _tint(WHITE if graph.white else BLACK, graph)
     ink = _tint(BLACK if graph.white else 7, graph)
     figure = Figure(figsize=inches, facecolor=ground, layout="constrained")
+    shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
     if graph.frame.kind == "picture":
-        _draw_arrays(figure, graph, ink)
+        _draw_arrays(shown, [figure.add_subplot(1, len(shown), n + 1) for n in range(len(shown))], ink)
         return figure
     axes = figure.add_subplot()
+    if shown:  # beside the curves
+        columns = figure.add_gridspec(1, 1 + len(shown), width_ratios=[2 * len(shown), *[1] * len(shown)])
+        axes.set_subplotspec(columns[0])
+        _draw_arrays(shown, [figure.add_subplot(columns[n + 1]) for n in range(len(shown))], ink)
     axes.set_facecolor(ground)
     extent = Extent(graph)
     extent.update()
@@ -194,10 +199,8 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
         text.set_color(ink)
 
 
-def _draw_arrays(figure: Figure, graph: Graph, ink: Tint) -> None:
-    shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
-    for number, (array, values) in enumerate(shown, 1):
-        axes = figure.add_subplot(1, len(shown), number)
+def _draw_arrays(shown: list[tuple[ShownArray, Floats]], places: list[Axes], ink: Tint) -> None:
+    for (array, values), axes in zip(shown, places, strict=True):
         if array.by_size:
             _draw_squares(axes, array, values)
         else:
