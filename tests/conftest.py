@@ -9,6 +9,7 @@ import gc
 import os
 import tempfile
 
+import pytest
 from hypothesis import settings
 
 os.environ["XDG_STATE_HOME"] = tempfile.mkdtemp(
@@ -32,6 +33,14 @@ def pytest_sessionfinish() -> None:
     """
     gc.collect()
     gc.freeze()
+
+
+@pytest.fixture
+def quick_code_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """For runs that are over before fast code comes: none is made that nobody runs."""
+    from desire_tui.engine.codegen.jit.background import Improver
+
+    monkeypatch.setattr(Improver, "add", lambda _self, _work: None)
 
 
 settings.register_profile("repeatable", deadline=None, derandomize=True, database=None)

@@ -97,7 +97,7 @@ dispt x, v
 @pytest.mark.parametrize("theme", themes.NAMES)
 async def test_every_text_on_the_screen_can_be_read(program, theme: str):
     found: dict[tuple[str, str], str] = {}
-    async with desktop(program(PROGRAM), size=(160, 50)) as desk:
+    async with desktop(program(PROGRAM), size=(120, 40)) as desk:
 
         async def look(where: str) -> None:
             await desk.pilot.pause()

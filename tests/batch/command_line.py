@@ -30,7 +30,7 @@ def desire_process(*args: object, text_in: str = "", **options: Any) -> tuple[in
     """Run the command as a user does; returns status, stdout, stderr."""
     done = subprocess.run(
         [sys.executable, "-m", "desire_tui", *map(str, args)], input=text_in, capture_output=True, text=True,
-        timeout=60, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)}, **options,
+        timeout=300, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)}, **options,
     )  # fmt: skip
     assert "Traceback" not in done.stderr, done.stderr
     return done.returncode, done.stdout, done.stderr

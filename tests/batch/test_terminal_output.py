@@ -50,7 +50,7 @@ def on_terminal(*args: str, cwd: Path, answer: str = "3") -> str:
             output += piece
     except OSError:  # the other end is closed
         pass
-    process.wait(60)
+    process.wait(300)
     os.close(ours)
     return output.decode()
 

@@ -10,7 +10,6 @@ import pytest
 
 from desire_tui.engine.codegen import native_model
 from desire_tui.engine.codegen.backend import NativeBackend
-from desire_tui.engine.codegen.jit import background
 from desire_tui.engine.reference.backend import ReferenceBackend
 from desire_tui.engine.runtime.run_memory import Ended, RunMemory
 from desire_tui.engine.session.session import Session
@@ -43,9 +42,8 @@ def run(text, backend="native"):
 
 
 @pytest.fixture(params=["quick", "arrays", "registers"])
-def storage(request, monkeypatch):
+def storage(request, monkeypatch, quick_code_only):
     """Which code tests run: as compiled first, well compiled as for large models, or out of registers."""
-    monkeypatch.setattr(background.Improver, "add", lambda _self, _work: None)
     if request.param == "arrays":
         monkeypatch.setattr(native_model, "SMALL", -1)
     return request.param

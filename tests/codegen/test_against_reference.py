@@ -1,10 +1,13 @@
 """Random statements give the same on the native and the reference back end."""
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.codegen.conftest import run
+
+pytestmark = pytest.mark.usefixtures("quick_code_only")
 
 FUNCTIONS = (
     "sin", "cos", "atan", "tanh", "abs", "lim", "sat", "SAT", "deadz", "deadc", "swtch", "sgn", "rect", "tri", "sinc",

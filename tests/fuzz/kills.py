@@ -124,7 +124,7 @@ def _restored(folder: Path, name: str, newest: int) -> None:
     """Start again: the work is offered, and restored it is on the screen."""
     from tests.app.test_terminal import Terminal
 
-    desktop = Terminal(folder, name, columns=900)  # the whole line is seen
+    desktop = Terminal(folder, name, rows=16, columns=900)  # the whole line is seen
     try:
         desktop.until(lambda: "Unsaved work found" in desktop.text)
         desktop.answer("r", "Unsaved work found")
