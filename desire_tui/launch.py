@@ -41,11 +41,14 @@ def open_desktop(files: tuple[str, ...], *, allow_shell: bool = False, allow_wri
         app = DesireApp([Path(file) for file in files])
         if is_served():
             app.limit_to_visitors(Path.cwd(), allow_shell=allow_shell, allow_write=allow_write)
-        status = app.run()
+        app.run()
+    from desire_tui.desktop import forced_end
     from desire_tui.engine.session.process_groups import end_all
 
     end_all()
-    sys.exit(status)
+    if forced_end.is_begun():  # Python's own way to end writes to a terminal that may have gone, and aborts
+        os._exit(app.return_code or 0)
+    sys.exit(app.return_code)
 
 
 def _speak_utf8() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter.host import Interrupted
@@ -40,6 +41,8 @@ class HeadlessListener(Listener):
         self.warnings: list[Diagnostic] = []
         self.reading = threading.Event()
         """Set while standard input is being read: nothing can interrupt the thread there."""
+        self.lost: OSError | None = None
+        """Why nobody can be told anything any more, such as a closed pipe."""
 
     @property
     def console(self) -> str:
@@ -51,7 +54,8 @@ class HeadlessListener(Listener):
         if self._size < CONSOLE_CHARACTERS_MAX:
             self._parts.append(text)
             self._size += len(text)
-        self._show(text)
+        with self._noticing_loss():
+            self._show(text)
 
     def ask(self, prompt: str) -> str:
         """Show the prompt, take the next line."""
@@ -75,4 +79,13 @@ class HeadlessListener(Listener):
     def problems(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Show warnings as they come."""
         self.warnings.extend(diagnostics)
-        self._show_problems(diagnostics)
+        with self._noticing_loss():
+            self._show_problems(diagnostics)
+
+    @contextmanager
+    def _noticing_loss(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            self.lost = error
+            raise

@@ -102,8 +102,13 @@ class Runner:
         if threading.current_thread() is not threading.main_thread():
             yield
             return
-        before = {number: signal.signal(number, _leave) for number in (signal.SIGTERM, signal.SIGHUP)}
-        before[signal.SIGINT] = signal.signal(signal.SIGINT, lambda *_: self._interrupted.set())
+        handlers: dict[int, Any] = {signal.SIGTERM: _leave, signal.SIGHUP: _leave}
+        handlers[signal.SIGINT] = lambda *_: self._interrupted.set()
+        before = {
+            number: signal.signal(number, handler)
+            for number, handler in handlers.items()
+            if signal.getsignal(number) != signal.SIG_IGN  # `nohup`; a shell's jobs in the background
+        }
         try:
             yield
         finally:
@@ -139,7 +144,10 @@ class Runner:
             ended = any(d.code == _USER_ENDED for d in error.diagnostics)
             self.status = "limit" if ended or self.status == "limit" else "failed"
         except Exception as error:  # noqa: BLE001 - a fault of ours is a result too
-            self.failed("the program ran", error)
+            if error is self._listener.lost:  # the reader of the output has left
+                self._crash = error
+            else:
+                self.failed("the program ran", error)
         except BaseException as error:  # noqa: BLE001 - Ctrl-C while modules are loaded: raised on the main thread
             self._crash = error
 

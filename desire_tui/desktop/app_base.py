@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from textual.driver import Driver
     from textual.message import Message
     from textual.notifications import SeverityLevel
     from textual.widget import Widget
@@ -62,6 +63,15 @@ class AppBase(App[None]):
         )
         self.key_ordering = KeyOrdering(self)
         self.reach = Reach()
+
+    def get_driver_class(self) -> type[Driver]:
+        """Return what speaks to the terminal, or the browser."""
+        chosen = super().get_driver_class()
+        if chosen.__name__ == "LinuxDriver":  # its module is there, on every system that has terminals
+            from desire_tui.desktop.terminal_driver import TerminalDriver
+
+            return TerminalDriver
+        return chosen
 
     @property
     def session(self) -> Session:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import signal
 import threading
 import traceback
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.common import paths
-from desire_tui.desktop import fault_barrier
+from desire_tui.desktop import fault_barrier, forced_end
 from desire_tui.desktop.app_base import AppBase
 from desire_tui.desktop.engine_messages import EngineFault
 from desire_tui.editor import recovery
@@ -69,8 +70,15 @@ class LastingApp(AppBase):
     def listen_to_signals(self) -> None:
         """End well when another process asks for it."""
         if threading.current_thread() is threading.main_thread():
+            loop = asyncio.get_running_loop()
+
+            def asked(*_: object) -> None:  # at once, even while a handler of ours waits or computes
+                forced_end.end_soon(self.checkpoints.checkpoint)
+                with contextlib.suppress(RuntimeError):  # the loop is over: the process is about to end
+                    loop.call_soon_threadsafe(self._ended_from_outside)
+
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-                asyncio.get_running_loop().add_signal_handler(number, self._ended_from_outside)
+                signal.signal(number, asked)
 
     def _ended_from_outside(self) -> None:
         """End at a signal or a lost connection: the work is kept, the terminal restored."""

@@ -28,6 +28,7 @@ RESET = b"".join(
 _WELL = b"."
 QUIET_S = 2.0
 """The watchdog gets ready when the desktop has started."""
+PATIENCE_S = 10
 
 
 @contextmanager
@@ -70,8 +71,10 @@ def _wait(reading: int, owner: int, modes: list[Any]) -> NoReturn:
 
 def _restore(kept: Path, modes: list[Any]) -> None:
     """Write all at once: the shell is about to write its prompt."""
+    import signal
     import termios
 
+    signal.alarm(PATIENCE_S)  # a terminal that takes nothing is not waited for until it goes
     where = f" Unsaved work is kept in {kept}; the next start offers it." if kept.exists() else ""
     with suppress(termios.error):
         termios.tcsetattr(sys.stdout.fileno(), termios.TCSANOW, modes)

@@ -87,9 +87,7 @@ def _edited(app: App[None], words: list[str], area: CodeArea) -> str:
 def _interrupts_left_to_the_editor() -> Iterator[None]:
     """Ctrl+C in the editor reaches this process too and must not end it."""
     before = signal.signal(signal.SIGINT, lambda *_: None)  # a handler, unlike SIG_IGN, is not inherited
-    wakeup = signal.set_wakeup_fd(-1)  # by it the event loop hears of signals, whoever handles them
     try:
         yield
     finally:
-        signal.set_wakeup_fd(wakeup)
         signal.signal(signal.SIGINT, before)

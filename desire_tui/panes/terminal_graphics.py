@@ -73,7 +73,13 @@ def _read(terminal: int) -> bytes:
     answer, until = b"", monotonic() + WAIT_S
     while (left := until - monotonic()) > 0 and not _SAYS_ATTRIBUTES.search(answer):
         if select([terminal], [], [], left)[0]:
-            answer += os.read(terminal, 4096)
+            try:
+                data = os.read(terminal, 4096)
+            except OSError:
+                data = b""
+            if not data:  # it has gone
+                break
+            answer += data
     return answer
 
 

@@ -487,8 +487,22 @@ def test_a_reader_that_leaves(tmp_path):
         f"{sys.executable} -m desire_tui run {path} | head -n 1", shell=True, capture_output=True, text=True,
         timeout=300, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
-    assert done.stdout == "1\n"
-    assert "Traceback" not in done.stderr
+    assert (done.stdout, done.stderr) == ("1\n", "")
+
+
+@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGINT])
+def test_a_signal_that_the_one_who_started_it_ignores_is_ignored(tmp_path, number):
+    path = tmp_path / "nohup.src"
+    path.write_text("write 'started'\ninput x\nwrite x\n")
+    with subprocess.Popen(
+        ["sh", "-c", f"trap '' {number.name[3:]}; exec {sys.executable} -m desire_tui run {path}"],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    ) as child:  # fmt: skip
+        assert child.stdout is not None
+        assert child.stdout.readline() == "started\n"
+        child.send_signal(number)
+        assert child.communicate("3\n", timeout=60)[0].endswith("3\n")
+    assert child.returncode == 0
 
 
 def test_check(tmp_path):
