@@ -16,7 +16,7 @@ from unittest.mock import patch
 import numpy as np
 
 from desire_tui.engine.lowered.expressions import MatVec, Op
-from desire_tui.engine.reference import python_source
+from desire_tui.engine.reference import learning, python_source
 from desire_tui.engine.reference.expressions import ExpressionClosures
 from desire_tui.engine.reference.model import ReferenceModel
 from desire_tui.engine.reference.stiff import StiffReferenceModel
@@ -33,10 +33,14 @@ INEXACT = frozenset(
 
 @contextmanager
 def other_roundings(seed: int) -> Iterator[None]:
-    """Move each result of an inexact function, each product of a matrix and each derivative to a neighbour, or not."""
+    """Move each result of an inexact function, each matrix of a product and each derivative to a neighbour, or not.
+
+    A product whose sums cancel moves by far more than its last bit, as it does where sums are added in another order.
+    """
     random = np.random.default_rng(seed)
     make_pass, derivatives = ReferenceModel._pass, StiffReferenceModel.derivatives
     build, write = ExpressionClosures._build, python_source._Expression._build
+    learn_components = learning._learn_components
 
     def rounded(x: Any) -> Any:
         return x * (1.0 + ROUNDING * random.integers(-1, 2, np.shape(x)))
@@ -52,8 +56,14 @@ def other_roundings(seed: int) -> Iterator[None]:
 
     def rounded_values(self, value):
         made = build(self, value)
-        inexact = isinstance(value, MatVec) or (isinstance(value, Op) and value.name in INEXACT)
-        return (lambda: rounded(made())) if inexact else made
+        if isinstance(value, MatVec):
+            matrix, operand = made.func.__self__, made.args[0]
+            return lambda: rounded(matrix).dot(operand)
+        return (lambda: rounded(made())) if isinstance(value, Op) and value.name in INEXACT else made
+
+    def rounded_components(out, weights, x, rate):
+        weights[:] = rounded(weights)
+        learn_components(out, weights, x, rate)
 
     def closures_instead(self, value, depth):
         if isinstance(value, Op) and value.name in INEXACT:
@@ -65,5 +75,6 @@ def other_roundings(seed: int) -> Iterator[None]:
         patch.object(StiffReferenceModel, "derivatives", rounded_derivatives),
         patch.object(ExpressionClosures, "_build", rounded_values),
         patch.object(python_source._Expression, "_build", closures_instead),
+        patch.object(learning, "_learn_components", rounded_components),
     ):
         yield
