@@ -1,26 +1,32 @@
 """`kill -9` at random moments to the desktop in a terminal, while somebody types, saves and runs.
 
-What stood on the screen a moment before must be in the file or in what the next start offers to restore, and the
-file must be the old or a saved text, whole.
+What stood in the editor a moment before must be in the file or in what the next start offers to restore, and the
+file must be the old or a saved text, whole. A desktop is a fork of the process that tries inputs, which has
+imported everything: no time goes into starting Python.
 """
 
 from __future__ import annotations
 
-import contextlib
+import fcntl
 import json
+import os
+import pty
 import re
 import shutil
 import signal
+import struct
+import sys
+import termios
 import time
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from select import select
+from typing import TYPE_CHECKING, NoReturn
+from unittest.mock import patch
+from zlib import crc32
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from random import Random
-
-    from tests.app.test_terminal import Terminal
 
 OLD = """\
 TMAX = 2E6 | DT = 0.001 | NN = 200001
@@ -31,78 +37,131 @@ d/dt x = v
 d/dt v = -x
 dispt x, v
 """
-LOST_SECONDS = 1.0
-"""So much typing may be lost, by the desktop's own clock."""
-WRITING_SECONDS = 1.0
-"""A checkpoint takes a while to be on the disk."""
+BEAT_SECONDS = 0.05
+"""So often the desktop notes what stands in its editor. It is late where the machine has much to do, as checkpoints are."""
+LOST_BEATS = 30
+"""A second of typing may be lost; the thread that writes takes its time."""
+ACTIONS_EACH_BEAT = 3
+RESTORED_EVERY = 8
+"""After one kill in so many somebody starts again and restores the work."""
+PATIENCE_SECONDS = 100.0
 EDITOR, TOP, F5, CTRL_S = "\x1b[<0;30;4M\x1b[<0;30;4m", "\x1b[1;5H", "\x1b[15~", "\x13"
 _WORD = re.compile(r"\bn(\d{4})\b")
 _TYPED = re.compile(r"(-- (n\d{4} )*(n\d{0,4})?|-?-?)\Z")
 
 
 def generate(rng: Random) -> list[str]:
-    """Return what is done every 50 ms: a word typed, a pause, a save or a run; then comes the signal."""
-    actions = ["word", *rng.choices(("word", "pause", "save"), (20, 3, 0.7), k=rng.randint(1, 80))]
+    """Return what is done about every 20 ms: a word typed, a pause, a save or a run; then comes the signal."""
+    actions = ["word", *rng.choices(("word", "pause", "save"), (20, 10, 0.7), k=rng.randint(1, 150))]
     if rng.random() < 0.4:  # the keys belong to the graph or the console afterwards
         actions += ["run", *["pause"] * rng.randint(0, 30)]
     return actions
 
 
 def check(actions: list[str]) -> None:
-    """Type, kill, look at the files, start again and restore."""
-    from tests.app.test_terminal import Terminal
-
+    """Type, kill, look at the files; perhaps start again and restore."""
     folder = Path.cwd()
     shutil.rmtree(folder / "state", ignore_errors=True)
-    file = folder / "program.src"
+    file, beats = folder / "program.src", folder / "beats.log"
     file.write_text(OLD, "utf-8")
-    desktop = Terminal(folder, file.name)
-    desktop.until(lambda: file.name in desktop.text and "TMAX" in desktop.text and "F5" in desktop.text)
-    desktop.send(EDITOR + TOP + "-- ")
-    clock = partial(own_clock, desktop.child.pid)
-    seen = _do(desktop, actions, clock)
-    killed = clock()
-    desktop.child.kill(signal.SIGKILL)
-    desktop.child.wait()
-    desktop.child.close(force=True)
+    beats.write_text("")
+    desktop = _Desktop(folder, file.name, beats)
+    try:
+        desktop.until(beats.read_text)
+        desktop.send(EDITOR + TOP + "-- ")
+        _do(desktop, actions, beats)
+    finally:
+        desktop.kill()
     _whole(file)
     recovered = _recovered(folder)
     for text in recovered:
         assert text.endswith(OLD), "recovery has another text"
     kept = max((_newest(text) for text in (file.read_text("utf-8"), *recovered)), default=-1)
-    must = max((word for when, word in seen if when < killed - LOST_SECONDS - WRITING_SECONDS), default=-1)
-    assert kept >= must, f"word {must} was seen long before the signal, {kept} is kept"
-    if recovered:
+    noted = [int(line) for line in beats.read_text().splitlines(keepends=True) if line.endswith("\n")]
+    must = max(noted[:-LOST_BEATS], default=-1)
+    assert kept >= must, f"word {must} was there long before the signal, {kept} is kept"
+    if recovered and crc32(repr(actions).encode()) % RESTORED_EVERY == 0:
         _restored(folder, file.name, _newest(recovered[0]))
     shutil.rmtree(folder / "state", ignore_errors=True)
 
 
-def own_clock(pid: int) -> float:
-    """Return the time in seconds, without what threads of a process, or we who empty its terminal, waited for a processor.
+class _Desktop:
+    """A fork of this process that opens the desktop in a pseudo-terminal; nobody looks at its screen."""
 
-    A busy machine keeps a process from its work; that is no fault of the process. Where the system does not
-    count such waiting, all time counts.
-    """
-    waited = 0
-    for file in (*Path(f"/proc/{pid}/task").glob("*/schedstat"), Path("/proc/thread-self/schedstat")):
-        with contextlib.suppress(OSError):  # a thread that has just ended
-            waited += int(file.read_text("ascii").split()[1])
-    return time.monotonic() - waited / 1e9
+    def __init__(self, folder: Path, name: str, beats: Path) -> None:
+        _import_all()
+        self._pid, self._terminal = pty.fork()
+        if self._pid == 0:
+            _open_desktop(folder, name, beats)
+        fcntl.ioctl(self._terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 30, 100, 0, 0))
+
+    def send(self, keys: str) -> None:
+        os.write(self._terminal, keys.encode())
+
+    def read(self, seconds: float) -> None:
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0:
+            if select([self._terminal], [], [], left)[0]:
+                os.read(self._terminal, 65536)
+
+    def until(self, condition: Callable[[], object]) -> None:
+        end = time.monotonic() + PATIENCE_SECONDS
+        while not condition():
+            assert time.monotonic() < end, "it does not start"
+            self.read(0.02)
+
+    def kill(self) -> None:
+        os.kill(self._pid, signal.SIGKILL)
+        os.waitpid(self._pid, 0)
+        os.close(self._terminal)
 
 
-def _do(desktop: Terminal, actions: list[str], clock: Callable[[], float]) -> list[tuple[float, int]]:
-    """Do it all; return when which word had come to the screen."""
-    seen: list[tuple[float, int]] = []
+def _import_all() -> None:
+    import desire_tui.app
+    import desire_tui.desktop.terminal_driver
+    import desire_tui.engine.session.session
+    import desire_tui.launch  # noqa: F401
+
+
+def _open_desktop(folder: Path, name: str, beats: Path) -> NoReturn:
+    """Be the desktop, noting the newest word of the text all the time."""
+    from desire_tui.app import DesireApp
+    from desire_tui.launch import open_desktop
+
+    os.environ.update(
+        TERM="xterm-256color", COLORTERM="truecolor", XDG_CONFIG_HOME=str(folder / "config"),
+        XDG_STATE_HOME=str(folder / "state"),
+    )  # fmt: skip
+    sys.stdin = sys.__stdin__ = open(0, closefd=False)  # noqa: SIM115 - multiprocessing has closed it
+    sys.stdout = sys.__stdout__ = open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.__stderr__ = open(2, "w", closefd=False)  # noqa: SIM115
+    noted = beats.open("a", buffering=1)
+    show = DesireApp._show
+
+    def shown(app):
+        show(app)
+        app.main_screen.set_interval(BEAT_SECONDS, lambda: noted.write(f"{_newest(app.editor.front.text)}\n"))
+
+    try:
+        with patch.object(DesireApp, "_show", shown):
+            open_desktop((name,))
+    finally:
+        os._exit(1)
+
+
+def _do(desktop: _Desktop, actions: list[str], beats: Path) -> None:
+    """Do it all, no faster than the desktop can follow."""
     number = 0
-    for action in actions:
+    for k, action in enumerate(actions):
+        if k % ACTIONS_EACH_BEAT == 0:
+            size = beats.stat().st_size
+            desktop.until(lambda size=size: beats.stat().st_size > size)
         if action == "word":
             desktop.send(f"n{number:04} ")
             number += 1
         elif action in {"save", "run"}:
             desktop.send(CTRL_S if action == "save" else F5)
-        desktop.read(0.05)
-        seen.append((clock(), _newest(desktop.text)))
-    return seen
+        desktop.read(0.02)
 
 
 def _newest(text: str) -> int:
