@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 
+RINGS_EVERY_S = 0.05
+
+
 class TookTooLong(Exception):  # noqa: N818 - a statement about the work
     """The time was over before the work was done."""
 
@@ -20,7 +23,8 @@ def at_most(seconds: float) -> Iterator[None]:
     """Break off what is inside after a time, raising TookTooLong.
 
     By the alarm of the operating system: `re` looks for signals while it matches, and for nothing else. Only
-    the main thread gets them; elsewhere there is no limit.
+    the main thread gets them; elsewhere there is no limit. The alarm goes on ringing until the work ends:
+    Python drops what is raised while an object is cleared away.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -32,9 +36,12 @@ def at_most(seconds: float) -> Iterator[None]:
             raise TookTooLong
 
     before = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, seconds, RINGS_EVERY_S)
     try:
-        yield
+        try:
+            yield
+        finally:  # where it may ring, too
+            is_over = True
     finally:
         is_over = True
         signal.setitimer(signal.ITIMER_REAL, 0)

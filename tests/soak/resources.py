@@ -39,6 +39,11 @@ def resources() -> Resources:
     )
 
 
+def most(one: Resources, other: Resources) -> Resources:
+    """Return the larger count of each kind."""
+    return Resources(*map(max, one, other))
+
+
 def _return_free_memory() -> None:
     """Let the C library give back what it holds free: else freed memory counts as held."""
     trim = getattr(ctypes.CDLL(None), "malloc_trim", None)

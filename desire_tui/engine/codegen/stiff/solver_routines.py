@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from ctypes import sizeof
-from functools import cache
+from functools import lru_cache
 from hashlib import blake2b
 from importlib.resources import files
 from threading import Lock
@@ -30,6 +30,7 @@ from desire_tui.engine.integration.problem import FUNCTIONS, SolverProblem
 from desire_tui.engine.integration.sundials import signatures
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import CVODE, address
+from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.runtime import run_memory
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, T
@@ -70,6 +71,8 @@ _ANY = 0
 """In place of a number of states: code for all."""
 _FAST = 1
 """Level of optimisation of what goes with CVODE: level 2 gains nothing there."""
+SIZES_KEPT = 16
+"""Code for one number of states takes 0.3 MB; a study of many sizes comes back to few of them."""
 LARGE = 200
 """More states than this are worth 0.1 s of optimisation; fewer get quick code after 0.02 s."""
 
@@ -91,8 +94,8 @@ class SolverRoutines:
         self._connected = False
         self._cvode: dict[int, StiffFunctions] = {}
         """By level of optimisation."""
-        self._own: dict[int, StiffFunctions] = {}
-        """By number of states."""
+        self._own = RecentlyUsed[int, StiffFunctions](SIZES_KEPT)
+        """By number of states; a run that goes on keeps its own."""
         self._locks = defaultdict[int, Lock](Lock)
         """By level: several sessions may ask for the same, and quick code does not wait for fast code."""
 
@@ -119,21 +122,27 @@ class SolverRoutines:
         """Compile our solver for n states, `_ANY` number of them."""
         self._connect()
         with self._locks[level]:
-            if n not in self._own:
+            if (found := self._own[n]) is None:
                 text = _own_text(n)
                 code = compile_and_keep(text, _name(n), level=level, vectorize=level > 0)
-                self._own[n] = _found(code, own=True)
-            return self._own[n]
+                found = self._keep(n, code)
+            return found
 
     def _kept(self, n: int) -> StiffFunctions | None:
         """Return our solver's fast code for n states if this process or another one has made it."""
-        if n not in self._own:
+        found = self._own[n]
+        if found is None:
             self._connect()
             code = kept_code(_name(n))
-            if code is None:
-                return None
-            self._own.setdefault(n, _found(code, own=True))
-        return self._own[n]
+            if code is not None:
+                found = self._keep(n, code)
+        return found
+
+    def _keep(self, n: int, code: MachineCode) -> StiffFunctions:
+        found = _found(code, own=True)
+        self._own.age()
+        self._own.keep(n, found)
+        return found
 
     def _connect(self) -> None:
         """Tell LLVM where CVODE's functions are. DesireError 460, 461: no SUNDIALS."""
@@ -146,7 +155,7 @@ class SolverRoutines:
         self._connected = True
 
 
-@cache
+@lru_cache(2 * SIZES_KEPT)
 def _name(n: int) -> str:
     layouts = repr(
         [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory))]
