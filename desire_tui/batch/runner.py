@@ -181,6 +181,9 @@ class Runner:
                 "quantities": results.final_quantities(session.values),
                 "timings": results.timings(session.parse_seconds, list(session.runs)),
             }
+        except DesireError as error:
+            self.problems.extend(error.diagnostics)
+            self.status, produced = "failed", {}
         except Exception as error:  # noqa: BLE001 - what the program said must not be lost for it
             self.failed("results were gathered", error)
             produced = {}

@@ -24,11 +24,16 @@ def test_an_alarm_that_python_drops_rings_again(monkeypatch: pytest.MonkeyPatch)
     class Cleared:
         pass
 
-    cleared = Cleared()
-    reference = weakref.ref(cleared, lambda _: busy(60))
-    with pytest.raises(TookTooLong), at_most(0.02):
-        del cleared
-        busy(60)
+    cleared = [Cleared()]
+    reference = weakref.ref(cleared[0], lambda _: busy(60))
+
+    def work() -> None:
+        with at_most(0.02):
+            cleared.clear()
+            busy(60)
+
+    with pytest.raises(TookTooLong):
+        work()
     assert reference() is None
     assert [type(one.exc_value) for one in dropped] == [TookTooLong]
     busy(0.1)  # nothing rings any more

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
 from weakref import WeakSet
-
-import pytest
 
 from desire_tui.engine.codegen.stiff import solver_routines
 from desire_tui.engine.codegen.stiff.solver_routines import SIZES_KEPT, SolverRoutines
+
+if TYPE_CHECKING:
+    import pytest
 
 
 class Code:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.values import Values
@@ -169,7 +169,10 @@ def plot_points(graphs: GraphPages) -> tuple[PlotPoint, ...]:
 
 
 def final_quantities(values: Values) -> dict[str, float | complex | NDArray[Any]]:
-    """Return all quantities that have a value."""
+    """Return copies of all quantities that have a value. DesireError 40: they would fill the memory."""
+    numbers = sum(quantity.size for quantity in values if values.is_defined(quantity))
+    if numbers > values.spare:
+        raise DesireError(Diagnostic("out-of-memory", facts={"elements": numbers}))
     found: dict[str, float | complex | NDArray[Any]] = {}
     for quantity in values:
         if not values.is_defined(quantity):
