@@ -73,8 +73,12 @@ async def test_a_held_screen_sends_nothing_and_loses_nothing(program, monkeypatc
             await desk.pilot.pause(0.02)
         assert [update for update in sent if update is not None] == []
         app.main_screen.release()
-        await desk.until(lambda: any(update is not None for update in sent))
-        assert any("held back" in strip.text for strip in app.main_screen._compositor.render_strips())
+        await desk.until(
+            lambda: (
+                any(update is not None for update in sent)
+                and any("held back" in strip.text for strip in app.main_screen._compositor.render_strips())
+            )
+        )
 
 
 async def test_a_run_that_fails_before_its_first_frame_leaves_no_screen_held(program):
