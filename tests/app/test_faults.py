@@ -156,7 +156,7 @@ async def test_a_dead_engine_thread_is_reported_and_followed_by_another(program,
         monkeypatch.setattr(engine, "_post", fails)  # not even a report gets out
         engine.submit(lambda: None)
         dead = engine._thread
-        dead.join(20)
+        dead.join(120)
         assert not dead.is_alive()
         assert ended_by == [SystemExit]
         monkeypatch.setattr(engine, "_post", post)

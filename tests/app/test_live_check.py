@@ -15,7 +15,7 @@ from desire_tui.engine.diagnostics import Diagnostic
 
 from .conftest import desktop
 
-PATIENCE = 20.0
+PATIENCE = 120.0
 QUICK, CLOSER = (Diagnostic("no-run"),), (Diagnostic("no-run"), Diagnostic("jacobian-wrong"))
 
 

@@ -323,10 +323,8 @@ def test_a_failed_run_can_be_compared_with_a_rule_that_gets_through():
 @pytest.mark.parametrize("inside", ["command", "script"])
 def test_ending_it_puts_everything_back(inside):
     """With the step of the comparison the run would take years."""
-    text = (
-        "x = 1 | TMAX = 1000 | DT = 0.001 | NN = 101\ndrun\nDYNAMIC\nd/dt x = -x\ndispt x\nterm t - 0.002\n"
-    )
-    command = "compare DT 1E-12"
+    text = "x = 1 | TMAX = 1 | DT = 0.001 | NN = 101\ndrun\nDYNAMIC\nd/dt x = -x\ndispt x\nterm t - 0.002\n"
+    command = "compare DT 1E-15"
     worker = Worker(text if inside == "command" else text.replace("DYNAMIC", command + "\nDYNAMIC"))
     session = worker.session
     if inside == "command":

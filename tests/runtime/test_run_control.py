@@ -15,7 +15,7 @@ from tests.runtime import running
 from tests.runtime.running import Kept
 
 LONG = "TMAX = 1.0E+06 | DT = 0.001 | NN = {nn}\ndrun\nn = 1\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n"
-PATIENCE = 20.0
+PATIENCE = 120.0
 
 
 class Worker:

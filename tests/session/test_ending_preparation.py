@@ -16,7 +16,7 @@ from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
-PATIENCE = 30.0
+PATIENCE = 120.0
 PROGRAM = "TMAX = 1 | DT = 0.1 | NN = 11 | x = 1\ndrun\nDYNAMIC\nd/dt x = -x\ndispt x\n"
 EQUATIONS = "\n".join(f"d/dt y{k} = {k}*x - y{k}" for k in range(300))
 

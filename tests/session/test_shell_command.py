@@ -48,7 +48,7 @@ def is_alive(pid: int) -> bool:
 
 def dies(pid: int) -> bool:
     """Whether a process is gone soon, however busy the machine is."""
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 200
     while is_alive(pid) and time.monotonic() < deadline:
         time.sleep(0.02)
     return not is_alive(pid)
@@ -80,11 +80,11 @@ def test_letters_cut_between_two_pieces_stay_whole(tmp_path):
 @pytest.mark.parametrize(
     "command",
     [
-        "echo $$ > pid; exec sleep 30",
-        "sleep 30 & echo $! > pid; wait",
+        "echo $$ > pid; exec sleep 300",
+        "sleep 300 & echo $! > pid; wait",
         "trap '' TERM; echo $$ > pid; while true; do sleep 0.1; done",
-        "(trap '' TERM; sleep 30; sleep 30) & echo $! > pid; wait",
-        "echo $$ > pid; exec >&- 2>&-; sleep 30",
+        "(trap '' TERM; sleep 300; sleep 300) & echo $! > pid; wait",
+        "echo $$ > pid; exec >&- 2>&-; sleep 300",
         "echo $$ > pid; exec yes",
     ],
 )
@@ -92,7 +92,7 @@ def test_the_user_ends_it_with_all_it_started(tmp_path, command):
     began = time.monotonic()
     with pytest.raises(Interrupted):
         run_shell(command, tmp_path, len, EndedOnce(tmp_path / "pid"))
-    assert time.monotonic() - began < 20
+    assert time.monotonic() - began < 200
     assert dies(int((tmp_path / "pid").read_text()))
 
 
@@ -107,8 +107,8 @@ def test_a_command_that_was_asked_to_end_can_clear_up(tmp_path):
 
 def test_what_runs_in_the_background_is_not_waited_for(tmp_path):
     began = time.monotonic()
-    text, status = printed("echo on; (trap '' PIPE; sleep 30) & yes & echo $! > pid", tmp_path)
-    assert time.monotonic() - began < 20
+    text, status = printed("echo on; (trap '' PIPE; sleep 300) & yes & echo $! > pid", tmp_path)
+    assert time.monotonic() - began < 200
     assert text.startswith("on\n")
     assert status == 0
     assert dies(int((tmp_path / "pid").read_text())), "nobody reads what it writes"
@@ -126,11 +126,11 @@ def test_the_time_limit_of_a_headless_run_ends_it(tmp_path):
     listener = HeadlessListener(len, iter(()), len)
     options = RunOptions(timeout=2, folder=tmp_path, allow_shell=True)
     runner = Runner(
-        Source("sh (trap '' TERM; sleep 30; sleep 30) & echo $! > pid; wait\n", "t.src"), options, listener
+        Source("sh (trap '' TERM; sleep 300; sleep 300) & echo $! > pid; wait\n", "t.src"), options, listener
     )
     began = time.monotonic()
     runner.run()
-    assert time.monotonic() - began < 20
+    assert time.monotonic() - began < 200
     assert runner.status == "limit"
     assert not runner.abandoned
     assert dies(int((tmp_path / "pid").read_text()))
@@ -138,13 +138,13 @@ def test_the_time_limit_of_a_headless_run_ends_it(tmp_path):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_to_a_headless_run_ends_it(tmp_path, number):
-    (tmp_path / "t.src").write_text("sh echo $$ > pid; echo on; exec sleep 30\n")
+    (tmp_path / "t.src").write_text("sh echo $$ > pid; echo on; exec sleep 300\n")
     command = [sys.executable, "-m", "desire_tui", "run", "--allow-shell", "t.src"]
     process = subprocess.Popen(
         command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
     )  # fmt: skip
-    killer = threading.Timer(20, process.kill)
+    killer = threading.Timer(200, process.kill)
     killer.start()
     assert process.stdout is not None
     assert process.stdout.readline() == b"on\n"
