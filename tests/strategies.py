@@ -27,6 +27,7 @@ from desire_tui.engine.nodes.expressions import (
     Shifted,
     Text,
     Transposed,
+    Truth,
     Unary,
 )
 from desire_tui.engine.nodes.files import (
@@ -91,6 +92,9 @@ def _some(of, least=1, most=3):
     return st.lists(of, min_size=least, max_size=most).map(tuple)
 
 
+relation_signs = st.sampled_from(["=", "<", ">", "<=", ">=", "<>"])
+
+
 def _grown(inner):
     """Expressions one level above `inner`."""
     return st.one_of(
@@ -100,13 +104,14 @@ def _grown(inner):
         st.builds(Call, plain_names, _some(inner, least=0)),
         st.builds(Shifted, names, inner),
         st.builds(Pair, inner, inner),
+        st.builds(Truth, st.builds(Relation, relation_signs, inner, inner)),
     )
 
 
 leaves = st.one_of(names.map(Name), numbers, names.map(Transposed), names.map(RowOf))
 expressions = st.recursive(leaves, _grown, max_leaves=12)
 targets = st.one_of(names.map(Name), st.builds(Element, names, _some(expressions)))
-relations = st.builds(Relation, st.sampled_from(["=", "<", ">", "<=", ">=", "<>"]), expressions, expressions)
+relations = st.builds(Relation, relation_signs, expressions, expressions)
 conditions = st.recursive(
     relations,
     lambda inner: st.one_of(

@@ -95,6 +95,18 @@ def _trnc(x: float) -> float:
     return math.copysign(int(x), x) if abs(x) < 4503599627370496.0 else x
 
 
+def _floor(x: float) -> float:
+    return float(math.floor(x)) if abs(x) < 4503599627370496.0 else x
+
+
+def _ceil(x: float) -> float:
+    return -_floor(-x)
+
+
+def _mod(x: float, y: float) -> float:
+    return x - y * _floor(x / y)
+
+
 def _max(x: float, y: float) -> float:
     return x if y <= x or x != x else y  # noqa: PLR0124 - nan
 
@@ -254,6 +266,14 @@ _ALL = (
     LibraryFunction("recip", "A", 1, 1, "1/A, element by element", _recip),
     LibraryFunction("max", "x, y", 2, 2, "the larger one; a program's own max wins", _max, kind="choice"),
     LibraryFunction("min", "x, y", 2, 2, "the smaller one; a program's own min wins", _min, kind="choice"),
+    LibraryFunction("floor", "x", 1, 1, "largest whole number up to x; a program's own floor wins", _floor,
+                    kind="choice"),
+    LibraryFunction("ceil", "x", 1, 1, "smallest whole number not below x; a program's own ceil wins", _ceil,
+                    kind="choice"),
+    LibraryFunction("mod", "x, y", 2, 2, "x − y*floor(x/y), with y's sign; a program's own mod wins", _mod,
+                    kind="choice"),
+    LibraryFunction("heav", "x", 1, 1, "unit step: 1 if x > 0, else 0; a program's own heav wins", _swtch,
+                    kind="choice"),
     _of_complex("Re", lambda z: z.real, "real part"),
     _of_complex("Im", lambda z: z.imag, "imaginary part"),
     _of_complex("Cabs", abs, "absolute value of a complex number"),

@@ -48,6 +48,8 @@ def read(graph: Graph, window: Window, part: float) -> Reading | None:
         values = []
         for curve in graph.curves:
             x, y = curve.samples()
+            if len(x) and x[-1] < x[0]:  # a run backward
+                x, y = x[::-1], y[::-1]
             if _reaches(x, t):
                 number = min(int(np.searchsorted(x, t)), len(x) - 1)
                 if number and abs(x[number - 1] - t) < abs(x[number] - t):

@@ -23,6 +23,7 @@ from desire_tui.engine.nodes.expressions import (
     RowOf,
     Shifted,
     Transposed,
+    Truth,
 )
 from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
 from desire_tui.engine.nodes.record import Node
@@ -49,7 +50,7 @@ SCRIPT = (
     "x = e", "A[i] = e", "if … then … proceed", "else", "and", "or", "not",
     "for … next", "for … step", "while", "until", "exit", "label", "go to NAME", "go to number",
     "PROCEDURE", "call", "SUBMODEL", "FUNCTION", "data", "read", "restore", "restore place",
-    "ARRAY", "ARRAY a + b", "ARRAY W = v", "STATE", "INTEGER", "COMPLEX", "[a, b]",
+    "ARRAY", "ARRAY a + b", "ARRAY W = v", "STATE", "INTEGER", "COMPLEX", "[a, b]", "(a > b)",
     "input", "input #n", "write", "write a, b", "write a; b", "write a;", "write $", "write %", "write %%",
     "write #n", "write ##n", "connect input", "connect output", "disconnect", "dump #n", "time", "note",
     "irule n", "irule", "SEED", "drun", "drun NAME", "drun *", "drunr", "reset", "clear", "STOP",
@@ -72,7 +73,7 @@ FUNCTIONS = tuple(f"{name}()" for name in LIBRARY)
 _ONE = {
     Until: "until", While: "while", Label: "label", Procedure: "PROCEDURE", CallProcedure: "call",
     Submodel: "SUBMODEL", Function: "FUNCTION", Data: "data", Read: "read", Disconnect: "disconnect",
-    Note: "note", Seed: "SEED", Show: "SHOW", ShowArea: "SHOW alone", Pair: "[a, b]", Store: "store", Get: "get",
+    Note: "note", Seed: "SEED", Show: "SHOW", ShowArea: "SHOW alone", Pair: "[a, b]", Truth: "(a > b)", Store: "store", Get: "get",
     TrackHold: "trkhld", Invoke: "invoke", Term: "term", Sample: "SAMPLE", RowOf: "P#", Shifted: "x{k}",
     VectorDerivative: "Vectr d/dt", Not: "not", Transposed: "A%",
 }  # fmt: skip

@@ -21,10 +21,23 @@ SEGMENT = [
     "SUBMODEL {n}(a$)\na$ = 4\nend\nNN = 2 | drun\nDYNAMIC\ninvoke {n}(y)",
     "FUNCTION {n}(a$) = a$ + 1 | NN = 2 | drun\nDYNAMIC\ny = {n}(3)",
 ]
-BEYOND = ["max", "min", "compare", "snapshot", "notebook", "title", "xlabel", "ylabel"]
+BEYOND = [
+    "max",
+    "min",
+    "mod",
+    "floor",
+    "ceil",
+    "heav",
+    "compare",
+    "snapshot",
+    "notebook",
+    "title",
+    "xlabel",
+    "ylabel",
+]
 
 
-@pytest.mark.parametrize("name", [*LIBRARY, *BEYOND[2:], "auto", "delta", "UPDATE", "SHOW"])
+@pytest.mark.parametrize("name", [*LIBRARY, *BEYOND[6:], "auto", "delta", "UPDATE", "SHOW"])
 def test_a_script_may_use_the_name(name) -> None:
     for form in SCRIPT:
         assert value_of_y(form.format(n=name)) == 4

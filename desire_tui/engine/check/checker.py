@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import OutOfTime, handing_over
 from desire_tui.engine.check.declared import DeclaredNames
+from desire_tui.engine.check.foreign_forms import foreign_forms
 from desire_tui.engine.check.unknown import misplaced, unknown_names
 from desire_tui.engine.check.uses import unfit_uses
 from desire_tui.engine.diagnostics.spelling import few_hints
@@ -49,6 +50,7 @@ def _all_problems(program: Program) -> list[Diagnostic]:
         at = len(program.source.text)
         problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
         problems.extend(unfit_uses(program, found))
+        problems.extend(foreign_forms(program))
     return problems
 
 

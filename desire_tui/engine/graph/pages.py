@@ -226,7 +226,7 @@ def run_frame(record: RunRecord, request: SampleRequest) -> Frame:
     """Return the frame of a run's graph: t0 … t0 + TMAX or -scale … scale, by -scale … scale."""
     scale = abs(record.scale) or 1.0
     if request.kind == "dispt":
-        return Frame("dispt", record.t0, record.t0 + record.t_max, -scale, scale, scale)
+        return Frame("dispt", *record.time_range, -scale, scale, scale)
     assert request.kind != "type"
     return Frame(request.kind, -scale, scale, -scale, scale, scale)
 

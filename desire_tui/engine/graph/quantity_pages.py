@@ -25,7 +25,7 @@ MARGIN = 0.05
 def history_page(pages: GraphPages, name: str, record: RunRecord, column: int) -> Graph:
     """Show one of a run's columns over time on a page of its own, as high as it needs."""
     bottom, top = _limits(record.rows[: record.count, 1 + column])
-    frame = Frame("dispt", record.t0, record.t0 + record.t_max, bottom, top, _scale(bottom, top))
+    frame = Frame("dispt", *record.time_range, bottom, top, _scale(bottom, top))
     curve = Curve(name, "t", pages.settings.curve_color(0), record, 1 + column, 0, frame)
     return pages.show_curves(frame, f"{name} vs. t", [curve])
 

@@ -32,6 +32,7 @@ from desire_tui.engine.nodes.expressions import (
     Shifted,
     Text,
     Transposed,
+    Truth,
     Unary,
 )
 
@@ -95,7 +96,7 @@ class ArrayExpressions:
                 return self._chain(node) if node.op in OPERATORS else self._power(node)
             case Call():
                 return self._call(node)
-            case Number() | Text() | Element() | Pair() | RowOf():
+            case Number() | Text() | Element() | Pair() | RowOf() | Truth():
                 raise ScriptFault("not-in-array-expression", node)
         assert_never(node)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.interpreter.user_functions import NUMBERS_OF_TABLE_FUNCTIONS
 from desire_tui.engine.left_chains import chain
+from desire_tui.engine.nodes.conditions import compared
 from desire_tui.engine.nodes.expressions import (
     Binary,
     Call,
@@ -17,6 +18,7 @@ from desire_tui.engine.nodes.expressions import (
     Shifted,
     Text,
     Transposed,
+    Truth,
     Unary,
 )
 from desire_tui.engine.values import Quantity
@@ -56,6 +58,8 @@ class ArrayShapes:
                 shapes = [self.of(arg) for arg in args[: NUMBERS_OF_TABLE_FUNCTIONS.get(name, len(args))]]
                 shape = next(filter(None, shapes), ())
                 return shape[::-1] if name == "$Tr" else shape
+            case Truth(condition):
+                return next(filter(None, map(self.of, compared(condition))), ())
             case Number() | Text() | Element() | Pair():
                 return ()
         assert_never(node)

@@ -15,6 +15,7 @@ from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.name_resolution import Local, Meaning
 from desire_tui.engine.interpreter.user_functions import NUMBERS_OF_TABLE_FUNCTIONS, is_used_as_array
 from desire_tui.engine.left_chains import OPERATORS, chain
+from desire_tui.engine.nodes.conditions import with_compared
 from desire_tui.engine.nodes.declarations import Function
 from desire_tui.engine.nodes.expressions import (
     Binary,
@@ -27,6 +28,7 @@ from desire_tui.engine.nodes.expressions import (
     Shifted,
     Text,
     Transposed,
+    Truth,
     Unary,
 )
 from desire_tui.engine.nodes.signs import literal
@@ -81,6 +83,8 @@ class ElementwiseExpressions:
             case Binary():
                 first, steps = chain(node) if node.op in OPERATORS else (node.left, [node])
                 return any(self._special(part, within) for part in (first, *(step.right for step in steps)))
+            case Truth():
+                return True  # NumPy has no conditions that stop when the answer is known
             case Number() | Text() | Name() | Transposed() | Shifted() | RowOf() | Pair():
                 return False
         assert_never(node)
@@ -137,6 +141,9 @@ class ElementwiseExpressions:
                     for place, arg in enumerate(args)
                 ]
                 return Call(name, tuple(elements), node.start, node.end)
+            case Truth(condition):
+                changed = with_compared(condition, lambda part: self._of_elements(part, wholes, dummies))
+                return Truth(changed, node.start, node.end)
             case Number() | Text() | Name() | Element() | Transposed() | Shifted() | RowOf() | Pair():
                 return node
         assert_never(node)

@@ -32,6 +32,7 @@ from desire_tui.engine.nodes.expressions import (
     Shifted,
     Text,
     Transposed,
+    Truth,
     Unary,
 )
 from desire_tui.engine.nodes.signs import whole_literal
@@ -82,6 +83,9 @@ class ExpressionTranslator(ScalarTranslator):
                 return Typed(at(py.call("complex", self.real(re), self.real(im)), node), Kind.COMPLEX)
             case Call():
                 return self._calls.call(node)
+            case Truth(condition):
+                one_or_zero = py.if_else(self.condition(condition), py.number(1.0), py.number(0.0))
+                return Typed(at(one_or_zero, node), Kind.REAL)
             case Text() | Transposed() | Shifted() | RowOf():
                 raise ScriptFault("not-in-scalar-expression", node)
         assert_never(node)

@@ -28,8 +28,8 @@ class Op:
     `name`: `add sub mul div neg`, `pow` (general power), `ipow` (second argument a whole `Const`: repeated
     products, binary powering from the top bit, negative n as 1/x^|n|), or a library function of language.md
     4.1: `sin cos tan asin acos atan sinh cosh tanh exp sqrt abs ln log atan2 lim sat SAT deadz deadc swtch
-    sgn comp rect tri sinc sigmoid SIGMOID round trnc recip max min ran gauss` (`ran` and `gauss` have no
-    arguments here).
+    sgn comp rect tri sinc sigmoid SIGMOID round trnc floor recip max min ran gauss`
+    (`ran` and `gauss` have no arguments here).
     """
 
     name: str

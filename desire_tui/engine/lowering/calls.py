@@ -17,6 +17,7 @@ from desire_tui.engine.lowering.lowering_context import (
     Argument,
     ExpansionFrame,
 )
+from desire_tui.engine.lowering.operators import COMPOSED
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.nodes.expressions import Call, Name
 from desire_tui.engine.random_sequence import DRAWS
@@ -52,7 +53,9 @@ def call(context: LoweringContext, node: Call, extent: Extent) -> Value:
         return table2(context, node, extent)
     if node.name in DRAWS:
         return Op(node.name, ())
-    return Op(node.name, tuple([context.lower(argument, extent) for argument in node.args]))
+    args = tuple([context.lower(argument, extent) for argument in node.args])
+    composed = COMPOSED.get(node.name)
+    return Op(node.name, args) if composed is None else composed(*args)
 
 
 def _expanded(context: LoweringContext, node: Call, extent: Extent) -> Value:

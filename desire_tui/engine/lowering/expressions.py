@@ -9,6 +9,7 @@ from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowering import calls, long_chains, products
 from desire_tui.engine.lowering.lowering_context import BAD, SCALAR, Extent, LoweringContext
 from desire_tui.engine.lowering.operators import OPERATIONS, power
+from desire_tui.engine.lowering.relations import truth
 from desire_tui.engine.lowering.subscripts import element
 from desire_tui.engine.nodes.expressions import (
     Binary,
@@ -21,6 +22,7 @@ from desire_tui.engine.nodes.expressions import (
     Shifted,
     Text,
     Transposed,
+    Truth,
     Unary,
 )
 
@@ -58,6 +60,8 @@ class ExpressionLowering(LoweringContext):
             return Const(-operand.value) if isinstance(operand, Const) else Op("neg", (operand,))
         if type(node) is Element:
             return _subscripted(self, node)
+        if isinstance(node, Truth):
+            return truth(self, node.condition, extent)
         if isinstance(node, Shifted | RowOf | Transposed):
             return products.operand(self, node, extent)
         if isinstance(node, Pair | Text):

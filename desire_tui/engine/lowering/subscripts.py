@@ -24,6 +24,7 @@ from desire_tui.engine.nodes.expressions import (
     Shifted,
     Text,
     Transposed,
+    Truth,
     Unary,
 )
 from desire_tui.engine.values import Kind
@@ -108,7 +109,7 @@ def _part(context: LoweringContext, node: Expr) -> float | None:
             return context.scope.constant(quantity, slot - quantity.slot)
         case Call():
             return _called(context, node)
-        case Number() | Unary() | Binary() | Text() | Pair() | Transposed() | Shifted() | RowOf():
+        case Number() | Unary() | Binary() | Text() | Pair() | Transposed() | Shifted() | RowOf() | Truth():
             context.report("constant-not-computable", node)
             return None
     assert_never(node)

@@ -127,7 +127,17 @@ class Pair(Node):
     end: int = 0
 
 
-Expr = Number | Text | Name | Element | Call | Unary | Binary | Transposed | Shifted | RowOf | Pair
+@final
+@node
+class Truth(Node):
+    """`(a <= b)` where a value is expected: 1 if the condition holds, else 0."""
+
+    condition: Condition
+    start: int = 0
+    end: int = 0
+
+
+Expr = Number | Text | Name | Element | Call | Unary | Binary | Transposed | Shifted | RowOf | Pair | Truth
 Target = Name | Element
 
 

@@ -172,6 +172,7 @@ DERIVATIVE_RULES: dict[str, DerivativeRule] = {
     "SIGMOID": _factor(_rational_sigmoid),
     "round": _zero,
     "trnc": _zero,
+    "floor": _zero,
     "recip": _divisor(lambda x: op("neg", _square(x))),
     "max": lambda x, d: choose(op("sub", x[0], x[1]), d[1], d[0]),
     "min": lambda x, d: choose(op("sub", x[0], x[1]), d[0], d[1]),

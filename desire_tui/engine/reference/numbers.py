@@ -98,7 +98,7 @@ ARRAYS: dict[str, Callable[..., Any]] = {
     "sinc": _sinc,
     "sigmoid": lambda x: 1.0 / (1.0 + np.exp(-x)),
     "SIGMOID": _sigmoid_rational,
-    "round": _round, "trnc": np.trunc, "recip": lambda x: 1.0 / x,
+    "round": _round, "trnc": np.trunc, "floor": np.floor, "recip": lambda x: 1.0 / x,
     "max": lambda x, y: np.where((y <= x) | np.isnan(x), x, y),
     "min": lambda x, y: np.where((y >= x) | np.isnan(x), x, y),
 }  # fmt: skip

@@ -108,8 +108,9 @@ class Defaults:
             if segment.order:
                 raise _error("tmax-missing")
             t_max = self._supply(TMAX, float(nn - 1))
-        if not (isfinite(t_max) and t_max > 0.0):
-            raise _error("tmax-not-positive", value=t_max)
+        if not isfinite(t_max) or t_max == 0.0:
+            raise _error("tmax-zero", value=t_max)
+        backward, t_max = t_max < 0.0, abs(t_max)
         comint = t_max / (nn - 1)
         dt = self._step(rule, comint)
         if not dt >= _RESOLVED * ulp(t0):
@@ -126,6 +127,7 @@ class Defaults:
             every=max(self._counted("MM", self._own(MM) or 1.0), 1),
             checked=self._checked(segment.order) if step_rule else 0,
             scale=cells[SCALE],
+            backward=backward,
         )  # fmt: skip
 
     def saved(self) -> SavedDefaults:
@@ -156,7 +158,7 @@ class Defaults:
         if dt is not None and dt == self._steps.at_end:
             dt = self._steps.requested
         if nn is None and t_max is not None and dt is not None and dt > 0.0:
-            points = max(int(min(float(points), t_max / dt * (1 + ROUNDING) + 1.0)), 2)
+            points = max(int(min(float(points), abs(t_max) / dt * (1 + ROUNDING) + 1.0)), 2)
         self._supply(NN, float(points))
         return points
 

@@ -14,10 +14,10 @@ ROUNDING = 1e-9
 class RunPlan:
     """Everything a run needs to know before its first step; times in the program's unit.
 
-    The run goes from `t0` to `t0` + `t_max` (TMAX), with `nn` communication points `comint` apart, of which
-    every `every`-th gives a sample (MM). `dt`, `dt_max`, `dt_min` are the first, largest and smallest step;
-    `error_max` and `error_min` (ERMAX, ERMIN) bound the test difference, of state number `checked` only
-    (CHECKN; 0: of all). `scale` is the display's.
+    The run goes from `t0` to `t0` + `t_max` (`backward`: to `t0` - `t_max`, TMAX being -`t_max`), with `nn`
+    communication points `comint` apart, of which every `every`-th gives a sample (MM). `dt`, `dt_max`,
+    `dt_min` are the first, largest and smallest step; `error_max` and `error_min` (ERMAX, ERMIN) bound the
+    test difference, of state number `checked` only (CHECKN; 0: of all). `scale` is the display's.
     """
 
     rule: int
@@ -33,6 +33,12 @@ class RunPlan:
     every: int
     checked: int
     scale: float
+    backward: bool = False
+
+    @property
+    def span(self) -> float:
+        """TMAX, with its sign."""
+        return -self.t_max if self.backward else self.t_max
 
     @property
     def tolerance(self) -> float:

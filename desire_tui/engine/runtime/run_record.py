@@ -68,6 +68,12 @@ class RunRecord:
         return self.rows[:count, 0]
 
     @property
+    def time_range(self) -> tuple[float, float]:
+        """The times that a graph over t shows; a run backward goes from the right to the left."""
+        end = self.t0 + self.t_max
+        return min(self.t0, end), max(self.t0, end)
+
+    @property
     def slots(self) -> list[int]:
         """Where the columns' variables stand among the quantities."""
         return [column.slot for column in self.columns]

@@ -63,6 +63,8 @@ class Simulator:
         self._delays = Delays()
         self.memory: RunMemory | None = None
         """The run's memory while one goes on."""
+        self.direction = 1.0
+        """-1 while a run goes backward: t is then what the program calls -t (`passes.backward`)."""
         self._began = 0.0
         """When the run began that goes on, later by what it was paused; 0: none does."""
         self._held_at = 0.0
@@ -93,6 +95,7 @@ class Simulator:
         memory = self._set_up(segment, plan, positions, lag)
         memory.rows = record.rows.ctypes.data
         self.memory = memory
+        self._turn_time(plan)
         self._control.attach(memory)
         self._heartbeat.begin()
         ended = Ended.STOPPED
@@ -102,6 +105,7 @@ class Simulator:
             self._heartbeat.end()
             self._control.attach(None)
             self.memory = None
+            self._turn_time(plan)
             self._settle(plan, memory, positions, record, sampled=ended in {Ended.TMAX, Ended.TERM})
             record.seconds = perf_counter() - self._began
             self._began = 0.0
@@ -114,6 +118,12 @@ class Simulator:
         record.message = error.diagnostics[0].message
         raise error
 
+    def _turn_time(self, plan: RunPlan) -> None:
+        """At both ends of a run backward: turn t round."""
+        if plan.backward:
+            self._values.cells[T] = 0.0 - self._values.cells[T]
+            self.direction = -self.direction
+
     def _set_up(
         self, segment: Segment, plan: RunPlan, positions: Positions, lag: NDArray[np.int64]
     ) -> RunMemory:
@@ -121,10 +131,11 @@ class Simulator:
         joined = positions.end == values.cells[T]
         if joined:
             positions.points -= 1  # the joint is the same communication point
+        start = 0.0 - plan.t0 if plan.backward else plan.t0
         memory = RunMemory(
             values=values.address, counters=positions.counters.ctypes.data, lags=lag.ctypes.data,
-            random=values.random.ctypes.data, t_start=plan.t0, t_max=plan.t_max, comint=plan.comint,
-            t_base=plan.t0, dt_base=plan.dt, dt_max=plan.dt_max, dt_min=plan.dt_min, error_max=plan.error_max,
+            random=values.random.ctypes.data, t_start=start, t_max=plan.t_max, comint=plan.comint,
+            t_base=start, dt_base=plan.dt, dt_max=plan.dt_max, dt_min=plan.dt_min, error_max=plan.error_max,
             error_min=plan.error_min, points_before=positions.points, joined=int(joined), nn=plan.nn,
             every=plan.every, checked=plan.checked, phase=Phase.AT_POINT,
         )  # fmt: skip
@@ -153,13 +164,19 @@ class Simulator:
             self._heartbeat.block()
             ended = Ended(model.advance(memory)) if self._control.clear_to_run(memory) else Ended.STOPPED
             took = perf_counter() - began
+            if self.direction < 0.0:
+                _turn_samples(record, first, int(memory.row))
             _note(memory, record)
             if segment.pictures and record.count > first:
                 self._keep_pictures(segment, record)
             if record.count > first:
                 observer.block(record, first)
             if ended is Ended.STOPPED:
-                if not self._held():
+                cells, direction = self._values.cells, self.direction
+                cells[T], self.direction = direction * cells[T], 1.0  # commands may read t
+                may_go_on = self._held()
+                cells[T], self.direction = direction * cells[T], direction
+                if not may_go_on:
                     return ended
             elif ended is not Ended.RUNNING:
                 return ended
@@ -215,6 +232,13 @@ def _grow(record: RunRecord, memory: RunMemory) -> None:
     """Make room where a rule took more samples than planned."""
     record.rows = np.concatenate([record.rows, np.empty_like(record.rows)])
     memory.rows = record.rows.ctypes.data
+
+
+def _turn_samples(record: RunRecord, first: int, last: int) -> None:
+    """Turn the times of new samples round: t, and t where the program shows it."""
+    times = [0, *(number for number, column in enumerate(record.columns, 1) if column.slot == T)]
+    rows = record.rows[first:last]
+    rows[:, times] = 0.0 - rows[:, times]
 
 
 def _note(memory: RunMemory, record: RunRecord) -> None:

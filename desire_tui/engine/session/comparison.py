@@ -142,6 +142,7 @@ def run_again(
     replaced = runs.simulator.defaults.warnings()
     if replaced:  # a comparison is of what was asked for, or of nothing
         raise DesireError(*(replace(problem, severity="error") for problem in replaced))
+    segment = workspace.segments.directed(segment, plan)
     if spacing is not None:
         steps = ceil(plan.t_max / spacing * (1 - 1e-9))
         plan = replace(
@@ -149,7 +150,7 @@ def run_again(
         )
     record = RunRecord(
         number=0, segment=last.segment, line=0, requests=segment.requests, columns=segment.columns,
-        overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn,
+        overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0, t_max=plan.span, nn=plan.nn,
         dt=plan.dt, error_max=plan.tolerance,
     )  # fmt: skip
     if not is_exact:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Program
     from desire_tui.engine.runtime.backend import Backend, Model
+    from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
 
@@ -46,6 +47,7 @@ class CompiledSegments:
         self._backend_name = backend
         self._backend: Backend | None = None
         self._kept: dict[tuple[str | None, int], Segment] = {}
+        self._backward: dict[int, tuple[Segment, Segment]] = {}
         self._generation = -1
         self._program: Program | None = None
         self._histories: dict[str | None, tuple[Segment, tuple[int, ...], int]] = {}
@@ -60,6 +62,7 @@ class CompiledSegments:
     def forget(self) -> None:
         """Compile everything anew at the next drun."""
         self._kept.clear()
+        self._backward.clear()
         self._histories.clear()
         if self._backend is not None:
             self._backend.forget()
@@ -88,6 +91,18 @@ class CompiledSegments:
         """Whether the numbers that a segment was compiled with are what they were."""
         cells = self._values.cells
         return all(cells[slot] == value for slot, value in segment.constants)
+
+    def directed(self, segment: Segment, plan: RunPlan) -> Segment:
+        """Return the segment that a run follows: for a negative TMAX, the one over -t."""
+        if not plan.backward:
+            return segment
+        known = self._backward.get(id(segment))
+        if known is None:
+            from desire_tui.engine.passes.backward import backward
+
+            turned = backward(segment, self._values.unnamed(1))
+            known = self._backward[id(segment)] = segment, turned
+        return known[1]
 
     def model(self, segment: Segment, rule: int) -> Model:
         """Return a segment made ready for a rule; the back end keeps it."""

@@ -35,16 +35,16 @@ def needs_steps_of(one: RunRecord, other: RunRecord) -> tuple[RunRecord, float] 
     ratio = coarse.dt / again.dt
     if RULES[again.rule].kind == "fixed" and abs(ratio - round(ratio)) > 1e-9 * ratio:
         return None
-    return (again, coarse.dt) if coarse.t_max / coarse.dt < _SAMPLES_MOST else None
+    return (again, coarse.dt) if abs(coarse.t_max) / coarse.dt < _SAMPLES_MOST else None
 
 
 def common(one: RunRecord, other: RunRecord) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the rows of both runs that stand at the same times."""
-    a, b = one.t, other.t
+    a, b = (run.t if run.t_max > 0.0 else -run.t for run in (one, other))
     near = np.minimum(np.clip(np.searchsorted(b, a), 1, max(len(b) - 1, 1)), len(b) - 1)
     below = np.maximum(near - 1, 0)
     nearest = np.where(np.abs(b[below] - a) <= np.abs(b[near] - a), below, near)
-    comint = min(run.t_max / (run.nn - 1) for run in (one, other))
+    comint = min(abs(run.t_max) / (run.nn - 1) for run in (one, other))
     same = np.abs(b[nearest] - a) <= _SAME_TIME * comint
     return np.flatnonzero(same), nearest[same]
 
@@ -84,7 +84,7 @@ def _remarks(
 ) -> list[str]:
     lines = []
     ends = one.t[-1], other.t[-1]
-    if abs(ends[0] - ends[1]) > _SAME_TIME * one.t_max / (one.nn - 1):
+    if abs(ends[0] - ends[1]) > _SAME_TIME * abs(one.t_max) / (one.nn - 1):
         lines.append(f"the last samples stand at t = {ends[0]:.6g} and t = {ends[1]:.6g}")
     count = min(run.count for run in sampled)
     if compared < count:

@@ -95,6 +95,7 @@ class Runs:
         replaced = self.simulator.defaults.warnings()
         if replaced:
             self._listener.problems(replaced)
+        segment = workspace.segments.directed(segment, plan)
         model = workspace.segments.model(segment, plan.rule)
         self._advise(model, segment)
         self.start, self.run_of = start, (program.source.text, self._values.generation)
@@ -102,7 +103,7 @@ class Runs:
         record = RunRecord(
             number=self.count, segment=label, line=workspace.line_of(placed), requests=segment.requests,
             columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule,
-            scale=plan.scale, t0=plan.t0, t_max=plan.t_max, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
+            scale=plan.scale, t0=plan.t0, t_max=plan.span, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
             compile_seconds=perf_counter() - began,
         )  # fmt: skip
         self._keep(record)

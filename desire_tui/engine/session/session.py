@@ -148,7 +148,8 @@ class Session:
             state = State.STOPPED
         steps = int(memory.steps) if memory is not None else record.steps if record else 0
         return Status(
-            state=state, run=runs.count, segment=record.segment if record else None, t=cells[T],
+            state=state, run=runs.count, segment=record.segment if record else None,
+            t=runs.simulator.direction * cells[T],
             t0=record.t0 if record else 0.0, t_max=record.t_max if record else cells[TMAX], steps=steps,
             steps_per_second=runs.simulator.pace(steps, record), dt=cells[DT],
             rule=record.rule if record and memory is not None else host.rule,

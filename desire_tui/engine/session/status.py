@@ -62,4 +62,4 @@ class Status:
     @property
     def progress(self) -> float:
         """Part of TMAX that the run has covered, 0 … 1."""
-        return min(max((self.t - self.t0) / self.t_max, 0.0), 1.0) if self.t_max > 0 else 0.0
+        return min(max((self.t - self.t0) / self.t_max, 0.0), 1.0) if self.t_max else 0.0

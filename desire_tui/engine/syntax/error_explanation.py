@@ -17,6 +17,7 @@ from desire_tui.engine.syntax.statement_tokens import (
     OCTAL,
     STRING,
     TokenFault,
+    comment_mark,
     shown,
 )
 from desire_tui.engine.syntax.words import CLOSERS, OPENERS, RELATIONS, keyword_like
@@ -198,9 +199,19 @@ def _first_words(s: _Stuck) -> str:
         s.place(0, 2)
         s.facts["state"] = s.texts[0][1:]
         return "derivative-form"
+    if s.at == 1 and s.word == NAME and s.kind == STRING and not s.text.strip("'"):
+        s.place(0, 1)
+        return "second-derivative"
+    if s.kind == "=" and s.texts[:2] == ["der", "("]:
+        s.place(0, s.at - 1)
+        return "derivative-form"
     if s.at == 1 and s.word == NAME and (s.kind in _OPERANDS or s.kind == "#"):
         return not_a_statement(s)
     if s.at == 0 and s.kind not in ("=", *CLOSERS):
+        mark = comment_mark(s.chunk)
+        if mark is not None:
+            s.start, s.end = mark.start, mark.end
+            return mark.key
         return not_a_statement(s)
     if s.at == 1 and s.word not in CLASSES and s.expected == {"$END"}:
         return "go-where" if s.word == "go" else "only-comment"
@@ -221,6 +232,19 @@ def _assignments(s: _Stuck) -> str:
         s.place(0, max(0, s.at - 1))
         return "target-illegal" if s.at else "variable-missing"
     return ""
+
+
+def _other_languages(s: _Stuck) -> str:
+    """`2**3`, and comments behind a statement."""
+    doubled = s.kind == s.previous and s.kind in ("*", "/")
+    if doubled and s.kind == "*":
+        s.place(s.at - 1, s.at)
+        return "power-spelling"
+    if doubled:
+        s.place(s.at - 1, s.at)
+        s.facts["text"] = "//"
+    trailing = s.kind in ("#", ";", "%") and s.after_operand and not s.opened
+    return "foreign-end" if doubled or trailing else ""
 
 
 def _expressions(s: _Stuck) -> str:
@@ -255,7 +279,7 @@ def _operator_missing(s: _Stuck) -> str:
 
 _RULES: tuple[Callable[[_Stuck], str], ...] = (
     _relation_spelling, _mixed_brackets, _brackets, _matrix_function, _own_form, _first_words, _assignments,
-    _expressions,
+    _other_languages, _expressions,
 )  # fmt: skip
 
 

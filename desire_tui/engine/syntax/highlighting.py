@@ -6,7 +6,16 @@ from functools import cache
 from typing import Literal
 
 from desire_tui.engine.syntax.parse import numbered
-from desire_tui.engine.syntax.statement_tokens import LETTER, MATFUN, NAME, NUMBER, OCTAL, RAW, STRING
+from desire_tui.engine.syntax.statement_tokens import (
+    LETTER,
+    MATFUN,
+    NAME,
+    NUMBER,
+    OCTAL,
+    OPERAND_END,
+    RAW,
+    STRING,
+)
 from desire_tui.engine.syntax.tokens import scan
 
 Class = Literal["keyword", "function", "system", "string", "comment", "number", "operator", "name"]
@@ -46,6 +55,8 @@ def _class(texts: list[str], kinds: list[str], i: int, kind: str) -> Class:
         functions, system = _known()
         if text in system:
             return "system"
+        if text in ("and", "or") and i and kinds[i - 1] in OPERAND_END:
+            return "keyword"
         called = i + 1 < len(kinds) and kinds[i + 1] == "("
         return "function" if text in functions and called else "name"
     known = _CLASSES.get(kind)

@@ -5,13 +5,22 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.statement_tokens import NUMBER, OCTAL, STRING, TokenFault, shown
+from desire_tui.engine.syntax.statement_tokens import (
+    NAME,
+    NUMBER,
+    OCTAL,
+    OPERAND_END,
+    STRING,
+    TokenFault,
+    shown,
+)
 
 if TYPE_CHECKING:
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
 _OCTAL = re.compile(r"&[0-7]+\Z|&&[0-9A-Fa-f]+\Z")
 _NUMBER_START = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_PRIME = re.compile(r"'[ \t]*=")
 _EXPONENT = re.compile(r"[eE](?![A-Za-z])")
 
 
@@ -22,6 +31,8 @@ def add_odd(chunk: StatementTokens, group: int, lexeme: str, start: int) -> int:
     if group == 8:
         if lexeme == "&":
             chunk.add("&", lexeme, start, end)
+        elif lexeme == "&&" and chunk.kinds[-1:] and chunk.kinds[-1] in OPERAND_END:
+            fault = TokenFault("logical-spelling", start - base, end - base, {"text": lexeme})
         elif _OCTAL.match(lexeme) and octal_in_range(lexeme):
             chunk.add(OCTAL, lexeme, start, end)
         elif lexeme[1].isalpha():
@@ -44,10 +55,19 @@ def add_odd(chunk: StatementTokens, group: int, lexeme: str, start: int) -> int:
             fault = TokenFault("number-format", start - base, end - base, {"text": shown(lexeme)})
             chunk.add(NUMBER, "0", start, end)
     else:
-        fault = TokenFault("strange-character", start - base, end - base, {"char": lexeme})
+        key = {"!=": "relation-spelling", ":=": "assignment-spelling"}.get(lexeme, "strange-character")
+        fault = TokenFault(key, start - base, end - base, {"char": lexeme, "text": lexeme, "right": "<>"})
     if chunk.fault is None:
         chunk.fault = fault
     return end
+
+
+def is_prime(chunk: StatementTokens, text: str, start: int) -> bool:
+    """Whether a quote marks a derivative, `x' = …` or `x[2]' = …`: no statement has a string there."""
+    kinds = chunk.kinds
+    if not kinds or kinds[0] != NAME or start - chunk.base != chunk.ends[-1] or not _PRIME.match(text, start):
+        return False
+    return len(kinds) == 1 or (kinds[1] == "[" and kinds[-1] == "]")
 
 
 def too_large(lexeme: str) -> bool:

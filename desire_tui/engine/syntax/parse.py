@@ -24,8 +24,8 @@ from desire_tui.engine.syntax import shapes
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
 from desire_tui.engine.syntax.shapes import statement
-from desire_tui.engine.syntax.statement_tokens import CLASSES, NAME, TokenFault, shown
-from desire_tui.engine.syntax.tokens import CONTINUES, scan
+from desire_tui.engine.syntax.statement_tokens import CLASSES, NAME, TokenFault, comment_mark, shown
+from desire_tui.engine.syntax.tokens import CONTINUES, mark_logical_words, scan
 from desire_tui.engine.syntax.words import keyword_like
 
 if TYPE_CHECKING:
@@ -332,10 +332,12 @@ def _meant(chunk: StatementTokens, fault: TokenFault) -> str:
 
 def _parsed(chunk: StatementTokens) -> Statement | TokenFault:
     if chunk.fault is not None:
-        return chunk.fault
+        return comment_mark(chunk) or chunk.fault
     try:
         return statement(chunk)
     except Unexpected as problem:
+        if mark_logical_words(chunk):
+            return _parsed(chunk)
         from desire_tui.engine.syntax.error_explanation import explain
 
         return explain(chunk, problem.at, problem.expected)

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 NAME, NUMBER, OCTAL, STRING = "NAME", "NUMBER", "OCTAL", "STRING"
 RAW, LETTER, MATFUN = "RAW", "LETTER", "MATFUN"
+PRIME = "'"
+"""The mark of a derivative, `x' = …`."""
 CLASSES = frozenset({NAME, NUMBER, OCTAL, STRING, RAW, LETTER, MATFUN})
 OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%", "#"})
 """Kinds of tokens behind which an operator may follow."""
@@ -54,6 +56,20 @@ class StatementTokens:
         self.texts.append(text)
         self.starts.append(start - self.base)
         self.ends.append(end - self.base)
+
+
+_COMMENT_MARKS = frozenset({"#", "##", ";", "%", "%%"})
+
+
+def comment_mark(chunk: StatementTokens) -> TokenFault | None:
+    """Return the fault of a statement that begins with another language's comment mark, None for others."""
+    kinds, fault = chunk.kinds, chunk.fault
+    if not kinds or (fault is not None and fault.start < chunk.starts[0]):
+        marked, end = fault is not None and fault.facts.get("char") == "!", 1
+    else:
+        two = kinds[0] == "/" and kinds[1:2] in (["/"], ["*"])
+        marked, end = two or kinds[0] in _COMMENT_MARKS, chunk.ends[1 if two else 0]
+    return TokenFault("comment-mark", 0, end) if marked else None
 
 
 class LogicalLine:

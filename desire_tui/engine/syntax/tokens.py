@@ -11,12 +11,14 @@ import re
 
 from desire_tui.engine.syntax.heads import add_head
 from desire_tui.engine.syntax.joined_rows import joints
-from desire_tui.engine.syntax.literals import add_odd, too_large
+from desire_tui.engine.syntax.literals import add_odd, is_prime, too_large
 from desire_tui.engine.syntax.statement_tokens import (
     MATFUN,
     NAME,
     NUMBER,
+    OCTAL,
     OPERAND_END,
+    PRIME,
     STRING,
     LogicalLine,
     StatementTokens,
@@ -38,6 +40,8 @@ CONTINUES = frozenset("+*/^=-_")
 _STARRED = frozenset({"drun", "drunr", "SHOW"})
 """Statements that may end in `*`."""
 _OPEN = frozenset(OPENERS.values())
+_LOGICAL = frozenset({"and", "or", "not"})
+_OPERAND_STARTS = frozenset({NAME, NUMBER, OCTAL, "("})
 
 _TOKEN = re.compile(
     r"""(?:[ \t\r\n\f\v]|_[ \t\r]*\Z)*(?:
@@ -51,7 +55,7 @@ _TOKEN = re.compile(
     | (&&?[0-9A-Za-z]*)                                              # 8 octal, hexadecimal, minimum
     | (['"][^\n]*)                                                    # 9 a quote nobody closed
     | (\.?[0-9][A-Za-z0-9.$_]*|\.)                                     # 10 not a number, perhaps
-    | (.)                                                             # 11 nothing we know
+    | (!=|:=|.)                                                       # 11 nothing we know
     )?""",
     re.VERBOSE,
 )
@@ -143,6 +147,9 @@ def scan(text: str) -> LogicalLine:
                     )
             elif lexeme in CLOSERS:
                 depth -= 1
+        elif group in {6, 9} and is_prime(chunk, text, start):
+            pos = start + 1
+            chunk.add(PRIME, PRIME, start, pos)
         elif group == 6:
             chunk.add(STRING, lexeme, start, pos)
         elif group == 7:
@@ -156,6 +163,21 @@ def scan(text: str) -> LogicalLine:
     else:
         continues = kinds[-1] if chunk and _wants_more(chunk) else ""
     return LogicalLine(chunks, comments, continues=continues)
+
+
+def mark_logical_words(chunk: StatementTokens) -> bool:
+    """Take `and`, `or` and `not` for what they are in an expression, `(t > 1 and t < 2)*x`; False: none is.
+
+    Asked where a statement cannot be read: in no other do these words stand where an operator could.
+    """
+    kinds, found = chunk.kinds, False
+    for at, text in enumerate(chunk.texts):
+        if kinds[at] == NAME and text in _LOGICAL and at:
+            follows = at + 1 < len(kinds) and kinds[at + 1] in _OPERAND_STARTS
+            if follows and (kinds[at - 1] in OPERAND_END) == (text != "not"):
+                kinds[at] = text
+                found = True
+    return found
 
 
 def _is_soft(chunk: StatementTokens, lexeme: str, text: str, pos: int) -> bool:

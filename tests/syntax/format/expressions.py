@@ -19,6 +19,7 @@ from desire_tui.engine.nodes.expressions import (
     Shifted,
     Text,
     Transposed,
+    Truth,
     Unary,
 )
 
@@ -58,6 +59,8 @@ def _bare_expr(node: Expr) -> tuple[str, int]:
             return f"{name}{{{expression(by)}}}", _ATOM
         case Pair(re, im):
             return f"[{expression(re)}, {expression(im)}]", _ATOM
+        case Truth(holds):
+            return f"({condition(holds)})", _ATOM
         case Unary(op, operand):
             return f"{op}{_operand(op, expression(operand, _SIGN))}", _SIGN
         case Binary("^", left, right):

@@ -115,6 +115,7 @@ _FORMULAS: dict[str, Callable[..., str]] = {
     "abs": lambda e, a: e.intrinsic("fabs", a),
     "round": lambda e, a: e.intrinsic("round", a),
     "trnc": lambda e, a: e.intrinsic("trunc", a),
+    "floor": lambda e, a: e.intrinsic("floor", a),
     "recip": lambda e, a: e.div(e.const(1.0), a),
     "lim": _lim,
     "swtch": lambda e, a: _comp(e, a, e.const(0.0), e.const(1.0)),

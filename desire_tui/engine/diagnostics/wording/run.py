@@ -33,8 +33,11 @@ MESSAGES: dict[str, Wording] = {
         "set it before drun, for instance TMAX = 10",
         _TMAX_PAGE,
     ),
-    "tmax-not-positive": Wording(
-        87, "TMAX = {value:g}, but a run must last some time", "set TMAX to a number above 0", _TMAX_PAGE
+    "tmax-zero": Wording(
+        87,
+        "TMAX = {value:g}, but a run must last some time",
+        "set TMAX to a number above 0, or below 0 to go backward in time",
+        _TMAX_PAGE,
     ),
     "setting-not-positive": Wording(
         87,

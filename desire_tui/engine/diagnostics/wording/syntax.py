@@ -16,6 +16,17 @@ _SENTENCES: dict[str, Wording] = {
     ),
     "expression-alone": Wording(1, "an expression is no statement", "assign it: y = …, or print it: write …"),
     "derivative-form": Wording(1, "this is no derivative", "write: d/dt x = …"),
+    "derivative-spelling": Wording(1, "the book writes a derivative with d/dt alone", "write: {form} = …"),
+    "second-derivative": Wording(
+        1, "a second derivative needs a state of its own", "write: d/dt x = v | d/dt v = …"
+    ),
+    "comment-mark": Wording(1, "this begins no statement", "a comment begins with --"),
+    "foreign-end": Wording(
+        33, "the statement should end before '{text}'", "separate statements by |, begin a comment with --"
+    ),
+    "power-spelling": Wording(14, "a power is not written like this", "write x^2"),
+    "logical-spelling": Wording(10, "'{text}' is no operator", "write and, or, not"),
+    "assignment-spelling": Wording(33, "'{text}' is no assignment", "write ="),
     "number-too-large": Wording(3, "the number is too large", "the largest is about 1.79E+308"),
     "number-format": Wording(6, "'{text}' is not a number", "numbers look like 12, .85, 1.2E-07"),
     "parenthesis-unclosed": Wording(7, "a parenthesis is not closed", "add )"),
@@ -23,7 +34,7 @@ _SENTENCES: dict[str, Wording] = {
     "then-missing": Wording(10, "'then' is missing behind the condition", "write: if a > b then"),
     "relation-expected": Wording(10, "a relation is expected here", "compare with = < > <= >= or <>"),
     "relation-misplaced": Wording(
-        10, "a relation cannot be part of an expression", "use it in if, while or until"
+        10, "a relation that is a value stands in parentheses", "write it so: (a > b) is 1 or 0"
     ),
     "relation-spelling": Wording(10, "'{text}' is not a relation", "write {right}"),
     "connect-form": Wording(11, "this is not how a file is connected", "write: connect 'name' as input 3"),
@@ -169,8 +180,9 @@ _EXPLANATIONS = {
         `and`, `or`, `not` and parentheses. A number is no condition: write `x <> 0`.
     """,
     "relation-misplaced": """
-        Relations have no value here. Use `if`, or the functions `swtch(a - b)` (1 if a > b, else 0) and
-        `comp(a - b, minus, plus)`.
+        In parentheses a condition is 1 where it holds and 0 where not: `y = (t > 0.5)*x`,
+        `(t > 1 and t < 2)`. The book's functions say the same: `swtch(a - b)` is 1 if a > b, else 0, and
+        `comp(a - b, minus, plus)` chooses between two values.
     """,
     "operand-missing": """
         An operator, a bracket or a keyword needs a value behind it. A line that ends with `+ - * / ^ =`

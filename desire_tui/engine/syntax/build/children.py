@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, get_args
 
-from desire_tui.engine.nodes.expressions import Condition, Expr
+from desire_tui.engine.nodes.expressions import Condition, Expr, Truth
 from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.syntax.statement_tokens import NAME
 
@@ -73,9 +73,9 @@ def nodes_in(kids: Iterable[Any]) -> tuple[Any, ...]:
 
 
 def plain(node: Any) -> Any:
-    """Return the expression itself; a relation in its place is a misuse."""
+    """Return the expression itself; a condition in its place (the grammar wants parentheses) is 1 or 0."""
     if isinstance(node, CONDITIONS):
-        raise Misuse("relation-misplaced", node.start, node.end)
+        return Truth(node, node.start, node.end)
     return node
 
 
@@ -90,7 +90,7 @@ def channel_of(kids: Kids) -> tuple[Expr | None, Kids]:
     """Take `# n ,` from the front of a statement's children."""
     if len(kids) > 1 and isinstance(kids[1], Token) and kids[1].kind in ("#", "##"):
         rest = kids[4:]  # the statement, `#`, n, and a separator
-        return kids[2], rest
+        return plain(kids[2]), rest
     return None, kids[1:]
 
 

@@ -24,7 +24,6 @@ from desire_tui.engine.nodes.files import (
 )
 from desire_tui.engine.nodes.segment import Invoke
 from desire_tui.engine.syntax.build.children import (
-    CONDITIONS,
     Kids,
     Misuse,
     Token,
@@ -51,9 +50,8 @@ class ScriptProductions:
         return If(condition(kids[1]), None, first, last)
 
     def if_positive(self, kids: Kids, first: int, last: int) -> Statement:
-        if isinstance(kids[1], CONDITIONS):
-            raise Misuse("then-missing", kids[1].start, kids[1].end)
-        return If(None, kids[1], first, last)
+        """`if x > 2` in a segment is `if (x > 2)`; in a script `structure` reports the missing `then`."""
+        return If(None, plain(kids[1]), first, last)
 
     def for_(self, kids: Kids, first: int, last: int) -> Statement:
         by = plain(kids[7]) if len(kids) > 6 else None
@@ -148,7 +146,7 @@ class ScriptProductions:
     def dump(self, kids: Kids, first: int, last: int) -> Statement:
         if len(kids) > 1 and kids[1].kind == "run":
             return Dump(None, "run", first, last)
-        return Dump(kids[2] if len(kids) > 2 else None, "all", first, last)
+        return Dump(plain(kids[2]) if len(kids) > 2 else None, "all", first, last)
 
     def irule(self, kids: Kids, first: int, last: int) -> Statement:
         return Irule(plain(kids[1]) if len(kids) > 1 else None, first, last)

@@ -21,7 +21,15 @@ from desire_tui.engine.nodes.segment import (
     TrackHold,
     VectorDerivative,
 )
-from desire_tui.engine.syntax.build.children import Kids, Token, channel_of, mask_of, nodes_in, plain
+from desire_tui.engine.syntax.build.children import (
+    Kids,
+    Token,
+    channel_of,
+    mask_of,
+    names_in,
+    nodes_in,
+    plain,
+)
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr
@@ -37,10 +45,12 @@ class Dynamic:
     """Vectors, matrices, derivatives, delays, requests, learning."""
 
     def derivative(self, kids: Kids, first: int, last: int) -> Statement:
-        return Derivative(kids[1], plain(kids[3]), first, last)
+        target, value = nodes_in(kids)
+        return Derivative(target, plain(value), first, last)
 
     def vector_derivative(self, kids: Kids, first: int, last: int) -> Statement:
-        return VectorDerivative(kids[2], plain(kids[4]), first, last)
+        (name,), value = names_in(kids), kids[-1]
+        return VectorDerivative(name, plain(value), first, last)
 
     def vector(self, kids: Kids, first: int, last: int) -> Statement:
         delta = kids[0].kind == "Delta" or kids[1].kind == "delta"
