@@ -16,7 +16,9 @@ _SENTENCES: dict[str, Wording] = {
     ),
     "expression-alone": Wording(1, "an expression is no statement", "assign it: y = …, or print it: write …"),
     "derivative-form": Wording(1, "this is no derivative", "write: d/dt x = …"),
-    "derivative-spelling": Wording(1, "the book writes a derivative with d/dt alone", "write: {form} = …"),
+    "derivative-spelling": Wording(
+        1, "the book writes a derivative with d/dt alone", "write: {form} = …", warning=True
+    ),
     "second-derivative": Wording(
         1, "a second derivative needs a state of its own", "write: d/dt x = v | d/dt v = …"
     ),
