@@ -49,9 +49,8 @@ class NativeModel:
         self, code: CodeCache, improver: Improver, segment: Segment, rule: int, values: Values
     ) -> None:
         vital = vital_columns(segment)
-        segment, self._numbers = stepped_segment(
-            segment, values.room, variable=rule_numbered(rule).kind == "variable"
-        )
+        variable = rule_numbered(rule).kind == "variable"
+        segment, self._numbers = stepped_segment(segment, values.room, variable=variable)
         self._store = code
         self._segment = segment
         self._rule = rule
@@ -60,7 +59,7 @@ class NativeModel:
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
         self._vital = np.array(vital, dtype=np.int64)
         self._vital_slots = self._columns[self._vital]
-        self._passes = passes_of(segment)
+        self._passes = passes_of(segment, variable=variable)
         self._tables = PieceTables(self._store, self._passes)
         self._temps = np.zeros(self._tables.temps)
         self.context = WorkMemory(values=values.address, temps=self._temps.ctypes.data)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.passes.renewal import renewals
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.states import make_states
@@ -59,6 +60,8 @@ class ReferenceModel:
         self.full = compile_(full_pass(segment))
         self.step = compile_(step_slice(segment))
         self.tail = compile_(final_sample_pass(segment))
+        variable = tableau is not None and tableau.variable
+        self.renewal, self.step_renewal = map(compile_, renewals(segment) if variable else ((), ()))
         # each stage's pass writes its own k; k1 is written by the full and the step pass
         self.stages: list[Run] = []
         for k in self.states.k[1:]:
@@ -129,6 +132,8 @@ class ReferenceModel:
 
     def _step(self, memory: RunMemory) -> Ended | None:
         assert self.tableau is not None
+        renewal = self.step_renewal if memory.phase == Phase.IN_STEP else self.renewal
+        renewal()
         memory.phase = Phase.IN_STEP
         step = variable_step if self.tableau.variable else fixed_step
         return step(self, self.tableau, memory)

@@ -10,8 +10,9 @@ from desire_tui.engine.runtime.run_memory import RunMemory
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.text import IrText
 
-PASSES = ("derivative", "step", "full", "tail")
-"""The pass with its flags folded in: later stages, step starts, communication points, after `term`."""
+PASSES = ("derivative", "step", "full", "tail", "renewal", "step_renewal")
+"""The pass with its flags folded in: later stages, step starts, communication points, after `term`, derivatives
+computed anew behind communication points and behind other step starts (`passes.renewal`)."""
 
 
 class WorkMemory(ctypes.Structure):
@@ -31,6 +32,8 @@ class WorkMemory(ctypes.Structure):
         ("step", ctypes.c_uint64),
         ("full", ctypes.c_uint64),
         ("tail", ctypes.c_uint64),
+        ("renewal", ctypes.c_uint64),
+        ("step_renewal", ctypes.c_uint64),
         ("states", ctypes.c_int64),
         ("state_slots", ctypes.c_uint64),  # int64 slot of each state
         ("x", ctypes.c_uint64),  # first state, where the states stand in a row

@@ -2,8 +2,9 @@
 
 The loop, in blocks:
 
-    point  ── full pass, sample, end? ──► step          (`again`, `point`: the phases a call may begin with)
-    again  ── step pass; `term`? ──► step
+    point  ── full pass, sample, end? ──► renew         (`again`, `point`: the phases a call may begin with)
+    again  ── step pass; `term`? ──► renew.step
+    renew  ── rules 4, 7, 8: derivatives anew where the pass has changed what they read ──► step
     step   ── the rule: stages, new states, t ──► attend where something is to be looked at, else again
     attend ── stop flag, inf and nan ──► point or again
 
@@ -51,7 +52,7 @@ class Driver(LoopFrame):
         self.leave(Ended.TMAX)
         text.begin("recall")
         self.storage.recall_first_stage()
-        text.jump("step")
+        text.jump("renew")
         self._point()
         if self.tableau is None:
             text.begin("again")
@@ -107,7 +108,7 @@ class Driver(LoopFrame):
         text.begin("onward")
         if self.tableau is None:  # after the last sample t stays where it was taken
             self.storage.store(T, self.get("t_next"))
-        text.branch(self._rows_full(), "point.full", "step")
+        text.branch(self._rows_full(), "point.full", "renew")
         text.begin("point.full")  # come back now: the caller sees the values as they were sampled
         self.storage.keep_first_stage()
         self.leave(Ended.RUNNING, Phase.AFTER_POINT)
@@ -144,6 +145,7 @@ class Driver(LoopFrame):
 
     def _next_without_rule(self) -> None:
         text = self.text
+        self._renew("renew", "renewal")
         text.begin("step")
         self.put("reached", "1")
         stop = text.op(f"icmp ne i32 {self.memory.load('stop', volatile=True)}, 0")
@@ -157,11 +159,20 @@ class Driver(LoopFrame):
         text.begin("again")
         self._clear_term()
         self.run_pass("step", 1)
-        text.branch(self._fired(), "tail", "step")
+        text.branch(self._fired(), "tail", "renew.step")
+        self._renew("renew", "renewal")
+        self._renew("renew.step", "step_renewal")
         text.begin("tail")
         self.storage.run_pass("tail", 1)
         self.put("last", "1")
         text.jump("sample")
+
+    def _renew(self, block: str, kind: str) -> None:
+        """Write where a rule that tests its steps computes k1 anew (`passes.renewal`)."""
+        self.text.begin(block)
+        if self.tableau is not None and self.tableau.variable:
+            self.storage.run_pass(kind, 1)
+        self.text.jump("step")
 
     def _step(self, tableau: Tableau) -> None:
         self.text.begin("step")

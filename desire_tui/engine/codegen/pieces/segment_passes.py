@@ -1,4 +1,4 @@
-"""Which statements each of a segment's four passes holds."""
+"""Which statements each of a segment's passes holds."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.statements import Deriv
 from desire_tui.engine.passes.final_sample import holds_term
+from desire_tui.engine.passes.renewal import renewals
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 
 if TYPE_CHECKING:
@@ -13,11 +14,17 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
 
 
-def passes_of(segment: Segment) -> dict[str, tuple[Action, ...]]:
-    """Return the statements of each of the four passes."""
+NO_MORE: dict[str, tuple[Action, ...]] = {"tail": (), "renewal": (), "step_renewal": ()}
+
+
+def passes_of(segment: Segment, *, variable: bool = False) -> dict[str, tuple[Action, ...]]:
+    """Return the statements of each of the passes; `variable`: for a rule that tests its steps by k1."""
     if all(type(action) is Deriv for action in segment.body):
-        return dict.fromkeys(("derivative", "step", "full"), segment.body) | {"tail": ()}
+        return dict.fromkeys(("derivative", "step", "full"), segment.body) | NO_MORE
+    point, step = renewals(segment) if variable else ((), ())
     return {
+        "renewal": point,
+        "step_renewal": step,
         "derivative": derivative_slice(segment),
         "step": step_slice(segment),
         "full": full_pass(segment),
