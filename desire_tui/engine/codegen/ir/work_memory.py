@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.text import IrText
 
 PASSES = ("derivative", "step", "full", "tail", "renewal", "step_renewal")
-"""The pass with its flags folded in: later stages, step starts, communication points, after `term`, derivatives
-computed anew behind communication points and behind other step starts (`passes.renewal`)."""
+"""The pass with its flags folded in: later stages, step starts, communication points, after `term`;
+derivatives computed anew behind communication points and behind other step starts (`passes.renewal`)."""
 
 
 class WorkMemory(ctypes.Structure):
