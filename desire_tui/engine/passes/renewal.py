@@ -1,10 +1,10 @@
 """Derivatives computed anew where code further down in a pass has changed what they read.
 
 In one pass the derivatives come where their lines stand; what code behind `step`, `SAMPLE` or `OUT`, a
-difference equation or `get` assigns afterwards they see in the next pass. A rule that tests its steps would judge
-such a step by a derivative of what was before, halve it for ever, or be of first order. So rules 4, 7 and 8 make
-one more pass then, of defined variables and derivatives alone; nothing is remembered or drawn twice. The other
-explicit rules keep the order of the original (docs/rules.md).
+difference equation or `get` assigns afterwards they see in the next pass. A rule that tests its steps would
+judge such a step by a derivative of what was before, halve it for ever, or be of first order. So rules 4, 7
+and 8 make one more pass then, of defined variables and derivatives alone; nothing is remembered or drawn
+twice. The other explicit rules keep the order of the original (docs/rules.md).
 """
 
 from __future__ import annotations
