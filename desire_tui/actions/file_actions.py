@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -112,12 +113,14 @@ class FileActions(Controller):
         path = self.app.editor.front.buffer.path
         return path.parent if path else Path.cwd()
 
-    def _resolve(self, name: str) -> Path:
-        path = Path(name).expanduser()
-        if not path.suffix and not (self._folder() / path).exists():
+    def _resolve(self, name: str) -> Path | None:
+        if not self.app.is_file_name(name):
+            return None
+        path = Path(os.path.expanduser(name))  # noqa: PTH111 - ~nobody is no error
+        if not path.suffix and not exists(self._folder() / path):
             path = path.with_suffix(SUFFIX)
         here = self._folder() / path
-        return here if here.exists() or not (Path.cwd() / path).exists() else Path.cwd() / path
+        return here if exists(here) or not exists(Path.cwd() / path) else Path.cwd() / path
 
     # ------------------------------------------------------------------------------------------------- save
 

@@ -125,7 +125,8 @@ class GraphActions(Controller):
             if not typed:
                 return
             name = typed
-        path = full(Path(name) if Path(name).suffix else Path(f"{name}{PNG.ending}"), app.session.folder)
+        if (path := self._path(name, PNG.ending)) is None:
+            return
         page = app.graph.page
         if not app.may_write(path, frozenset(known.ending for known in PICTURES)):
             return
@@ -139,6 +140,11 @@ class GraphActions(Controller):
                 app.on_screen(app.snapshot_written, written)
 
         app.in_background(write)
+
+    def _path(self, name: str, ending: str) -> Path | None:
+        if not self.app.is_file_name(name):
+            return None
+        return full(Path(name) if Path(name).suffix else Path(f"{name}{ending}"), self.app.session.folder)
 
     async def picture(self, argument: str = "") -> None:
         """Show the graph as a picture; `s` there saves it."""
@@ -162,7 +168,8 @@ class GraphActions(Controller):
         name = argument or await app.push_screen_wait(ask)
         if not name:
             return
-        path = full(Path(name) if Path(name).suffix else Path(f"{name}{CSV.ending}"), app.session.folder)
+        if (path := self._path(name, CSV.ending)) is None:
+            return
         if not app.may_write(path, frozenset({CSV.ending})):
             return
         try:

@@ -13,6 +13,7 @@ from desire_tui.batch.progress import Progress
 from desire_tui.batch.runner import Runner, RunOptions
 from desire_tui.engine.diagnostics import DesireError, internal_error, render_all
 from desire_tui.engine.files import decoded, read_source
+from desire_tui.engine.program_files import is_folder
 from desire_tui.engine.session import process_groups
 from desire_tui.engine.source import Source
 from desire_tui.engine.visible_text import visible_line
@@ -46,13 +47,13 @@ def check_files(names: Sequence[str]) -> int:
     session, status, summary = Session(), DONE, Summary()
     has_folders = False
     for name in names:
-        is_folder = name != _STANDARD_INPUT and Path(name).is_dir()
-        has_folders |= is_folder
+        whole = name != _STANDARD_INPUT and is_folder(Path(name))
+        has_folders |= whole
         hidden: list[Diagnostic] = []
-        for program in programs_below(name, hidden) if is_folder else (name,):
+        for program in programs_below(name, hidden) if whole else (name,):
             try:
                 # many programs: without the JACOBIANs, for which scripts are carried out
-                problems = session.check(source_named(program), quick=is_folder)
+                problems = session.check(source_named(program), quick=whole)
             except DesireError as error:
                 problems = error.diagnostics
             report(problems)

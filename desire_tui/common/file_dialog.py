@@ -18,7 +18,7 @@ from textual_fspicker.parts.directory_navigation import DirectoryEntry, Director
 from textual_fspicker.path_filters import Filter
 from textual_fspicker.safe_tests import is_dir
 
-from desire_tui.common.paths import exists, full
+from desire_tui.common.paths import can_name_a_file, exists, full
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ class FileDialog(BaseFileDialog):
         """Narrow the list; a folder is gone into at its slash."""
         self._moved = False
         head, slash, name = event.value.rpartition("/")
-        with suppress(OSError, RuntimeError):  # a name too long; ~nobody
+        with suppress(OSError, ValueError):  # a name too long, or one that no file can have
             if slash and is_dir(folder := full(Path(head + slash), self._list.location)):
                 cursor = self._field.cursor_position - len(head + slash)
                 self._list.location, self._field.value, self._field.cursor_position = folder, name, cursor
@@ -158,6 +158,10 @@ class FileDialog(BaseFileDialog):
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
         """Take the list's entry if the arrows chose it, or what was typed to open is no file."""
+        if not can_name_a_file(event.value):
+            self._set_error("No file can be called so")
+            event.prevent_default()
+            return
         try:
             is_there = bool(event.value) and (self._list.location / event.value).exists()
         except OSError as error:  # a name too long

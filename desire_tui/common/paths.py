@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from desire_tui.engine import user_folders
@@ -28,8 +29,16 @@ def full(path: Path, folder: Path | None = None) -> Path:
 
     Relative ones start at `folder` (default: where we are).
     """
-    path = path.expanduser()
+    path = Path(os.path.expanduser(path))  # noqa: PTH111 - ~nobody is no error
     return ((folder / path) if folder is not None else path).resolve()
+
+
+def can_name_a_file(name: str) -> bool:
+    """Whether a file could be called so; a NUL or half a character is a ValueError everywhere."""
+    try:
+        return b"\0" not in os.fsencode(name)
+    except UnicodeEncodeError:
+        return False
 
 
 def exists(path: Path) -> bool:

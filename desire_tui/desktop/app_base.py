@@ -18,6 +18,7 @@ from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.screen_listener import ScreenListener
 from desire_tui.engine.session.status import State
 from desire_tui.engine.user_folders import make_private
+from desire_tui.engine.visible_text import visible_line
 from desire_tui.panes.command_history import CommandHistory
 from desire_tui.panes.problems_pane import ProgramProblems
 
@@ -221,6 +222,13 @@ class AppBase(App[None]):
         text = f"error {code}: {sentence}" if code else sentence
         self.command.console.add(text, "error" if code else "warning")
         self._show_toast(text, "", "error" if code else "warning", 6, markup=False)
+
+    def is_file_name(self, name: str) -> bool:
+        """Whether a file can be called so; the user is told if not."""
+        if not paths.can_name_a_file(name):
+            self.report_error(f"no file can be called {visible_line(name)}", code=38)
+            return False
+        return True
 
     def may_read(self, path: Path) -> bool:
         """Whether the user may open a file; he is told if not."""

@@ -11,6 +11,7 @@ from desire_tui.common.dialogs import Choice
 from desire_tui.common.paths import examples_folder
 from desire_tui.editor import recovery
 from desire_tui.editor.buffer import Buffer
+from desire_tui.engine.program_files import exists, is_folder
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ async def open_first(app: DesireApp) -> None:
     await app.editor.add(Buffer())
     if app.files:
         for number, path in enumerate(app.files):
-            if not path.exists() and path.parent.is_dir():
+            if not exists(path) and is_folder(path.parent):
                 await app.editor.add(Buffer(path.resolve()), "", front=number == 0)
             else:
                 await app.file_actions.open_path(path, focus=False)

@@ -10,6 +10,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
+from desire_tui.common.paths import can_name_a_file
 from desire_tui.editor import recovery
 from desire_tui.editor.buffer import Buffer, NotText
 from desire_tui.editor.recovery import Leftover, SavedTab
@@ -123,7 +124,7 @@ class Checkpoints:
 
 
 def _buffer_of(tab: SavedTab) -> Buffer:
-    if tab.path is None:
+    if tab.path is None or not can_name_a_file(tab.path):
         buffer = Buffer(label=tab.label)
     else:
         try:

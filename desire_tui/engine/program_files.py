@@ -84,6 +84,16 @@ def _check(number: int, path: Path) -> None:
         raise OSError(EINVAL, "it is no ordinary file")
 
 
+def exists(path: Path) -> bool:
+    """Whether something is at a path; what cannot be looked at does not: a name too long, a closed folder."""
+    return os.path.exists(path)  # noqa: PTH110 - pathlib's raises errors
+
+
+def is_folder(path: Path) -> bool:
+    """Whether a folder stands at a path that can be looked at."""
+    return os.path.isdir(path)  # noqa: PTH112 - as above
+
+
 def irregular_kind(path: Path) -> str | None:
     """Return what stands at a resolved path in the words of a message; None: a file, a folder, or nothing."""
     try:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import desire_tui
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.program_files import open_for_program
 from desire_tui.engine.session.listener import Listener
@@ -246,3 +247,17 @@ def test_no_folder_stays_open(tmp_path):
         with pytest.raises(OSError, match=r"No such file|Not a directory"):
             open_for_program(missing, "r")
     assert len(list(OPEN_FILES.iterdir())) == before
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("connect '{}.dat' as output 2 | write #2, 1", 11),
+        ("connect '{}.dat' as input 2", 11),
+        ("notebook '{}.md'", 106),
+    ],
+)
+def test_a_name_too_long_is_the_programs_error(tmp_path, monkeypatch, line, code):
+    monkeypatch.chdir(tmp_path)
+    result = desire_tui.run(line.format("n" * 300) + "\n", allow_write=True)
+    assert [problem.code for problem in result.problems] == [code], result.problems

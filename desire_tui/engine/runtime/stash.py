@@ -14,7 +14,7 @@ import numpy as np
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import write_bytes
 from desire_tui.engine.lowered.statements import GetHistory
-from desire_tui.engine.program_files import open_for_program
+from desire_tui.engine.program_files import exists, open_for_program
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,7 +36,7 @@ def read_stash(path: Path, wanted: tuple[SampleColumn, ...], segment: Segment) -
     """Return the file's samples × variables. DesireError 92: missing, unreadable or too narrow."""
     where = wanted[0].where.span
     facts: dict[str, object] = {"path": path, "wanted": len(wanted)}
-    if not path.exists():
+    if not exists(path):
         raise DesireError(Diagnostic("stash-missing", where, facts, segment.source))
     found = _histories(path)
     if found is None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.program_files import irregular_kind
+from desire_tui.engine.program_files import exists, irregular_kind, is_folder
 from desire_tui.engine.session.made_files import MadeFiles
 from desire_tui.engine.visible_text import visible_whole
 
@@ -88,7 +88,7 @@ class Permissions:
             request = PermissionRequest(mode, str(target), reason)
             if not self._granted(asker, request, ask):
                 raise _refusal(mode, target, reason)
-        if mode == "write" and (reason is not None or not target.exists()):
+        if mode == "write" and (reason is not None or not exists(target)):
             self.made.add(asker.program, target)
         return target
 
@@ -99,7 +99,7 @@ class Permissions:
             return f"outside its folder {folder}"
         if any(part.startswith(".") for part in target.relative_to(folder).parts):
             return "which is hidden"
-        if target.is_dir():
+        if is_folder(target):
             return None  # opening it fails, with a better reason
         if mode == "write" and ending not in DATA_ENDINGS | OTHER_ENDINGS:
             return "which is neither data nor text nor a picture"
@@ -109,7 +109,7 @@ class Permissions:
             return "although it has no folder of its own"
         if _home().is_relative_to(folder):
             return f"in {folder}, where more than its own files are"
-        if mode == "write" and ending not in DATA_ENDINGS and target.exists():
+        if mode == "write" and ending not in DATA_ENDINGS and exists(target):
             return "which it did not make"
         return None
 
