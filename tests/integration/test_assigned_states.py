@@ -7,7 +7,9 @@ import pytest
 
 from tests.reference.runs import array, run
 
-STIFF = (11, 12, 13, 14, 15, 16)
+NEWTON = (10, 11, 14, 15)
+SHORT_STEPS = (9, 12, 13, 16)
+"""Functional iteration and the diagonal alone converge at short steps only: 1.2 million a unit of time for 501 points."""
 HEAT = """irule {rule} | ERMAX = 1e-4 | n = {n} | m = n - 2
 left = 1 | right = 2 | c = (n - 1)^2
 {declare}
@@ -53,8 +55,8 @@ def exact(n, t):
     ("rule", "n", "tmax", "backend"),
     [
         *((rule, 51, 0.1, "native") for rule in range(9, 17)),
-        *((rule, 501, 0.1, "native") for rule in STIFF if rule not in {11, 12}),
-        *((rule, 501, 1e-3, "native") for rule in (9, 10, 11, 12)),
+        *((rule, 501, 0.1, "native") for rule in NEWTON),
+        *((rule, 501, 0.01, "native") for rule in SHORT_STEPS),
         *((rule, 51, 0.02, "reference") for rule in (10, 12, 14, 15, 16)),
     ],
 )
@@ -62,6 +64,7 @@ def test_fixed_ends_of_a_rod(rule, n, tmax, backend, how):
     session, wanted = heat(rule, n, tmax, backend, how), with_parameters(rule, n, tmax, backend)
     np.testing.assert_allclose(array(session, "u"), exact(n, tmax), rtol=0, atol=10 * 1e-4 * 2)
     assert session.runs[0].steps <= 1.5 * wanted.steps
+    assert rule not in NEWTON or session.runs[0].steps < 100
     assert session.runs[0].rejected <= 1.5 * wanted.rejected + 5
 
 
