@@ -90,5 +90,9 @@ def _problem(
 ) -> Diagnostic:
     keys = {Call: "undefined-function", Element: "not-an-array"}
     key = keys.get(part.__class__, "undefined-variable")
+    if isinstance(part, Name) and part.name in LIBRARY:
+        return Diagnostic(
+            "function-without-arguments", placed.span(part), {"name": part.name}, program.source
+        )
     facts = {"name": part.name, "close": closest(part.name, known)}
     return Diagnostic(key, placed.span(part), facts, program.source)

@@ -53,7 +53,8 @@ def vector_derivative(builder: SegmentBuilder, node: VectorDerivative) -> None:
     context = builder.context
     quantity = states(context, node, node.name)
     if quantity is None:
-        context.lower(node.value, (UNKNOWN,))
+        known = context.quantity(node.name)
+        context.lower(node.value, known.shape if known is not None and known.shape else (UNKNOWN,))
         return
     count = size_of(quantity)
     value = context.lower(node.value, quantity.shape)

@@ -207,7 +207,11 @@ class LoweringContext(ABC):
     def _undefined(self, node: Name, name: str, quantity: Quantity | None) -> Value:
         places = self.assigned.get(name)
         if places is None:
-            if self.first_report(name):
+            if not self.first_report(name):
+                return BAD
+            if name in LIBRARY:
+                self.report("function-without-arguments", node, name=name)
+            else:
                 close = closest(name, self.known_names(name))
                 self.report("undefined-in-segment", node, name=name, close=close)
             return BAD

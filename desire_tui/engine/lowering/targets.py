@@ -82,7 +82,7 @@ def _array(context: LoweringContext, node: Node, name: str, ranks: tuple[int, ..
         context.report("not-real-target", place, name=quantity.name)
         return None
     if len(quantity.shape) not in ranks:
-        key = "vector-target" if 1 in ranks else "matrix-target"
+        key = "states-target" if len(ranks) > 1 else "vector-target" if ranks == (1,) else "matrix-target"
         context.report(key, place, name=quantity.name, dimensions=len(quantity.shape))
         return None
     return quantity

@@ -29,6 +29,15 @@ if TYPE_CHECKING:
 
 _OPERANDS = frozenset({NAME, NUMBER, OCTAL, STRING})
 _OPERAND_END = frozenset({NAME, NUMBER, OCTAL, STRING, LETTER, ")", "]", "}", "%"})
+_ASSIGNING_FORMS = {
+    "store": "store X = x",
+    "get": "get x = X",
+    "DOT": "DOT s = u*v",
+    "d/dt": "d/dt x = expression",
+}
+_BEGINNINGS = frozenset(
+    {"next", "else", "proceed", "drun", "drunr", "reset", "write", "STOP", "until", "exit"}
+)
 _REQUESTS = frozenset({"dispt", "dispxy", "DISPXY", "type", "stash", "recover"})
 _DEFINITIONS = frozenset({"PROCEDURE", "SUBMODEL", "FUNCTION", "call", "invoke"})
 _WHOLE_ARRAYS = frozenset({"Vector", "MATRIX", "DELTA", "Delta", "store"})
@@ -195,6 +204,10 @@ def _first_words(s: _Stuck) -> str:
     ):
         s.place(0, 2)
         return "derivative-form"
+    if s.texts[:2] == ["d", "/"] and s.texts[2:3] and s.texts[2].startswith("dt") and s.kind == "=":
+        s.place(0, 2)
+        s.facts["state"] = s.texts[2][2:]
+        return "derivative-form"
     if s.word == NAME and s.kinds[1:3] == ["/", NAME] and s.texts[2] == "dt" and s.texts[0].startswith("d"):
         s.place(0, 2)
         s.facts["state"] = s.texts[0][1:]
@@ -251,6 +264,7 @@ def _expressions(s: _Stuck) -> str:
     if s.kind in RELATIONS and s.after_operand:
         return "relation-misplaced"
     if "=" in s.expected and s.after_operand and "+" not in s.expected:
+        s.facts["form"] = _ASSIGNING_FORMS.get(s.word, "name = expression")
         return "equals-missing"
     if NAME in s.expected and not s.wants_operand and not s.after_operand:
         return "variable-missing"
@@ -268,7 +282,9 @@ def _expressions(s: _Stuck) -> str:
 
 
 def _operator_missing(s: _Stuck) -> str:
-    """`2 x`, and `sin x` where parentheses are meant."""
+    """`2 x`, `x = 1 next`, and `sin x` where parentheses are meant."""
+    if s.text in _BEGINNINGS:
+        return "statement-end"
     name = s.texts[s.at - 1]
     if s.previous != NAME or name not in LIBRARY or s.kind not in _OPERANDS:
         return "operator-missing"

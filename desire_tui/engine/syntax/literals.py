@@ -55,7 +55,8 @@ def add_odd(chunk: StatementTokens, group: int, lexeme: str, start: int) -> int:
             fault = TokenFault("number-format", start - base, end - base, {"text": shown(lexeme)})
             chunk.add(NUMBER, "0", start, end)
     else:
-        key = {"!=": "relation-spelling", ":=": "assignment-spelling"}.get(lexeme, "strange-character")
+        keys = {"!=": "relation-spelling", ":=": "assignment-spelling", ":": "colon"}
+        key = keys.get(lexeme, "strange-character")
         fault = TokenFault(key, start - base, end - base, {"char": lexeme, "text": lexeme, "right": "<>"})
     if chunk.fault is None:
         chunk.fault = fault

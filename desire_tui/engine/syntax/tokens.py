@@ -43,8 +43,9 @@ _OPEN = frozenset(OPENERS.values())
 _LOGICAL = frozenset({"and", "or", "not"})
 _OPERAND_STARTS = frozenset({NAME, NUMBER, OCTAL, "("})
 
+# \x1a, Ctrl-Z, is what DOS ended a file with: a blank.
 _TOKEN = re.compile(
-    r"""(?:[ \t\r\n\f\v]|_[ \t\r]*\Z)*(?:
+    r"""(?:[ \t\r\n\f\v\x1a]|_[ \t\r]*\Z)*(?:
       ([A-Za-z](?:[A-Za-z0-9$]|_(?![ \t\r]*\Z))*)                     # 1 name or keyword
     | ((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![0-9A-Za-z.$_]))  # 2 number
     | (--[^\n]*|—[^\n]*)                                             # 3 comment

@@ -50,7 +50,8 @@ _TWO_WORDS = ("go to", "end if", "end while", "d/dt", "Vectr d/dt", "Vectr delta
 _ELSEWHERE = {
     "print": "write", "echo": "write", "goto": "go to", "dim": "dimension", "wend": "end while",
     "endwhile": "end while", "done": "end while", "return": "exit", "break": "exit", "endif": "end if",
-    "fi": "proceed", "stop": "STOP", "def": "FUNCTION", "sub": "PROCEDURE", "exec": "call", "rem": "--",
+    "fi": "proceed", "stop": "STOP", "def": "FUNCTION", "sub": "PROCEDURE", "exec": "call", "gosub": "call",
+    "rem": "--",
 }  # fmt: skip
 """What users of other languages type."""
 
@@ -62,4 +63,9 @@ def keyword_like(text: str) -> str | None:
         return _ELSEWHERE[folded]
     candidates = (*KEYWORDS, *_TWO_WORDS)
     same = [word for word in candidates if word.casefold() == folded]
-    return same[0] if same else closest(text, candidates)
+    if same:
+        return same[0]
+    stem = text.rstrip("0123456789")
+    if stem in KEYWORDS and stem != text:
+        return f"{stem} {text[len(stem) :]}"
+    return closest(text, candidates)

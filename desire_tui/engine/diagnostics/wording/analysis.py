@@ -156,6 +156,11 @@ MESSAGES: dict[str, Wording] = {
         75, "'{name}' has {dimensions} dimensions, a vector is needed", "use MATRIX, or a view"
     ),
     "matrix-target": Wording(75, "'{name}' has {dimensions} dimension(s), a matrix is needed", "use Vector"),
+    "states-target": Wording(
+        75,
+        "'{name}' has {dimensions} dimensions, a vector or a matrix of states is needed",
+        "declare a view of it: STATE {name}[…] = v, and write Vectr d/dt v",
+    ),
     "row-of-matrix": Wording(
         75,
         "'{name}#' takes a row: '{name}' must be a matrix, and the statement a Vector one",

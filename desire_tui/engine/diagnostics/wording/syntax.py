@@ -59,7 +59,7 @@ _SENTENCES: dict[str, Wording] = {
     "pair-form": Wording(25, "a complex number needs a comma", "write: [real, imaginary]"),
     "track-hold-form": Wording(25, "trkhld needs two variables and two values", "write: trkhld y, y0 = p, x"),
     "quote-unclosed": Wording(26, "a string is not closed", "add {quote} at its end"),
-    "equals-missing": Wording(29, "'=' is missing{before}", "write: name = expression"),
+    "equals-missing": Wording(29, "'=' is missing{before}", "write: {form}"),
     "dimensions-too-many": Wording(32, "an array has at most {limit} dimensions", "use fewer subscripts"),
     "statement-end": Wording(33, "the statement should end before '{text}'", "separate statements by |"),
     "statement-cut": Wording(33, "the statement is not complete: '{wanted}' is missing", "add what follows"),
@@ -69,6 +69,7 @@ _SENTENCES: dict[str, Wording] = {
     "strange-character": Wording(
         33, "the character '{char}' means nothing here", "remove it, or quote the text"
     ),
+    "colon": Wording(33, "the character ':' means nothing here", "separate statements by |"),
     "file-name": Wording(34, "a file name in quotes is missing{before}", "write: connect 'name' as input 3"),
     "plot-form": Wording(36, "plot takes a point and a colour", "write: plot x, y, c"),
     "definition-form": Wording(37, "{word} is not written like this", "write: {word} name(a, b)"),
