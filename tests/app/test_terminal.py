@@ -219,28 +219,27 @@ def assert_restored(raw: bytes) -> None:
         assert raw.rfind(off) > raw.rfind(on) >= 0, off
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_restores_the_terminal_and_keeps_the_work(
-    terminal: Callable[..., Terminal], tmp_path: Path, number: signal.Signals
-):
+def test_signals_restore_the_terminal_and_keep_the_work(terminal: Callable[..., Terminal], tmp_path: Path):
+    """Each start offers what the signal before has left, and restores it."""
     (tmp_path / "kept.src").write_text("")
     screen = terminal("kept.src")
     screen.until(lambda: "kept.src" in screen.text and "F5" in screen.text)
     screen.read(0.3)
-    screen.send("precious = 1")
-    screen.until(lambda: "precious = 1" in screen.text)
-    screen.child.kill(number)
-    screen.child.expect(pexpect.EOF, timeout=PATIENCE_S)
-    screen.raw += screen.child.before or b""
-    assert_restored(bytes(screen.raw))
-    kept = list((tmp_path / "state" / "desire-tui").glob("recovery-*.json"))
-    assert len(kept) == 1
-    assert "precious = 1" in kept[0].read_text()
+    for number, word in (signal.SIGINT, "precious"), (signal.SIGTERM, "dear"), (signal.SIGHUP, "valued"):
+        screen.send("\x1be" + f"{word} = 1\r")  # Alt+E: the editor
+        screen.until(lambda screen=screen, word=word: f"{word} = 1" in screen.text)
+        screen.child.kill(number)
+        screen.child.expect(pexpect.EOF, timeout=PATIENCE_S)
+        screen.raw += screen.child.before or b""
+        assert_restored(bytes(screen.raw))
+        kept = list((tmp_path / "state" / "desire-tui").glob("recovery-*.json"))
+        assert len(kept) == 1
+        assert f"{word} = 1" in kept[0].read_text()
 
-    again = terminal("kept.src")
-    again.until(lambda: "Unsaved work found" in again.text)
-    again.answer("r", "Unsaved work found")
-    again.until(lambda: "precious = 1" in again.text)
+        screen = terminal("kept.src")
+        screen.until(lambda screen=screen: "Unsaved work found" in screen.text)
+        screen.answer("r", "Unsaved work found")
+        screen.until(lambda screen=screen, word=word: f"{word} = 1" in screen.text)
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSEGV])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import reduce
 from math import exp
 from random import Random
-from time import process_time
+from time import thread_time
 
 import pytest
 
@@ -32,7 +32,7 @@ def summed(terms: list[float]) -> str:
 
 
 def test_a_chain_of_any_length_is_parsed() -> None:
-    began = process_time()
+    began = thread_time()
     program = parse(Source("x = 1" + "+y*z" * 60_000))
     assert not program.problems
     node = program.script[0].node
@@ -41,7 +41,7 @@ def test_a_chain_of_any_length_is_parsed() -> None:
     assert first.end == 5
     assert len(steps) == 60_000
     assert all(step.op == "+" and isinstance(step.right, Binary) for step in steps)
-    assert process_time() - began < 6
+    assert thread_time() - began < 6
 
 
 def test_a_long_chain_is_written_as_it_was_read() -> None:
@@ -52,6 +52,7 @@ def test_a_long_chain_is_written_as_it_was_read() -> None:
     assert parse(Source(written)).script[0].node.value.op == "-"
 
 
+@pytest.mark.usefixtures("quick_code_only")
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("count", [49, 50, 51, 101, 1500])
 def test_sums_are_computed_from_left_to_right(count, backend, tmp_path) -> None:
@@ -76,6 +77,7 @@ def test_sums_are_computed_from_left_to_right(count, backend, tmp_path) -> None:
     assert list(found["v"]) == twice
 
 
+@pytest.mark.usefixtures("quick_code_only")
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_long_products_of_all_kinds(backend, tmp_path) -> None:
     factor = 1.0 + 2.0**-10
@@ -90,6 +92,7 @@ def test_long_products_of_all_kinds(backend, tmp_path) -> None:
     assert list(found["u"]) == [reduce(lambda total, x: total * x, [factor] * 700, c) for c in (2.0, 3.0)]
 
 
+@pytest.mark.usefixtures("quick_code_only")
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_random_numbers_are_drawn_from_left_to_right(backend, tmp_path) -> None:
     """The same sums, one draw a statement, from the same SEED."""
