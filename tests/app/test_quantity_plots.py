@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from desire_tui.actions.graph_actions import NOT_CHARTED
 
@@ -97,19 +96,17 @@ async def test_arrays_are_plotted_over_their_index(program):
         assert desk.app.session.graph.shown[0].columns == 4
 
 
-@pytest.mark.parametrize(
-    ("name", "why"), [("w", "constant"), ("nobody", "unknown"), ("a[6]", "unknown"), ("x[1]", "unknown")]
-)
-async def test_what_cannot_be_plotted_is_said(program, name, why):
+async def test_what_cannot_be_plotted_is_said(program):
     async with desktop(program(PROGRAM), size=(120, 40)) as desk:
         await desk.press("f5")
         await desk.idle()
         pages = len(desk.app.session.graphs)
-        await desk.line(f"graph {name}")
-        await desk.idle()
-        said = [note.message for note in desk.app._notifications]
-        assert NOT_CHARTED[why].format(name=name) in said
-        assert len(desk.app.session.graphs) == pages
+        for name, why in ("w", "constant"), ("nobody", "unknown"), ("a[6]", "unknown"), ("x[1]", "unknown"):
+            await desk.line(f"graph {name}")
+            await desk.idle()
+            said = [note.message for note in desk.app._notifications]
+            assert NOT_CHARTED[why].format(name=name) in said
+            assert len(desk.app.session.graphs) == pages
 
 
 async def test_before_a_run_and_after_a_change_there_is_nothing_to_plot(program):

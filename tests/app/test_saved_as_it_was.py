@@ -28,29 +28,32 @@ async def typed_and_saved(desk, *keys):
     await desk.until(lambda: not desk.app.editor.front.is_dirty)
 
 
-@pytest.mark.parametrize(
-    ("data", "shape"),
-    [
-        (b"-- a\nx = 1\n", ""),
-        (b"-- a\nx = 1", ""),
-        (b"\xef\xbb\xbf-- a\nx = 1\n", "UTF-8 BOM"),
-        (b"-- caf\xe9\r\nx = 1\r\n", "Latin-1 CRLF"),
-        (b"-- \x93caf\xe9\x94\rx = 1\r", "Windows-1252 CR"),
-        (b"\xff\xfe" + "-- ∞\nx = 1\n".encode("utf-16-le"), "UTF-16 LE"),
-        (MIXED, "mixed ends"),
-    ],
+SHAPES = (
+    (b"-- a\nx = 1\n", ""),
+    (b"-- a\nx = 1", ""),
+    (b"\xef\xbb\xbf-- a\nx = 1\n", "UTF-8 BOM"),
+    (b"-- caf\xe9\r\nx = 1\r\n", "Latin-1 CRLF"),
+    (b"-- \x93caf\xe9\x94\rx = 1\r", "Windows-1252 CR"),
+    (b"\xff\xfe" + "-- ∞\nx = 1\n".encode("utf-16-le"), "UTF-16 LE"),
+    (MIXED, "mixed ends"),
 )
-async def test_only_what_was_typed_changes(tmp_path, data, shape):
-    path = open_file(tmp_path, data)
-    async with desktop(path) as desk:
-        await typed_and_saved(desk, "x", "ctrl+z", "y", "backspace", "ctrl+s")
-        assert path.read_bytes() == data
-        place = desk.app.editor.query_one("#place")
-        assert str(place.content).removesuffix("1:1").strip() == shape
-        await typed_and_saved(desk, "down", "end", "0")
-        one, ten = ("x = 1", "x = 10")
-        codec = "utf-16-le" if shape == "UTF-16 LE" else "ascii"
-        assert path.read_bytes() == data.replace(one.encode(codec), ten.encode(codec))
+
+
+async def test_only_what_was_typed_changes(tmp_path):
+    files = {open_file(tmp_path, data, f"{number}.src"): shape for number, (data, shape) in enumerate(SHAPES)}
+    async with desktop() as desk:
+        for path, shape in files.items():
+            await desk.do("file.open", path.name)
+            await desk.until(lambda path=path: desk.app.editor.front.buffer.path == path)
+            data = path.read_bytes()
+            await typed_and_saved(desk, "x", "ctrl+z", "y", "backspace", "ctrl+s")
+            assert path.read_bytes() == data
+            place = desk.app.editor.query_one("#place")
+            assert str(place.content).removesuffix("1:1").strip() == shape
+            await typed_and_saved(desk, "down", "end", "0")
+            one, ten = ("x = 1", "x = 10")
+            codec = "utf-16-le" if shape == "UTF-16 LE" else "ascii"
+            assert path.read_bytes() == data.replace(one.encode(codec), ten.encode(codec))
 
 
 async def test_whole_lines_keep_their_ends_under_every_command(tmp_path):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import marshal
 import subprocess
 import sys
-from time import process_time
+from time import thread_time
 
 import pytest
 
@@ -35,10 +35,10 @@ HOSTILE = {
 
 @pytest.mark.parametrize("text", HOSTILE, ids=lambda text: text[:14].replace("\n", " "))
 def test_hostile_text_gets_a_message_at_once(text: str) -> None:
-    began = process_time()
+    began = thread_time()
     program = parse(Source(text))
     assert [problem.key for problem in program.problems] == [HOSTILE[text]]
-    assert process_time() - began < 10.0
+    assert thread_time() - began < 10.0
 
 
 def test_long_lists_are_fine() -> None:
