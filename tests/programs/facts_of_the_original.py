@@ -61,7 +61,7 @@ FACTS = (
           "dynamic/term_that_grows_at_the_joint", "dynamic/billiard_ball", "dynamic/bouncing_ball_every_rule")),
     Fact("a state that is assigned, under rules 9–16", ("boundary_value",), r"^(.*\| )?\w+(\[\w+\])? = .*\n|irule",
          ("dynamic/boundary_moves", "dynamic/boundary_from_a_neighbour", "dynamic/boundary_scalar",
-          "dynamic/boundary_fixed_steps", "dynamic/boundary_variable_steps")),
+          "dynamic/boundary_fixed_steps", "dynamic/boundary_variable_steps", "dynamic/boundary_from_another_boundary")),
     Fact("`disconnect`, `help`, `sh` with nothing there", ("forgiving_statements",), r"disconnect|help",
          ("script/forgiving_after_use", "script/forgiving_help", "script/forgiving_in_blocks"), "disconnect 3, 4"),
     Fact("quantities that are nan without harm", (), r"--\? warning 3",

@@ -93,6 +93,7 @@ def _assignments(segment: Segment) -> list[tuple[Assignment, bool]]:
     written: tuple[SlotSet, SlotSet] | None = None
     before, seen = SlotSet(), 0
     found: list[tuple[Assignment, bool]] = []
+    moved = SlotSet()  # what is assigned earlier, in this order: later ones may read it there
     for place, action in enumerate(segment.body):
         if not isinstance(action, Assignment) or not any(states.overlaps(*piece) for piece in writes(action)):
             continue
@@ -112,10 +113,21 @@ def _assignments(segment: Segment) -> list[tuple[Assignment, bool]]:
                 before.add(slot, count)
         seen = place
         early = any(before.overlaps(*piece) for piece in writes(action))
-        if early and any(anywhere.overlaps(*piece) for piece in reads(action)):
+        if early and not all(_is_known(piece, anywhere, moved) for piece in reads(action)):
             continue
         found.append((action, early))
+        if early:
+            for slot, count in writes(action):
+                moved.add(slot, count)
     return found
+
+
+def _is_known(piece: tuple[int, int], written: SlotSet, moved: SlotSet) -> bool:
+    """Whether numbers that are read are known in front of the segment's first statement."""
+    slot, count = piece
+    if not written.overlaps(slot, count):
+        return True
+    return all(moved.overlaps(at, 1) or not written.overlaps(at, 1) for at in range(slot, slot + count))
 
 
 def _written(segment: Segment) -> tuple[SlotSet, SlotSet]:
