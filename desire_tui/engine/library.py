@@ -188,7 +188,7 @@ def _cexp_of(x: complex) -> complex:
     return _cexp(x) if isinstance(x, complex) else math.exp(x)
 
 
-Kind = Literal["real", "complex", "random", "table", "time", "choice"]
+Kind = Literal["real", "complex", "random", "table", "time", "choice", "noise", "history"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,7 +197,8 @@ class LibraryFunction:
 
     `parameters` as shown to the user; `fewest` … `most` arguments; `where`: S script, D DYNAMIC, M MATRIX;
     `kind`: `real`, `complex` (takes COMPLEX arguments; `value` gets complex numbers), `random` (draws),
-    `table` (array arguments), `time`, `choice` (real, but a user's FUNCTION of that name wins); `value` is
+    `table` (array arguments), `time`, `choice` (real, but a user's FUNCTION of that name wins),
+    `noise` and `history` (of segments); `value` is
     None where more than numbers is needed; `gives_complex` marks COMPLEX results.
     """
 
@@ -274,6 +275,10 @@ _ALL = (
                     kind="choice"),
     LibraryFunction("heav", "x", 1, 1, "unit step: 1 if x > 0, else 0; a program's own heav wins", _swtch,
                     kind="choice"),
+    LibraryFunction("white", "s", 1, 1, "white noise of spectral density s² for d/dt lines, new at each step",
+                    None, where="D", kind="noise"),
+    LibraryFunction("delay", "x, tau", 2, 3, "x at t − tau; before the start h(t), or the initial value",
+                    None, where="D", kind="history"),
     _of_complex("Re", lambda z: z.real, "real part"),
     _of_complex("Im", lambda z: z.imag, "imaginary part"),
     _of_complex("Cabs", abs, "absolute value of a complex number"),

@@ -157,7 +157,7 @@ class Values:
             raise DesireError(Diagnostic("out-of-memory", facts={"elements": slots}))
         self._scalars += slots
         if len(self.defined) < self._scalars:
-            self.defined.extend(bytes(len(self.defined)))
+            self.defined.extend(bytes(max(len(self.defined), self._scalars - len(self.defined))))
         return slot
 
     def array(

@@ -30,6 +30,8 @@ from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.nodes.segment import (
     Delay,
     Derivative,
+    Event,
+    Every,
     FunctionTable,
     Get,
     Invoke,
@@ -63,7 +65,7 @@ DYNAMIC = (
     "y = e", "y[i] = e", "d/dt x", "d/dt x[i]", "Vectr d/dt", "Vector", "Vector delta", "Vector ^", "Vector [m]",
     "A*x", "A% * x", "x{k}", "P#", "MATRIX", "MATRIX [M]", "MATRIX ; bounds", "u & v", "DELTA", "DOT", "AVG", "u*A*v",
     "store", "get", "tdelay", "delay", "trkhld", "func", "func2", "invoke", "submodel call", "term", "if e", "else",
-    "end if", "OUT", "SAMPLE", "step", "JACOBIAN", "dispt", "dispxy", "DISPXY", "type", "type #n", "stash", "recover",
+    "end if", "OUT", "SAMPLE", "step", "event", "every", "end event", "JACOBIAN", "dispt", "dispxy", "DISPXY", "type", "type #n", "stash", "recover",
     "SHOW", "CLEARN", "PLEARN", "INTP", *(f"rule {rule}" for rule in (*range(6), *range(7, 17))),
 )  # fmt: skip
 """Rows about segments."""
@@ -74,7 +76,8 @@ _ONE = {
     Until: "until", While: "while", Label: "label", Procedure: "PROCEDURE", CallProcedure: "call",
     Submodel: "SUBMODEL", Function: "FUNCTION", Data: "data", Read: "read", Disconnect: "disconnect",
     Note: "note", Seed: "SEED", Show: "SHOW", ShowArea: "SHOW alone", Pair: "[a, b]", Truth: "(a > b)", Store: "store", Get: "get",
-    TrackHold: "trkhld", Invoke: "invoke", Term: "term", Sample: "SAMPLE", RowOf: "P#", Shifted: "x{k}",
+    TrackHold: "trkhld", Invoke: "invoke", Term: "term", Sample: "SAMPLE", Event: "event", Every: "every",
+    RowOf: "P#", Shifted: "x{k}",
     VectorDerivative: "Vectr d/dt", Not: "not", Transposed: "A%",
 }  # fmt: skip
 """Nodes whose class says it all."""

@@ -34,6 +34,9 @@ BEYOND = [
     "title",
     "xlabel",
     "ylabel",
+    "event",
+    "every",
+    "white",
 ]
 
 

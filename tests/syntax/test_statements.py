@@ -45,6 +45,8 @@ from desire_tui.engine.nodes.files import (
 from desire_tui.engine.nodes.segment import (
     Delay,
     Derivative,
+    Event,
+    Every,
     FunctionTable,
     Get,
     Invoke,
@@ -293,6 +295,11 @@ FORMS = {
     "invoke s(x, y)": Invoke("s", (x, y)),
     "s(x, y)": Bare(Call("s", (x, y))),
     "term -y": Term(Unary("-", y)),
+    "event -y": Event(Unary("-", y)),
+    "event x - a": Event(Binary("-", x, a)),
+    "every a": Every(a, None),
+    "every 24, a": Every(N(24), a),
+    "end event": Simple("end event"),
     "dispt x, y[3]": Request("dispt", None, (x, y3)),
     "dispxy x, y": Request("dispxy", None, (x, y)),
     "DISPXY x, y, a, b": Request("DISPXY", None, (x, y, a, b)),
@@ -366,7 +373,15 @@ def test_tokenizer_and_grammar_know_the_same_words() -> None:
     """Every keyword the tokenizer makes begins a statement of the grammar, and the other way round."""
     table = tables()
     begins = {kind for kind in table.actions[table.start] if kind not in CLASSES and kind[0].isalpha()}
-    assert begins == set(KEYWORDS.values()) | {"go to", "end if", "end while", "list+", "keep+", "d/dt"}
+    assert begins == set(KEYWORDS.values()) | {
+        "go to",
+        "end if",
+        "end while",
+        "end event",
+        "list+",
+        "keep+",
+        "d/dt",
+    }
 
 
 LINES = {

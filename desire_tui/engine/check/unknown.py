@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.structure.structure import Structure
 
-_SEGMENT_WORDS = frozenset({"OUT", "step", "JACOBIAN"})
+_SEGMENT_WORDS = frozenset({"OUT", "step", "JACOBIAN", "end event"})
 _SCRIPT_CONSTANTS = frozenset({"j", "PI"})
 
 

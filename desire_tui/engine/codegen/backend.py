@@ -71,4 +71,8 @@ class NativeBackend:
             from desire_tui.engine.codegen.stiff.stiff_model import StiffModel
 
             return StiffModel(code, improver, self._compiler.routines, segment, rule, values)
+        if segment.events or segment.delays:
+            from desire_tui.engine.codegen.moments.moment_model import MomentModel
+
+            return MomentModel(code, improver, segment, rule, values)
         return NativeModel(code, improver, segment, rule, values)

@@ -41,6 +41,8 @@ class CallTranslator:
         if entry is None:
             known = [*LIBRARY, *self.functions.definitions]
             raise ScriptFault("undefined-function", node, name=node.name, close=closest(node.name, known))
+        if "S" not in entry.where:
+            raise ScriptFault("segment-function", node, name=node.name)
         if not entry.fewest <= len(node.args) <= entry.most:
             facts = {"given": len(node.args), "needed": entry.parameters}
             raise ScriptFault("argument-count", node, name=node.name, **facts)

@@ -166,7 +166,7 @@ def _make_word(context: StatementContext, node: Simple) -> Operation:
             return host_statements.time(context)
         case "trace":
             return host_statements.trace(context)
-        case "OUT" | "step" | "JACOBIAN" | "end if" | "DYNAMIC":
+        case "OUT" | "step" | "JACOBIAN" | "end if" | "end event" | "DYNAMIC":
             raise ScriptFault("not-in-script", node)
         case "erun" | "run" | "bye" | "new" | "NEW" | "list" | "list+" | "reload" | "keep+":
             return host_statements.host_command(context, node)

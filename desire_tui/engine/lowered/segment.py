@@ -86,6 +86,29 @@ class Breakpoints:
     where: Where
 
 
+@node
+class Event:
+    """What is executed at moments: where `condition` rises through 0, or at `start`, `start` + `period` … .
+
+    `body` sets numbers; it holds no derivatives and no guards but `if`.
+    """
+
+    body: tuple[Action, ...]
+    where: Where
+    condition: Value | None = None
+    period: Value | None = None
+    start: Value | None = None
+
+
+@node
+class DelayedValue:
+    """What an operation `delayed` looks up: the history of `source`; `tau` is how far back."""
+
+    source: Value
+    tau: Value
+    where: Where
+
+
 @dataclass(frozen=True)
 class Segment:
     """Everything a back end needs. `requests` holds at most one display request and one `type`.
@@ -95,7 +118,8 @@ class Segment:
     `levels` are the slots of what its `term` statements must exceed, `constants` the script's numbers (slot,
     value) from which subscripts and the like were computed.
     `row_chosen` is the place of a `P#` whose row the script must choose (iRow above 0). `breakpoints` must
-    not fall when a run begins.
+    not fall when a run begins. `events` happen at moments; `delays` are by number. `noise`: where a random
+    number is drawn that derivatives read afresh at each stage of a step.
     """
 
     label: str | None
@@ -114,6 +138,9 @@ class Segment:
     constants: tuple[tuple[int, float], ...] = ()
     row_chosen: Where | None = None
     breakpoints: tuple[Breakpoints, ...] = ()
+    events: tuple[Event, ...] = ()
+    delays: tuple[DelayedValue, ...] = ()
+    noise: Where | None = None
     names: dict[int, str] = field(default_factory=dict)
 
     @property

@@ -7,6 +7,7 @@ from math import prod
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Vec
+from desire_tui.engine.lowered.segment import Event
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec, Terminate
 from desire_tui.engine.values import IROW
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.source import Span
     from desire_tui.engine.values import Quantity
 
-GuardKind = Literal["step", "out", "sample", "if"]
+GuardKind = Literal["step", "out", "sample", "if", "event"]
 Path = tuple[tuple[int, bool], ...]
 
 
@@ -29,7 +30,8 @@ class OpenGuard:
     """A guard whose end has not been reached; `otherwise` says that its `else` was passed.
 
     `serial` distinguishes it from other guards; `outer` is the body that it will be a statement of. What has
-    surely been set: `saved` at its beginning, `after_then` at the end of the branch `then`.
+    surely been set: `saved` at its beginning, `after_then` at the end of the branch `then`. The kind
+    `event` is the block of moments: where `condition` rises through 0, or every `period` from `start` on.
     """
 
     kind: GuardKind
@@ -39,6 +41,8 @@ class OpenGuard:
     saved: Snapshot
     condition: Value | None = None
     every: int = 1
+    period: Value | None = None
+    start: Value | None = None
     otherwise: bool = False
     then: tuple[Action, ...] = ()
     after_then: Snapshot | None = None
@@ -54,7 +58,7 @@ class SegmentBuilder:
     their `d/dt` lines, `_held` the numbers that keep a derivative whose guard is shut. `_derivative_arrays`:
     by a whole array's slot and size the stretches of it that have a `d/dt` (slot, count, guards, name).
     `faults`: the compiler's own tests, which end the run with an error. `levels`: slots of
-    what each `term` must exceed. `names`: scalars by slot, for messages.
+    what each `term` must exceed. `events`: what moments execute. `names`: scalars by slot, for messages.
     """
 
     context: LoweringContext
@@ -75,6 +79,7 @@ class SegmentBuilder:
     names: dict[int, str] = field(default_factory=dict)
     levels: list[int] = field(default_factory=list)
     faults: list[Terminate] = field(default_factory=list)
+    events: list[Event] = field(default_factory=list)
     _exhausted: list[Terminate] = field(default_factory=list)
     _derivative_arrays: dict[tuple[int, int], list[tuple[int, int, Path, str]]] = field(default_factory=dict)
     _held: dict[tuple[int, int], tuple[int, Where]] = field(default_factory=dict)
@@ -108,6 +113,28 @@ class SegmentBuilder:
         saved = self.context.flow.snapshot()
         self.guards.append(OpenGuard(kind, where, self.serials, self.body, saved, condition, every))
         self.body = []
+
+    @property
+    def at_moment(self) -> bool:
+        """Whether the present line stands in the block of an `event` or `every`."""
+        return any(guard.kind == "event" for guard in self.guards)
+
+    def end_moment(self) -> bool:
+        """End an open block of `event` or `every`; False if an `if` inside it is not closed."""
+        kinds = [guard.kind for guard in self.guards]
+        if "event" not in kinds:
+            return True
+        for _ in kinds[kinds.index("event") :]:
+            self._close()
+        return kinds[-1] == "event"
+
+    def begin_moment(self, where: Where, condition: Value | None, times: tuple[Value, Value] | None) -> None:
+        """Begin the block of an `event` or `every`: OUT, SAMPLE and step code ends here."""
+        while self.guards and self.guards[-1].kind != "if":
+            self._close()
+        self.open("event", where, condition)
+        if times is not None:
+            self.guards[-1].period, self.guards[-1].start = times
 
     def otherwise(self) -> bool:
         """Turn the innermost `if` at an `else`; False if there is none open."""
@@ -171,7 +198,9 @@ class SegmentBuilder:
         else:
             flow.restore(guard.saved)
         self.body = guard.outer
-        if then or orelse:
+        if guard.kind == "event":
+            self.events.append(Event(then, guard.where, guard.condition, guard.period, guard.start))
+        elif then or orelse:
             self.body.append(Guard(guard.kind, then, guard.where, guard.condition, orelse, guard.every))
         return guard
 

@@ -10,6 +10,7 @@ from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowered.expressions import Op, Table1, Table2
 from desire_tui.engine.lowered.segment import Breakpoints
 from desire_tui.engine.lowered.walk import operands
+from desire_tui.engine.lowering.delayed import delayed
 from desire_tui.engine.lowering.lowering_context import (
     BAD,
     DEPTH_MAX,
@@ -17,6 +18,7 @@ from desire_tui.engine.lowering.lowering_context import (
     Argument,
     ExpansionFrame,
 )
+from desire_tui.engine.lowering.noise import white
 from desire_tui.engine.lowering.operators import COMPOSED
 from desire_tui.engine.lowering.scope import UNKNOWN, agree, size_of
 from desire_tui.engine.nodes.expressions import Call, Name
@@ -53,6 +55,10 @@ def call(context: LoweringContext, node: Call, extent: Extent) -> Value:
         return table2(context, node, extent)
     if node.name in DRAWS:
         return Op(node.name, ())
+    if entry.kind == "noise":
+        return white(context, node, extent)
+    if entry.kind == "history":
+        return delayed(context, node, extent)
     args = tuple([context.lower(argument, extent) for argument in node.args])
     composed = COMPOSED.get(node.name)
     return Op(node.name, args) if composed is None else composed(*args)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowered.segment import Breakpoints
+    from desire_tui.engine.lowered.segment import Breakpoints, DelayedValue
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.nodes.declarations import Function
@@ -121,6 +121,10 @@ class LoweringContext(ABC):
         self.breakpoints: list[Breakpoints] = []
         self.computed_first: list[Action] = []
         """What the present statement computes first: the pieces of its long chains (`long_chains`)."""
+        self.delays: list[DelayedValue] = []
+        """What `delay(x, tau)` remembers."""
+        self.rule: int | None = None
+        """The integration rule, 0 without states; None: not known yet."""
         self.redefines_library = not functions.keys().isdisjoint(LIBRARY)
 
     @abstractmethod

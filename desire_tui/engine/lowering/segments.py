@@ -6,9 +6,12 @@ learning) → persistence (flow) → `lowered.Segment`. All problems of the segm
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, assert_never, get_args
 
 from desire_tui.engine.cancellation import cancellation_point, handing_over
+from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.integration.rules import RULES
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment, StateRange
@@ -31,6 +34,8 @@ from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.nodes.segment import (
     Delay,
     Derivative,
+    Event,
+    Every,
     FunctionTable,
     Get,
     Invoke,
@@ -42,12 +47,12 @@ from desire_tui.engine.nodes.segment import (
     VectorDerivative,
 )
 from desire_tui.engine.nodes.statements import ScriptOnlyStatement, Statement
+from desire_tui.engine.passes.noise import noisy_derivative
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.lowered.segment import Breakpoints
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.lowering.lowering_context import FunctionText, LoweringContext
@@ -80,6 +85,7 @@ def lower_segment(
     _collect_targets(context, lines)
     _collect_targets(context, jacobian_lines)
     builder = SegmentBuilder(context, _states(context, lines), rule)
+    context.rule = rule if builder.states.ranges else 0
     _ready_from_start(builder, lines)
     ranges = builder.states.ranges
     if ranges and ("t" in context.assigned or any(states.name == "t" for states in ranges)):
@@ -109,9 +115,24 @@ def lower_segment(
         stash=tuple(builder.stash), recover=tuple(builder.recover), jacobian=jacobian,
         counters=builder.counters, scalars=_scalars(context), names=builder.names,
         faults=tuple(builder.faults), levels=tuple(builder.levels), row_chosen=context.row_chosen,
-        breakpoints=_filled_by_script(context.breakpoints, body),
+        breakpoints=_filled_by_script(context.breakpoints, body), events=tuple(builder.events),
+        delays=tuple(context.delays),
     )  # fmt: skip
-    return segment, context.problems
+    return _with_noise(context, segment), context.problems
+
+
+def _with_noise(context: LoweringContext, segment: Segment) -> Segment:
+    """Say where derivatives read random numbers. Error 489 under a rule that tests its steps."""
+    text = context.source.text
+    if not segment.states or not ("ran" in text or "gauss" in text):  # the search takes its time
+        return segment
+    noise = noisy_derivative(segment)
+    if noise is None:
+        return segment
+    rule = context.rule
+    if rule is not None and rule in RULES and RULES[rule].controls_error:
+        context.add(Diagnostic("noise-under-rule", noise.span, {"rule": rule}, context.source))
+    return replace(segment, noise=noise)
 
 
 def _sound(context: LoweringContext, lines: list[Line], faults: Mapping[int, Diagnostic]) -> list[Line]:
@@ -123,7 +144,15 @@ def _sound(context: LoweringContext, lines: list[Line], faults: Mapping[int, Dia
     return [line for line in lines if line[1].at not in faults]
 
 
+_NOT_AT_MOMENTS = (Derivative, VectorDerivative, Store, Get, Delay, Term)
+
+
 def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
+    if builder.guards and isinstance(node, _NOT_AT_MOMENTS) and builder.at_moment:
+        context = builder.context
+        word = context.source.word(context.span(node).start)
+        context.report("not-at-moment", node, word="d/dt" if word == "d" else word)
+        builder.end_moment()
     match node:
         case Assign():
             return statements.assign(builder, node)
@@ -155,6 +184,10 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
             return statements.simple(builder, node)
         case Sample():
             return statements.sample(builder, node)
+        case Event():
+            return statements.event(builder, node)
+        case Every():
+            return statements.every(builder, node)
         case Request():
             return requests.request(builder, node)
         case ShowArea():

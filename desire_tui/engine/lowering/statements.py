@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.lowered.expressions import Const, Load
 from desire_tui.engine.lowered.statements import (
     DelayLine,
     GetHistory,
@@ -23,6 +23,7 @@ from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.builder import SegmentBuilder
     from desire_tui.engine.nodes.assignments import Assign
     from desire_tui.engine.nodes.commands import Simple
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.segment import (
         Delay,
         Derivative,
+        Event,
+        Every,
         FunctionTable,
         Get,
         Sample,
@@ -102,9 +105,15 @@ def simple(builder: SegmentBuilder, node: Simple) -> None:
     """`OUT`, `step`, `else`, `end if`; anything else is error 219."""
     context = builder.context
     if node.word == "OUT":
+        _end_moment(builder, node)
         builder.open("out", context.where(node))
     elif node.word == "step":
+        _end_moment(builder, node)
         builder.open("step", context.where(node))
+    elif node.word == "end event":
+        if not builder.at_moment:
+            context.report("stray-end-event", node)
+        _end_moment(builder, node)
     elif node.word == "else":
         if not builder.otherwise():
             context.report("stray-else", node, word=node.word)
@@ -122,12 +131,42 @@ def sample(builder: SegmentBuilder, node: Sample) -> None:
         context.report("second-sample", node)
         return
     builder.once_only["SAMPLE"] = context.span(node)
+    _end_moment(builder, node)
     every = constant(context, node.every)
     # 13.98 counts as 13, but a whole number computed with a rounding error counts as itself
     count = 1 if every is None else whole(every * (1 + 1e-9), 1)
     if count is None:
         context.report("sample-below-one", node.every, value=f"{every:g}")
     builder.open("sample", context.where(node), every=count or 1)
+
+
+def event(builder: SegmentBuilder, node: Event) -> None:
+    """`event e`: the statements behind it are executed where e rises through 0."""
+    condition = builder.context.lower(node.value)
+    _begin_moment(builder, node, condition, None)
+
+
+def every(builder: SegmentBuilder, node: Every) -> None:
+    """`every T, t0`: the statements behind it are executed at t0, t0 + T and so on."""
+    context = builder.context
+    period = context.lower(node.period)
+    start = Const(0.0) if node.first is None else context.lower(node.first)
+    _begin_moment(builder, node, None, (period, start))
+
+
+def _begin_moment(
+    builder: SegmentBuilder, node: Event | Every, condition: Value | None, times: tuple[Value, Value] | None
+) -> None:
+    _end_moment(builder, node)
+    if any(guard.kind == "if" for guard in builder.guards):
+        builder.context.report("moment-in-if", node, word="event" if times is None else "every")
+        return
+    builder.begin_moment(builder.context.where(node), condition, times)
+
+
+def _end_moment(builder: SegmentBuilder, node: Node) -> None:
+    if not builder.end_moment():
+        builder.context.report("if-open-at-moment", node)
 
 
 def store(builder: SegmentBuilder, node: Store) -> None:

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 
 Word = Literal[
-    "else", "proceed", "end if", "next", "end while", "repeat", "exit", "end", "STOP", "go", "reset", "clear",
-    "time", "trace", "DYNAMIC", "OUT", "step", "JACOBIAN",
+    "else", "proceed", "end if", "end event", "next", "end while", "repeat", "exit", "end", "STOP", "go",
+    "reset", "clear", "time", "trace", "DYNAMIC", "OUT", "step", "JACOBIAN",
     "erun", "run", "bye", "new", "NEW", "list", "list+", "ed", "edit", "auto", "reload", "keep+",
 ]  # fmt: skip
 

@@ -15,6 +15,8 @@ from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input
 from desire_tui.engine.nodes.segment import (
     Delay,
     Derivative,
+    Event,
+    Every,
     FunctionTable,
     Get,
     Invoke,
@@ -76,6 +78,8 @@ def assigned(node: Statement) -> Assigned:
         case (
             Term()
             | Sample()
+            | Event()
+            | Every()
             | Show()
             | ShowArea()
             | Plot()

@@ -104,6 +104,25 @@ class Sample(Node):
 
 
 @node
+class Event(Node):
+    """`event e`."""
+
+    value: Expr
+    start: int = 0
+    end: int = 0
+
+
+@node
+class Every(Node):
+    """`every T, t0`; `first` None: from t = 0 on."""
+
+    period: Expr
+    first: Expr | None
+    start: int = 0
+    end: int = 0
+
+
+@node
 class Learn(Node):
     """`CLEARN y = W(x) lrate, crit[#]` (`fast`: with #), `PLEARN y = W*x; lrate`, `INTP y = W*x; thresh`."""
 
@@ -129,7 +148,7 @@ class Invoke(Node):
 
 
 SegmentOnly = (
-    Derivative | VectorDerivative | Store | Get | Delay | TrackHold | FunctionTable | Term | Sample | Learn
-    | Invoke
+    Derivative | VectorDerivative | Store | Get | Delay | TrackHold | FunctionTable | Term | Sample | Event
+    | Every | Learn | Invoke
 )  # fmt: skip
 """The statements of this module: a new class goes in here, too."""

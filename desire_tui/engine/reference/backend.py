@@ -28,6 +28,11 @@ class ReferenceBackend:
         if kind != "multistep":
             vital = vital_columns(segment)
             segment, numbers = stepped_segment(segment, values.room, variable=kind == "variable")
+            if segment.events or segment.delays:
+                from desire_tui.engine.reference.moments import MomentReferenceModel
+
+                tableau = TABLEAUS.get(rule) if segment.order else None
+                return MomentReferenceModel(segment, tableau, values, numbers, vital)
             return ReferenceModel(segment, TABLEAUS.get(rule), values, numbers, vital)
         from desire_tui.engine.reference.stiff import StiffReferenceModel
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.runtime.moments.memory import Moments
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -36,10 +37,12 @@ class EvaluationContext:
         self.sequence = Sequence(values.random)
         self.memory: RunMemory | None = None
         self.fired: int | None = None
+        self.histories: list[Moments] = []
+        """What `delay(x, tau)` remembers: one, once the model has it."""
 
     def value(self, value: Value, count: int | None = None) -> Thunk:
         """Return the closure of an expression over a number or `count` elements."""
-        expressions = ExpressionClosures(self.values, self.sequence, count)
+        expressions = ExpressionClosures(self.values, self.sequence, count, self.histories)
         thunk = expressions.compile(value)
         if expressions.is_plain:
             return thunk

@@ -24,6 +24,7 @@ from desire_tui.engine.lowered.walk import operands
 from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.reference.numbers import ARRAYS, integer_power, scalar_function
 from desire_tui.engine.reference.random import ElementDraws, Sequence, normal
+from desire_tui.engine.runtime.moments.histories import look_up
 from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.expressions import ElementOperand, Value
+    from desire_tui.engine.runtime.moments.memory import Moments
     from desire_tui.engine.values import Values
 
     Array = NDArray[np.float64]
@@ -45,12 +47,15 @@ class ExpressionClosures:
     stands at two places is evaluated once (`engine.lowered`).
     """
 
-    def __init__(self, values: Values, sequence: Sequence, count: int | None) -> None:
+    def __init__(
+        self, values: Values, sequence: Sequence, count: int | None, histories: list[Moments] | None = None
+    ) -> None:
         self.values = values
         self.cells, self.data = values.cells, values.data
         self.sequence = sequence
         self.element_draws = None if count is None else ElementDraws(sequence, count)
         self.count = count
+        self._histories = [] if histories is None else histories
         self._uses: dict[int, int] = {}
         self._shared: dict[int, Thunk] = {}
         self._arrays: dict[int, bool] = {}
@@ -150,6 +155,8 @@ class ExpressionClosures:
                 return lambda: (x := square()) * x
             return lambda: integer_power(base(), n)
         args = [self._thunk(argument) for argument in value.args]
+        if name == "delayed":
+            return self._delayed(value, args)
         function: Callable[..., Any] = (
             ARRAYS[name] if any(self._is_array(a) for a in value.args) else scalar_function(name)
         )
@@ -166,6 +173,15 @@ class ExpressionClosures:
                 return lambda: a() * b()
             return lambda: function(a(), b())
         return lambda: function(*[argument() for argument in args])
+
+    def _delayed(self, value: Op, args: list[Thunk]) -> Thunk:
+        number, histories = value.args[0], self._histories
+        assert isinstance(number, Const)
+        j, time = int(number.value), args[1]
+        if len(args) == 2:
+            return lambda: look_up(histories[0], j, time(), 0, 0.0)
+        before = args[2]
+        return lambda: look_up(histories[0], j, time(), 1, before())
 
     def _is_array(self, value: Value) -> bool:
         """Whether a value has one number for each element (random draws do, within an array statement)."""

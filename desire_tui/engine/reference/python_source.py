@@ -144,7 +144,7 @@ class _Expression:
             table = self.text.context.cells[value.slot : value.slot + 2 * value.count]
             x = self._text_of(value.x, depth + 1)[0]
             return f"func1({x}, {self.text._name('a', table)})", _ATOM  # noqa: SLF001 - as above
-        if not isinstance(value, Op) or value.name in DRAWS:
+        if not isinstance(value, Op) or value.name in DRAWS or value.name == "delayed":
             raise CannotWriteError
         name = value.name
         if name in _BINARY:

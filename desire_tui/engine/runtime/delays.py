@@ -9,19 +9,6 @@ from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY, RULES
-from desire_tui.engine.library import LIBRARY, func1
-from desire_tui.engine.lowered.expressions import (
-    Const,
-    Load,
-    MatVec,
-    Op,
-    Outer,
-    PatternRow,
-    ShiftedVec,
-    Table1,
-    Table2,
-    Vec,
-)
 from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
@@ -33,30 +20,19 @@ from desire_tui.engine.lowered.statements import (
     SetMat,
     SetVec,
 )
-from desire_tui.engine.lowered.walk import simple_actions, walk_values
+from desire_tui.engine.lowered.walk import simple_actions
+from desire_tui.engine.runtime.before_run import evaluate, needed
 from desire_tui.engine.runtime.plan import ROUNDING
 from desire_tui.engine.values import DT
 from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
-    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.values import Values
-
-_OPERATIONS: dict[str, Callable[..., float]] = {
-    "add": lambda a, b: a + b,
-    "sub": lambda a, b: a - b,
-    "mul": lambda a, b: a * b,
-    "div": lambda a, b: a / b if b else math.nan,
-    "neg": lambda a: -a,
-    "pow": math.pow,
-    "ipow": math.pow,
-}
-"""What is no library function."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +68,7 @@ def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[TimedDelay]:
             case Set():
                 before.append(action)
             case DelayLine():
-                yield TimedDelay(action, _needed(action.tau, before))
+                yield TimedDelay(action, needed(action.tau, before))
             case Guard(kind="step" | "out"):
                 yield from _lines(action.body, before)
             case Guard():
@@ -105,18 +81,6 @@ def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[TimedDelay]:
                     assert_never(action)
 
 
-def _needed(tau: Value, before: list[Set]) -> tuple[Set, ...]:
-    """Return those statements that a time depends on."""
-    slots = {node.slot for node in walk_values(tau) if isinstance(node, Load)}
-    needed: list[Set] = []
-    for action in reversed(before) if slots else ():
-        if action.slot in slots:
-            needed.append(action)
-            slots.discard(action.slot)
-            slots.update(node.slot for node in walk_values(action.value) if isinstance(node, Load))
-    return tuple(reversed(needed))
-
-
 def _lags(
     segment: Segment, lines: tuple[TimedDelay, ...], changes_dt: bool, plan: RunPlan, values: Values
 ) -> dict[int, int]:
@@ -126,7 +90,7 @@ def _lags(
         if line.per_step and (changes_dt or RULES[plan.rule].controls_error):
             raise _error("delay-variable-step", segment, line, rule=plan.rule)
         per_step = line.per_step and plan.rule != DUMMY
-        tau = _time(known, values)
+        tau = evaluate(line.tau, known.before, values)
         if not (math.isfinite(tau) and tau >= 0.0):
             raise _error("delay-negative", segment, line, tau=tau)
         records = tau / (plan.dt if per_step else plan.comint) + ROUNDING
@@ -138,38 +102,6 @@ def _lags(
             )
         found[line.counter] = lag
     return found
-
-
-def _time(line: TimedDelay, values: Values) -> float:
-    """Return a delay's time, as the run's first pass finds it; nan, which is refused, where it has none."""
-    own: dict[int, float] = {}
-    for action in line.before:
-        own[action.slot] = _evaluate(action.value, values, own)
-    return _evaluate(line.action.tau, values, own)
-
-
-def _evaluate(value: Value, values: Values, own: dict[int, float]) -> float:
-    match value:
-        case Const():
-            return value.value
-        case Load():
-            return own.get(value.slot, values.cells[value.slot])
-        case Table1():
-            table = values.cells[value.slot : value.slot + 2 * value.count]
-            return func1(_evaluate(value.x, values, own), table)
-        case Op():
-            function = _OPERATIONS.get(value.name) or LIBRARY[value.name].value
-            if function is None:  # ran() and gauss(): a time that is drawn is no time
-                return math.nan
-            numbers = (_evaluate(a, values, own) for a in value.args)
-            try:
-                return float(function(*numbers))  # type: ignore[arg-type]
-            except (ArithmeticError, ValueError):
-                return math.nan
-        case Table2() | Vec() | ShiftedVec() | MatVec() | PatternRow() | Outer():
-            return math.nan
-        case _:
-            assert_never(value)
 
 
 def _error(key: str, segment: Segment, line: DelayLine, **facts: object) -> DesireError:

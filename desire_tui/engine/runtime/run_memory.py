@@ -44,6 +44,10 @@ class Ended(IntEnum):
     """CVODE gave up: `which` is its flag."""
     STALLED = 7
     """A step of DT would not take t any further."""
+    ZENO = 9
+    """Event number `which` comes ever faster."""
+    FULL = 10
+    """The room for histories of delays is used up: the model makes it larger and goes on."""
 
 
 class RunMemory(ctypes.Structure):
@@ -55,6 +59,8 @@ class RunMemory(ctypes.Structure):
         ("counters", ctypes.c_uint64),  # int64 positions of store/get/delay lines
         ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
         ("random", ctypes.c_uint64),  # address of Values.random
+        ("histories", ctypes.c_uint64),  # what `delay(x, tau)` remembers, and the function that looks it up
+        ("look_up", ctypes.c_uint64),
         ("work", ctypes.c_uint64),  # scratch of the back end
         ("t_start", ctypes.c_double),
         ("t_max", ctypes.c_double),  # TMAX
@@ -88,5 +94,6 @@ class RunMemory(ctypes.Structure):
         ("phase", ctypes.c_int32),
         ("stop", ctypes.c_int32),  # polled at every step; set from another thread
         ("order", ctypes.c_int32),  # last order of a variable-order rule
+        ("begun", ctypes.c_int32),  # 1: what happens at the run's start has been done
         ("suspect", ctypes.c_int32),  # SOLVER: number of the state that it is about
     )

@@ -12,6 +12,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
+from desire_tui.engine.runtime.event_times import delay_times, event_times
 from desire_tui.engine.runtime.heartbeat import Heartbeat
 from desire_tui.engine.runtime.history import RunHistory
 from desire_tui.engine.runtime.run_faults import fault, watched_fault
@@ -89,11 +90,13 @@ class Simulator:
         lag = np.zeros(max(segment.counters, 1), dtype=np.int64)
         for counter, records in self._delays.lags(segment, plan, self._values).items():
             lag[counter] = records
+        times, taus = event_times(segment, self._values), delay_times(segment, self._values)
         record.rows = _rows(plan, record)
         self._began = perf_counter()
         positions = self.history.begin(segment)
         memory = self._set_up(segment, plan, positions, lag)
         memory.rows = record.rows.ctypes.data
+        memory.times, memory.taus = times, taus
         self.memory = memory
         self._turn_time(plan)
         self._control.attach(memory)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.runtime.stash import read_stash, with_recovery
 
 if TYPE_CHECKING:
@@ -93,9 +94,11 @@ class CompiledSegments:
         return all(cells[slot] == value for slot, value in segment.constants)
 
     def directed(self, segment: Segment, plan: RunPlan) -> Segment:
-        """Return the segment that a run follows: for a negative TMAX, the one over -t."""
+        """Return the segment that a run follows: for a negative TMAX, the one over -t. DesireError 483."""
         if not plan.backward:
             return segment
+        for where in [moment.where for moment in segment.events] + [value.where for value in segment.delays]:
+            raise DesireError(at_statement("moments-backward", {}, segment, where))
         known = self._backward.get(id(segment))
         if known is None:
             from desire_tui.engine.passes.backward import backward

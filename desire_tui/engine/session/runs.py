@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic, internal_erro
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
+from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
 from desire_tui.engine.runtime.stash import write_stash
@@ -98,6 +100,7 @@ class Runs:
         segment = workspace.segments.directed(segment, plan)
         model = workspace.segments.model(segment, plan.rule)
         self._advise(model, segment)
+        self._warn_of_noise(segment)
         self.start, self.run_of = start, (program.source.text, self._values.generation)
         self.count += 1
         record = RunRecord(
@@ -138,6 +141,14 @@ class Runs:
             self._not_stashed = star
         if stash is not None:
             self._stash(stash, segment, record)
+
+    def _warn_of_noise(self, segment: Segment) -> None:
+        """Say once a program that derivatives read random numbers within a step."""
+        noise = segment.noise
+        if noise is not None and noise.span not in self._gaps:
+            self._gaps.add(noise.span)
+            problem = at_statement("noise-in-step", {}, segment, noise)
+            self._listener.problems((replace(problem, severity="warning"),))
 
     def _warn_of_gaps(self, segment: Segment, record: RunRecord) -> None:
         """Name variables that have become inf or nan without ending the run, each place once in a program."""

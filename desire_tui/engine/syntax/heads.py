@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 _ASKING = frozenset({"if", "while", "until"})
 _SECOND_WORD = {
     "go": re.compile(r"[ \t]+(to)(?![A-Za-z0-9$_])"),
-    "end": re.compile(r"[ \t]+(if|while)(?![A-Za-z0-9$_])"),
+    "end": re.compile(r"[ \t]+(if|while|event)(?![A-Za-z0-9$_])"),
 }
 _D_DT = re.compile(r"[ \t]*(d/dt)(?![A-Za-z0-9$_])")
 _DELTA = re.compile(r"[ \t]*(delta)(?=[ \t]+[A-Za-z])")
@@ -23,6 +23,9 @@ _OF_ARRAYS = frozenset({"delta", "UPDATE"})
 """Likely names of variables: keywords only where a name follows."""
 _TITLES = frozenset({"title", "xlabel", "ylabel"})
 _QUOTED = re.compile(r"[ \t]*['\"]")
+_MOMENTS = frozenset({"event", "every"})
+_OPERAND = re.compile(r"[ \t]+(?:[A-Za-z0-9.(]|[-+](?![ \t]))|[ \t]*(?:\n|\||--|\Z)")
+"""Behind a word of moments; `event - 1` and `every/2` are expressions of a program's own variables."""
 _BEYOND = frozenset({"compare", "notebook", "snapshot"})
 """Words that the original does not have: a program's own submodels of these names win."""
 _RUN = re.compile(r"[ \t]+(run)(?![A-Za-z0-9$_])")
@@ -91,6 +94,8 @@ def _gives_way(text: str, lexeme: str, pos: int) -> bool:
         return not _NAMED.match(text, pos)
     if lexeme in _TITLES:
         return not _QUOTED.match(text, pos)
+    if lexeme in _MOMENTS:
+        return not _OPERAND.match(text, pos)
     return lexeme in _BEYOND and text.startswith("(", pos)
 
 

@@ -24,6 +24,8 @@ from desire_tui.engine.nodes.files import (
 from desire_tui.engine.nodes.segment import (
     Delay,
     Derivative,
+    Event,
+    Every,
     FunctionTable,
     Get,
     Invoke,
@@ -138,6 +140,10 @@ def format_statement(node: Statement) -> str:
             return f"term {expression(node.value)}"
         case Sample():
             return f"SAMPLE {expression(node.every)}"
+        case Event():
+            return f"event {expression(node.value)}"
+        case Every():
+            return f"every {listed((node.period,) if node.first is None else (node.period, node.first))}"
         case Request():
             return f"{node.kind} {_channel(node.channel)}{listed(node.items)}"
         case Learn():

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir import random
 from desire_tui.engine.codegen.ir.functions import apply, power
 from desire_tui.engine.codegen.ir.table_lookup import table1, table2
+from desire_tui.engine.codegen.ir.work_memory import memory_fields
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.random_sequence import DRAWS
 
@@ -45,6 +46,8 @@ class IrExpressions:
         if isinstance(node, Op):
             if node.name in DRAWS:
                 return self.draw(node.name)
+            if node.name == "delayed":
+                return self._delayed(node)
             if node.name == "ipow":
                 exponent = node.args[1]
                 assert isinstance(exponent, Const)
@@ -57,6 +60,16 @@ class IrExpressions:
         if isinstance(node, Table2):
             return table2(self.lanes, node, self.value(node.x), self.value(node.y))
         return self.operand(node)
+
+    def _delayed(self, node: Op) -> str:
+        """Look up a value at an earlier time; number, time and, if given, what was before the start."""
+        number, time, *before = node.args
+        assert isinstance(number, Const)
+        memory = memory_fields(self.text)
+        s, *first = [self.value(part) for part in (time, *before)]
+        call = f"call double {memory.load('look_up')}(ptr {memory.load('histories')}, i64 {int(number.value)}"
+        given = first[0] if first else self.lanes.const(0.0)
+        return self.text.op(f"{call}, double {s}, i64 {len(first)}, double {given})")
 
     def load(self, slot: int) -> str:
         """Read a scalar."""

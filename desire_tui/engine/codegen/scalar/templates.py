@@ -52,7 +52,7 @@ def shape(node: Value, key: list[object], leaves: list[int | float]) -> None:
             exponent = args[1]
             assert isinstance(exponent, Const)
             key.append(exponent.value)
-        elif name in DRAWS:
+        elif name in DRAWS or name == "delayed":
             raise NotPlainError
         else:
             for arg in args:

@@ -186,6 +186,44 @@ MESSAGES: dict[str, Wording] = {
     "second-request": Wording(
         8, "a second {kind}: the segment has one in line {line}", "join the lists, or use another segment"
     ),
+    "noise-under-rule": Wording(
+        489,
+        "a derivative depends on this random number, drawn anew at each stage: not under rule {rule}",
+        "draw it behind `step`, SAMPLE or `every`, or use white(…) with irule 2, 1 or 3",
+    ),
+    "white-under-rule": Wording(
+        488,
+        "white noise cannot be integrated by rule {rule}, which tests its steps",
+        "use irule 2 (Euler-Maruyama), 1 (Heun) or 3, with a DT that is small enough",
+        "A step that fails is tried again with half of DT, where the noise would be another: no step is ever"
+        " small enough.",
+    ),
+    "white-without-states": Wording(
+        488, "white() needs a differential equation: its size depends on DT", "use gauss() between points"
+    ),
+    "delay-of-array": Wording(
+        75, "delay(x, tau) is a number, not an array", "assign it to a variable in a line of its own"
+    ),
+    "delay-under-rule": Wording(484, "delay(x, tau) cannot be used under rule {rule}", "use irule 3, 4 or 8"),
+    "delay-without-states": Wording(
+        484, "delay(x, tau) needs a differential equation", "use the statement delay y = D(x, tau)"
+    ),
+    "stray-end-event": Wording(4, "there is no `event` or `every` for this `end event`", "remove it"),
+    "moment-in-if": Wording(
+        219, "`{word}` cannot stand behind `if`", "write `end if` before it, and the condition into its block"
+    ),
+    "if-open-at-moment": Wording(
+        219,
+        "an `if` in the block of `event` or `every` above is still open here",
+        "write `end if` before this",
+    ),
+    "not-at-moment": Wording(
+        219,
+        "'{word}' cannot be executed at a moment",
+        "write `end event` before it, or move it above the block",
+        "The lines behind `event` and `every`, up to the next `event`, `every`, `OUT`, `SAMPLE`, `step` or"
+        " `end event`, are executed once each time: they set states and other numbers.",
+    ),
     "second-sample": Wording(8, "a second SAMPLE", "one SAMPLE in a segment"),
     "sample-below-one": Wording(
         44, "SAMPLE {value}: at least 1 is needed", "SAMPLE m runs at every m-th point"

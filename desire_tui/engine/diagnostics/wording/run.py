@@ -97,6 +97,29 @@ MESSAGES: dict[str, Wording] = {
         "t stays at {t:.6g}: a step of DT = {dt:.3g} does not go forward",
         "DT must stay above 0, and large enough to change t",
     ),
+    "noise-in-step": Wording(
+        489,
+        "a derivative depends on this random number, which is drawn anew at each stage of a step",
+        "draw it behind `step`, SAMPLE or `every`, or use white(…): its size fits DT",
+        "A warning: another DT is another process. Rules 4 and 7 to 16 cannot be used.",
+        warning=True,
+    ),
+    "moments-backward": Wording(
+        483, "events and delays cannot be followed backward in time", "run forward: let TMAX be positive"
+    ),
+    "events-too-fast": Wording(
+        486,
+        "this event came {count} times in hardly any time, and t stays at {t:.9g}",
+        "let it rest: set it still in the block when it is slow, or stop the run by `term`",
+        "Each time sets off the next one after a shorter while (a ball that bounces lower and lower), or"
+        " at once (a switch without hysteresis).",
+    ),
+    "every-not-positive": Wording(
+        487,
+        "`every` {period} from {start} on: the period must be above 0, and both must be finite",
+        "write every T, t0",
+        "Both are taken as they are when the run starts.",
+    ),
     "not-finite": Wording(
         3,
         "'{name}' became {what} at t = {t:.6g}",

@@ -17,6 +17,9 @@ MESSAGES: dict[str, Wording] = {
     "undefined-function": Wording(
         200, "there is no function '{name}'", "an array needs square brackets: {name}[…]"
     ),
+    "segment-function": Wording(
+        59, "the function '{name}' can be used in DYNAMIC segments only", "use it behind DYNAMIC"
+    ),
     "function-without-arguments": Wording(
         200, "'{name}' is a function and needs its arguments here", "write {name}(…)"
     ),

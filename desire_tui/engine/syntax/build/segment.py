@@ -12,6 +12,8 @@ from desire_tui.engine.nodes.expressions import Call, Name, RowOf
 from desire_tui.engine.nodes.segment import (
     Delay,
     Derivative,
+    Event,
+    Every,
     FunctionTable,
     Get,
     Learn,
@@ -96,6 +98,13 @@ class Dynamic:
 
     def sample(self, kids: Kids, first: int, last: int) -> Statement:
         return Sample(plain(kids[1]), first, last)
+
+    def event(self, kids: Kids, first: int, last: int) -> Statement:
+        return Event(plain(kids[1]), first, last)
+
+    def every(self, kids: Kids, first: int, last: int) -> Statement:
+        start = plain(kids[3]) if len(kids) > 3 else None
+        return Every(plain(kids[1]), start, first, last)
 
     def request(self, kids: Kids, first: int, last: int) -> Statement:
         channel, rest = channel_of(kids)

@@ -1,0 +1,72 @@
+"""`runtime.moments` as native functions: one set for all models, kept on disk by the processor."""
+
+from __future__ import annotations
+
+import re
+from ctypes import sizeof
+from hashlib import blake2b
+from importlib.resources import files
+from threading import Lock
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code
+from desire_tui.engine.codegen.plain_python.kinds import of_function
+from desire_tui.engine.codegen.plain_python.program import Module, write_program
+from desire_tui.engine.codegen.plain_python.surroundings import Outside
+from desire_tui.engine.integration import tableaus
+from desire_tui.engine.runtime import run_memory
+from desire_tui.engine.runtime.moments import blocks, histories, locate, memory, stages, steps
+from desire_tui.engine.runtime.moments.memory import Compute, Moments
+from desire_tui.engine.runtime.run_memory import RunMemory
+from desire_tui.engine.values import DT, ERRMAX, T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.jit.linker import MachineCode
+
+_MODULES = (histories, blocks, stages, locate, steps)
+_ENGINE = files("desire_tui.engine")
+
+
+def _source(name: str) -> bytes:
+    return (_ENGINE / f"{name.partition('.engine.')[2].replace('.', '/')}.py").read_bytes()
+
+
+_TEXTS = {module: _source(module.__name__) for module in _MODULES}
+"""Read now, when the modules are: files may change under a process that lives for days."""
+_OTHERS = b"".join(_source(module.__name__) for module in (memory, run_memory, tableaus))
+_PUBLIC = ("begin", "step", "look_up")
+_making = Lock()
+_made: list[MomentFunctions] = []
+
+
+class MomentFunctions(NamedTuple):
+    """Addresses; `keep` owns the code."""
+
+    begin: int
+    step: int
+    look_up: int
+    keep: Any
+
+
+def moment_functions() -> MomentFunctions:
+    """Return the functions; the first call of a process compiles them, or finds them on disk."""
+    with _making:
+        if not _made:
+            code = kept_code(_name()) or _compiled()
+            begin, step, look_up = (code.address(f"moments_{name}") for name in _PUBLIC)
+            _made.append(MomentFunctions(begin, step, look_up, code))
+        return _made[0]
+
+
+def _compiled() -> MachineCode:
+    pointers = {name: of_function(Compute, "") for name in ("conditions", "blocks", "derivative", "sources")}
+    outside = Outside({"Moments": Moments, "RunMemory": RunMemory}, pointers)
+    modules = [Module(_TEXTS[module], vars(module)) for module in _MODULES]
+    text = write_program(modules, outside, "moments_", frozenset(_PUBLIC))
+    return compile_and_keep(text, _name(), level=1, vectorize=False)
+
+
+def _name() -> str:
+    layout = repr((T, DT, ERRMAX, *((kind, sizeof(kind), kind._fields_) for kind in (Moments, RunMemory))))
+    everything = b"".join(_TEXTS.values()) + _OTHERS + re.sub(" at 0x[0-9a-f]+", "", layout).encode()
+    return f"moments-{blake2b(everything, digest_size=8).hexdigest()}"

@@ -1,0 +1,105 @@
+"""Segments with events in the reference back end: `runtime.moments` as it is."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.passes.assigned_states import checked_state
+from desire_tui.engine.passes.moments import blocks_pass, conditions_pass, sources_pass
+from desire_tui.engine.passes.slices import derivative_slice
+from desire_tui.engine.reference.model import TOLERANCE, ReferenceModel
+from desire_tui.engine.reference.statements import StatementClosures
+from desire_tui.engine.runtime.moments import blocks, steps
+from desire_tui.engine.runtime.moments.memory import Compute
+from desire_tui.engine.runtime.moments.setup import Stepper
+from desire_tui.engine.runtime.run_memory import Ended, Phase
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from typing import Any
+
+    from desire_tui.engine.integration.tableaus import Tableau
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.reference.statements import Run
+    from desire_tui.engine.runtime.run_memory import RunMemory
+    from desire_tui.engine.values import Values
+
+
+class MomentReferenceModel(ReferenceModel):
+    """A segment with events under a rule 0 … 8."""
+
+    def __init__(
+        self,
+        segment: Segment,
+        tableau: Tableau | None,
+        values: Values,
+        numbers: Sequence[int],
+        vital: Iterable[int],
+    ) -> None:
+        super().__init__(segment, tableau, values, numbers, vital)
+        self._stepper = stepper = Stepper(segment, tableau, values)
+        self.statements.histories.append(stepper.moments)
+        self._others = others = StatementClosures(values, segment.order)
+        moments = stepper.moments
+        others.histories.append(moments)
+        moments.conditions = self._function(others.compile(conditions_pass(segment, moments.now)))
+        moments.blocks = self._function(others.compile(blocks_pass(segment, moments.due)))
+        moments.sources = self._function(others.compile(sources_pass(segment, moments.source)))
+        moments.derivative = self._function(others.compile(derivative_slice(segment)), writes=True)
+
+    def _function(self, run: Run, *, writes: bool = False) -> Any:
+        found, size = self._others.derivatives, 8 * len(self._others.derivatives)
+
+        def compute(_memory: int, k: int) -> int:
+            run()
+            if writes:
+                ctypes.memmove(k, found.ctypes.data, size)
+            return 0
+
+        return Compute(compute)
+
+    def advance(self, memory: RunMemory) -> Ended:
+        """Run on; see `ReferenceModel`."""
+        self._others.memory = memory
+        if not memory.begun:
+            memory.begun = 1
+            self._stepper.prepare(memory, memory.times, memory.taus)
+            if blocks.begin(self._stepper.moments) > 1:
+                return self._too_fast(memory)
+        return super().advance(memory)
+
+    def _point(self, memory: RunMemory) -> Ended | None:
+        if self.tableau is None and memory.point:
+            ended = steps.wait(self._stepper.moments, memory, self.cells[T])
+            if ended == Ended.ZENO:
+                return self._too_fast(memory)
+        return super()._point(memory)
+
+    def _step(self, memory: RunMemory) -> Ended | None:
+        renewal = self.step_renewal if memory.phase == Phase.IN_STEP else self.renewal
+        renewal()
+        memory.phase = Phase.IN_STEP
+        stepper, cells = self._stepper, self.cells
+        first = self.states.k[0]
+        stepper.k[: len(first)] = first
+        t_next = memory.t_start + memory.point * memory.comint
+        checked = memory.checked
+        memory.checked = checked_state(checked, self.numbers)
+        while (ended := Ended(steps.step(stepper.moments, memory, t_next))) is Ended.FULL:
+            stepper.grow()
+        memory.checked = checked
+        if ended is Ended.ZENO:
+            return self._too_fast(memory)
+        if ended is not Ended.RUNNING:
+            memory.phase = Phase.ENDED
+            memory.which = self.numbers[memory.which] if ended is Ended.DEADLOCK else memory.which
+            return ended
+        if cells[T] >= t_next - TOLERANCE * memory.dt_base:
+            memory.phase = Phase.AT_POINT
+        return None
+
+    def _too_fast(self, memory: RunMemory) -> Ended:
+        memory.which, memory.phase = self._stepper.moments.last_fired, Phase.ENDED
+        return Ended.ZENO

@@ -1,0 +1,65 @@
+"""Times that hold for a run, found at its start: those of each `every`, and delays that do not vary."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.lowered.effects import writes
+from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.lowered.statements import Set
+from desire_tui.engine.lowered.walk import walk_actions, walk_values
+from desire_tui.engine.runtime.before_run import evaluate, needed
+from desire_tui.engine.runtime.run_faults import at_statement
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.values import Values
+
+
+def event_times(segment: Segment, values: Values) -> list[tuple[float, float]]:
+    """Return period and start of each event, 0 and 0 for a condition. DesireError 487."""
+    if not segment.events:
+        return []
+    sets = [action for action in segment.body if isinstance(action, Set)]
+    found: list[tuple[float, float]] = []
+    for event in segment.events:
+        if event.period is None or event.start is None:
+            found.append((0.0, 0.0))
+            continue
+        period, start = (evaluate(time, needed(time, sets), values) for time in (event.period, event.start))
+        if not (isfinite(period) and period > 0.0 and isfinite(start)):
+            facts: dict[str, object] = {"period": f"{period:g}", "start": f"{start:g}"}
+            raise DesireError(at_statement("every-not-positive", facts, segment, event.where))
+        found.append((period, start))
+    return found
+
+
+def delay_times(segment: Segment, values: Values) -> list[float]:
+    """Return the time of each `delay(x, tau)`, 0 for one that may vary. DesireError: it is negative."""
+    if not segment.delays:
+        return []
+    sets = [action for action in segment.body if isinstance(action, Set)]
+    states = {s.slot + i for s in segment.states for i in range(s.count)}
+    bodies = [segment.body, *(event.body for event in segment.events)]
+    found: list[float] = []
+    for delayed in segment.delays:
+        before = needed(delayed.tau, sets)
+        read = {
+            node.slot
+            for node in walk_values(delayed.tau, *(action.value for action in before))
+            if isinstance(node, Load)
+        }
+        computed = {id(action) for action in before}
+        varied = {T, *states}
+        for body in bodies:
+            for action in walk_actions(body):
+                if id(action) not in computed:
+                    varied.update(slot + i for slot, count in writes(action) for i in range(count))
+        tau = 0.0 if read & varied else evaluate(delayed.tau, before, values)
+        if not (isfinite(tau) and tau >= 0.0):
+            raise DesireError(at_statement("delay-negative", {"tau": tau}, segment, delayed.where))
+        found.append(tau)
+    return found

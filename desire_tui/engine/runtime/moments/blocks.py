@@ -1,0 +1,157 @@
+"""Which events are due where a step has ended, and their blocks carried out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.runtime.moments.histories import (
+    add_jump,
+    begin_histories,
+    next_return,
+    pass_returns,
+    record,
+)
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.runtime.moments.memory import Moments
+
+FIRINGS_MOST = 200
+"""So many firings within the part of a run that `span` names end it."""
+NEVER = 1.7976931348623157e308
+
+
+def begin(m: Moments) -> int:
+    """Prepare a run that starts with the t and states in the values; return 2 if events come too fast."""
+    t: float = m.values[T]
+    m.firings = 0
+    m.firings_since = t
+    if m.condition_count != 0:
+        m.conditions(m.memory, m.k_at[0])
+    for i in range(m.count):
+        value: float = m.values[m.now + i]
+        m.values[m.due + i] = 0.0
+        m.before[i] = value
+        m.armed[i] = value <= 0.0
+    if due(m, 0.0) != 0 and carry_out(m) > 1:
+        return 2
+    begin_histories(m)
+    return 1
+
+
+def next_time(m: Moments) -> float:
+    """Return when the next event of the clock is due, or a jump comes back."""
+    found = NEVER
+    if m.delay_count != 0:
+        found = next_return(m)
+    for i in range(m.count):
+        if m.period[i] > 0.0:
+            found = min(found, m.next[i])
+    return found
+
+
+def rises(m: Moments, i: int, value: float) -> int:
+    """Whether event i is due with this value of its condition: above 0, or at 0 from below."""
+    if m.period[i] > 0.0 or m.armed[i] == 0:
+        return 0
+    return value > 0.0 or (value == 0.0 and m.before[i] < 0.0)
+
+
+def any_rises(m: Moments) -> int:
+    """Compute the conditions at the t and states in the values; whether one of them has risen."""
+    m.conditions(m.memory, m.k_at[0])
+    found = 0
+    for i in range(m.count):
+        if rises(m, i, m.values[m.now + i]) != 0:
+            found = 1
+    return found
+
+
+def arrive(m: Moments, slack: float) -> int:
+    """Carry out what is due at t, clocks that are `slack` away included.
+
+    The conditions have been computed. 0: nothing was due, 1: something was, 2: far too much is.
+    """
+    pass_returns(m, slack)
+    if due(m, slack) == 0:
+        return 0
+    if m.delay_count != 0:
+        m.derivative(m.memory, m.k_at[0])
+        record(m)  # how it was before the jump
+        add_jump(m, m.values[T], 0)
+    return carry_out(m)
+
+
+def due(m: Moments, slack: float) -> int:
+    """Mark what is due at t; return how many there are."""
+    t: float = m.values[T]
+    found = 0
+    for i in range(m.count):
+        if m.period[i] > 0.0:
+            while m.next[i] <= t + slack:
+                m.values[m.due + i] = 1.0
+                found += 1
+                m.ticks[i] += 1.0
+                m.next[i] = m.start[i] + m.ticks[i] * m.period[i]
+        else:
+            found += note(m, i)
+    return found
+
+
+def carry_out(m: Moments) -> int:
+    """Run the blocks that are due, and those that they set off."""
+    t: float = m.values[T]
+    while True:
+        m.blocks(m.memory, m.k_at[0])
+        if has_fired(m, t) != 0:
+            return 2
+        if m.condition_count != 0:
+            m.conditions(m.memory, m.k_at[0])
+        found = 0
+        for i in range(m.count):
+            ran: float = m.values[m.due + i]
+            m.values[m.due + i] = 0.0
+            if m.period[i] > 0.0:
+                continue
+            if ran == 0.0:
+                found += note(m, i)
+            else:
+                value: float = m.values[m.now + i]
+                # at 0 by its own block: it may rise again; at 0 as it was before: it has had its turn
+                m.armed[i] = value < 0.0 or (value == 0.0 and m.fired[i] > 0.0)
+                m.before[i] = value
+        if found == 0:
+            return 1
+
+
+def note(m: Moments, i: int) -> int:
+    """Take up the present value of condition i; 1: its block is due."""
+    value: float = m.values[m.now + i]
+    due = rises(m, i, value)
+    if due != 0:
+        m.values[m.due + i] = 1.0
+        m.fired[i] = value
+        m.armed[i] = 0
+    elif value < 0.0:
+        m.armed[i] = 1
+    elif value > 0.0:
+        m.armed[i] = 0
+    m.before[i] = value
+    return due
+
+
+def has_fired(m: Moments, t: float) -> int:
+    """Count the conditions that are due; 1 if very many came in a very short time."""
+    fired = 0
+    for i in range(m.count):
+        if m.period[i] == 0.0 and m.values[m.due + i] != 0.0:
+            m.last_fired = i
+            fired = 1
+    m.firings += fired
+    if m.firings < FIRINGS_MOST:
+        return 0
+    span: float = m.span
+    gone: float = t - m.firings_since
+    m.firings = 0
+    m.firings_since = t
+    return gone <= span

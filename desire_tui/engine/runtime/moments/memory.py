@@ -1,0 +1,64 @@
+"""What stepping through moments needs to know: one C structure, filled by `setup`."""
+
+from __future__ import annotations
+
+import ctypes
+
+_ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
+_REALS, _INTS, _ADDRESSES = (ctypes.POINTER(kind) for kind in (_REAL, _INT, _ADDRESS))
+
+Compute = ctypes.CFUNCTYPE(_INT, _ADDRESS, _ADDRESS)
+"""f(memory, derivatives): a pass over the values; its result is not looked at."""
+
+
+class Moments(ctypes.Structure):
+    """A model's events, and the explicit rule that steps it.
+
+    Events, `count` of them, by number: `period` is 0 for one with a condition, whose present value the pass
+    `conditions` puts at `now` + number. The pass `blocks` carries out those with 1 at `due` + number.
+    A condition is `armed` while it has not been above 0; `before` is its value at the step's start.
+
+    Histories: `knots` of them, at `times`, which are equal where the value jumps.
+
+    The rule: rows of its tableau as whole multiples over a denominator.
+    """
+
+    _fields_ = (
+        ("values", _REALS),  # slot 0
+        ("memory", _ADDRESS),  # the RunMemory, handed to the model's functions
+        ("conditions", Compute), ("blocks", Compute), ("derivative", Compute),
+        ("count", _INT),
+        ("condition_count", _INT),
+        ("now", _INT), ("due", _INT),  # first slots
+        ("before", _REALS), ("at_left", _REALS), ("at_right", _REALS), ("fired", _REALS),
+        ("armed", _INTS),
+        ("period", _REALS), ("start", _REALS), ("ticks", _REALS), ("next", _REALS),
+        # very many events in a very short time
+        ("firings", _INT), ("firings_since", _REAL), ("span", _REAL), ("last_fired", _INT),
+        # states and the rule
+        ("n", _INT),
+        ("range_count", _INT), ("ranges", _INTS),  # (slot, first state, count)
+        ("x0", _REALS),
+        ("k", _REALS),  # derivatives, stage after stage
+        ("k_at", _ADDRESSES),  # where each stage's begin
+        ("stages", _INT),
+        ("rows", _REALS), ("denominators", _REALS),  # of the stages, of the result, of the test
+        ("nodes", _REALS),
+        # histories of `delay_count` values, a row of `room` numbers each
+        ("delay_count", _INT),
+        ("sources", Compute),  # puts the present values at `source` + number
+        ("source", _INT),
+        ("state_of", _INTS),  # the state that a value is, or -1
+        ("tau", _REALS),  # 0: it varies
+        ("tau_least", _REAL),
+        ("room", _INT), ("knots", _INT),
+        ("times", _REALS), ("history", _REALS), ("slopes", _REALS),
+        ("spare", _REALS),  # four numbers
+        ("near", _REAL),  # times so near to one another are the same
+        ("is_inside", _INT),  # 1 inside a step, where a jump at its end has not happened yet
+        ("jump_room", _INT), ("jump_count", _INT),
+        ("jumps", _REALS), ("smoothness", _INTS),  # when, and the first derivative that jumps
+        ("found", _INTS),  # of each value: the knot that was found last
+        ("jump_at", _INTS),  # of each value: the next one to come back
+        ("is_variable", _INT), ("dt_may_change", _INT),
+    )  # fmt: skip

@@ -1,0 +1,140 @@
+"""The memory behind a `Moments`."""
+
+from __future__ import annotations
+
+import ctypes
+from math import ceil
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from desire_tui.engine.integration.tableaus import whole_multiples
+from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.runtime.moments.memory import Moments
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.integration.tableaus import Tableau
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.values import Values
+
+_SPAN = 1e-9
+"""Part of COMINT within which very many events are too many."""
+_ROOM = 4096
+"""Knots of a history at first."""
+_JUMPS = 4096
+_SAME = 1e-9
+"""Part of a period by which a run's start is one of its times."""
+
+
+class Stepper:
+    """A model's `Moments` with everything that it points at; `tableau` None: there are no states."""
+
+    def __init__(self, segment: Segment, tableau: Tableau | None, values: Values) -> None:
+        self._kept: list[Any] = []
+        events = segment.events
+        count, order = len(events), segment.order
+        self.moments = m = Moments()
+        self._reals("values", values.data)
+        m.count = count
+        m.condition_count = sum(event.condition is not None for event in events)
+        m.now, m.due = values.room(max(count, 1)), values.room(max(count, 1))
+        for name in ("before", "at_left", "at_right", "fired", "ticks", "next"):
+            self._reals(name, np.zeros(count))
+        self._ints("armed", np.zeros(count, dtype=np.int64))
+        self._period, self._start = np.zeros(count), np.zeros(count)
+        self._reals("period", self._period)
+        self._reals("start", self._start)
+        m.n = order
+        ranges = [(states.slot, states.first, states.count) for states in segment.states]
+        m.range_count = len(ranges)
+        self._ints("ranges", np.array(ranges or [(0, 0, 0)], dtype=np.int64).reshape(-1))
+        self._reals("x0", np.zeros(max(order, 1)))
+        self._rule(tableau, max(order, 1))
+        self._histories(segment, values)
+        self.address = ctypes.addressof(m)
+
+    def _histories(self, segment: Segment, values: Values) -> None:
+        m, count = self.moments, len(segment.delays)
+        numbers = {s.slot + i: s.first + i for s in segment.states for i in range(s.count)}
+        m.delay_count = count
+        if not count:
+            return
+        m.source = values.room(count)
+        slots = [d.source.slot if isinstance(d.source, Load) else -1 for d in segment.delays]
+        self._ints("state_of", np.array([numbers.get(slot, -1) for slot in slots], dtype=np.int64))
+        self._ints("jump_at", np.zeros(count, dtype=np.int64))
+        self._ints("found", np.zeros(count, dtype=np.int64))
+        self._tau = np.zeros(count)
+        self._reals("tau", self._tau)
+        self._reals("spare", np.zeros(4))
+        m.jump_room = _JUMPS
+        self._reals("jumps", np.zeros(_JUMPS))
+        self._ints("smoothness", np.zeros(_JUMPS, dtype=np.int64))
+        self._remembered: list[np.ndarray[Any, np.dtype[np.float64]]] = []
+        self._make_room(_ROOM)
+
+    def _make_room(self, room: int) -> None:
+        m, count, knots = self.moments, self.moments.delay_count, self.moments.knots
+        times, history, slopes = np.empty(room), np.empty((count, room)), np.empty((count, room))
+        if self._remembered and knots:
+            old = self._remembered
+            times[:knots] = old[0][:knots]
+            history[:, :knots], slopes[:, :knots] = old[1][:, :knots], old[2][:, :knots]
+        self._remembered = [times, history, slopes]
+        for name, numbers in zip(("times", "history", "slopes"), self._remembered, strict=True):
+            setattr(m, name, ctypes.cast(numbers.ctypes.data, ctypes.POINTER(ctypes.c_double)))
+        m.room = room
+
+    def grow(self) -> None:
+        """Make the room for histories twice as large."""
+        self._make_room(2 * self.moments.room)
+
+    def _rule(self, tableau: Tableau | None, order: int) -> None:
+        m = self.moments
+        stages = 0 if tableau is None else tableau.stages
+        self.k = np.zeros(max(stages, 1) * order)
+        self._reals("k", self.k)
+        at = np.arange(max(stages, 1), dtype=np.uint64) * np.uint64(8 * order) + np.uint64(self.k.ctypes.data)
+        self._keep("k_at", at, ctypes.c_uint64)
+        m.stages = stages
+        if tableau is None:
+            return
+        m.is_variable, m.dt_may_change = int(tableau.variable), int(tableau.rule.dt_may_change)
+        self._reals("nodes", np.array([float(c) for c in tableau.c]))
+        rows = [*tableau.a, tableau.b, *([] if tableau.test is None else [tableau.test])]
+        table, denominators = np.zeros((len(rows), stages)), np.ones(len(rows))
+        for place, row in enumerate(rows):
+            if row:
+                denominators[place], multiples = whole_multiples(row)
+                table[place, : len(multiples)] = multiples
+        self._reals("rows", table.reshape(-1))
+        self._reals("denominators", denominators)
+
+    def prepare(self, memory: Any, times: Sequence[tuple[float, float]], taus: Sequence[float]) -> None:
+        """Prepare a run: its memory, period and start of each `every`, each delay; 0 for what varies."""
+        m = self.moments
+        if taus:
+            self._tau[:] = taus
+            m.tau_least = min((tau for tau in taus if tau > 0.0), default=0.0)
+            self._make_room(_ROOM)
+        m.memory = ctypes.addressof(memory)
+        m.span = _SPAN * memory.comint
+        for number, (period, start) in enumerate(times):
+            self._period[number], self._start[number] = period, start
+            if period > 0.0:
+                ticks = max(0.0, float(ceil((memory.t_start - start) / period - _SAME)))
+                if memory.joined and abs(start + ticks * period - memory.t_start) <= _SAME * period:
+                    ticks += 1.0  # that of the joint had its turn in the run before
+                m.ticks[number], m.next[number] = ticks, start + ticks * period
+
+    def _reals(self, name: str, numbers: np.ndarray[Any, np.dtype[np.float64]]) -> None:
+        self._keep(name, numbers, ctypes.c_double)
+
+    def _ints(self, name: str, numbers: np.ndarray[Any, np.dtype[np.int64]]) -> None:
+        self._keep(name, numbers, ctypes.c_int64)
+
+    def _keep(self, name: str, numbers: np.ndarray[Any, Any], kind: Any) -> None:
+        self._kept.append(numbers)
+        setattr(self.moments, name, ctypes.cast(numbers.ctypes.data, ctypes.POINTER(kind)))
