@@ -12,6 +12,7 @@ from tests.programs.facts_of_the_original import FACTS
 
 HERE = Path(__file__).parent
 COMMANDS = (HERE.parent / "session/test_older_spellings_as_commands.py").read_text(encoding="utf-8")
+MESSAGES = "".join(path.read_text(encoding="utf-8") for path in sorted(HERE.parent.glob("messages/*/*.txt")))
 LEAST = 3
 
 
@@ -24,6 +25,11 @@ def test_a_fact_has_programs(fact):
         expected = read_expectations(text)
         assert expected.checks or expected.prints or expected.console or expected.error, name
     assert fact.command in COMMANDS
+
+
+@pytest.mark.parametrize("fact", FACTS, ids=lambda fact: fact.title)
+def test_where_it_is_really_wrong_a_message_points(fact):
+    assert re.search(rf"^    {re.escape(fact.wrong)}\n +\^", MESSAGES, re.MULTILINE)
 
 
 def test_each_shared_program_stands_for_a_fact():
