@@ -201,6 +201,7 @@ MESSAGES: dict[str, Wording] = {
     "white-without-states": Wording(
         488, "white() needs a differential equation: its size depends on DT", "use gauss() between points"
     ),
+    "event-under-rule": Wording(485, "events cannot be carried out under rule {rule}", "use irule 3, 4 or 8"),
     "delay-of-array": Wording(
         75, "delay(x, tau) is a number, not an array", "assign it to a variable in a line of its own"
     ),
