@@ -288,11 +288,19 @@ class DesireApp(LastingApp):
 
     @on(Sliders.Moved)
     def _slider_moved(self, event: Sliders.Moved) -> None:
-        self.live_mode.ask(event.values, overlay=event.overlay)
+        self.live_mode.ask(event.values, overlay=event.overlay, quantity=event.quantity)
+
+    @on(QuantitiesPane.SliderRequested)
+    def _slider_requested(self, event: QuantitiesPane.SliderRequested) -> None:
+        self.do("run.live", event.name)
 
     @on(StatusBar.Clicked)
     def _status_clicked(self, event: StatusBar.Clicked) -> None:
         self.do(event.command_id)
+
+    @on(GraphPane.TurnRequested)
+    def _turn_requested(self, event: GraphPane.TurnRequested) -> None:
+        self.do("graph.older" if event.step < 0 else "graph.newer")
 
     @on(GraphPane.PauseRequested)
     def _pause_requested(self) -> None:

@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from desire_tui.engine.outputs.formats import FORMATS, DataFormat
-from desire_tui.engine.outputs.picture_options import PictureOptions
+from desire_tui.engine.outputs.picture_options import DPI_LEAST, DPI_MOST, INCHES_MOST, PictureOptions, inches
 from desire_tui.engine.user_folders import ignored_variables
 from desire_tui.engine.visible_text import visible
 from desire_tui.version import __version__
-
-_INCHES_MOST = 40
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -96,13 +94,10 @@ def _settings(_: click.Context, __: click.Parameter, values: tuple[str, ...]) ->
 def _inches(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float, float] | None:
     if text is None:
         return None
-    try:
-        width, height = (float(part) for part in text.lower().split("x"))
-    except ValueError:
-        width = height = 0.0
-    if not (1 <= width <= _INCHES_MOST and 1 <= height <= _INCHES_MOST):
-        raise click.BadParameter(f"'{text}' is not WIDTHxHEIGHT in inches, from 1 to {_INCHES_MOST}: 8x5")
-    return width, height
+    size = inches(text)
+    if size is None:
+        raise click.BadParameter(f"'{text}' is not WIDTHxHEIGHT in inches, from 1 to {INCHES_MOST}: 8x5")
+    return size
 
 
 def _output_options(command: _Command) -> _Command:
@@ -117,7 +112,7 @@ def _output_options(command: _Command) -> _Command:
 @_output_options
 @click.option("--plot", is_flag=True, help="Print the last graph as text.")
 @click.option("--size", metavar="WxH", callback=_inches, help="Size of pictures in inches. [default: 8x5]")
-@click.option("--dpi", type=click.FloatRange(10, 1200), default=150, show_default=True,
+@click.option("--dpi", type=click.FloatRange(DPI_LEAST, DPI_MOST), default=150, show_default=True,
               help="Dots per inch of pictures; print wants 300.")  # fmt: skip
 @click.option("--style", type=click.Choice(["paper", "screen"]),
               help="Pictures dark on white, or in the program's colours. [default: paper, unless it uses "

@@ -10,7 +10,9 @@ from desire_tui.common.dialogs import LineDialog
 from desire_tui.common.paths import full
 from desire_tui.engine.atomic_file import replacing
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.graph.axes import AXIS_WORDS
 from desire_tui.engine.outputs.formats import CSV, PICTURES, PNG, endings
+from desire_tui.engine.outputs.picture_options import name_and_options
 
 if TYPE_CHECKING:
     from desire_tui.engine.session.quantity_plots import PlotOutcome
@@ -69,6 +71,29 @@ class GraphActions(Controller):
             self.app.notify("No graph yet: press F5.", timeout=2)
         self.app.graph.fit_curves()
 
+    def log(self, argument: str = "") -> None:
+        """Make the ordinate logarithmic, then both axes, then neither; or as the argument says."""
+        graph = self.app.graph
+        if graph.page is None:
+            self.app.notify("No graph yet: press F5.", timeout=2)
+            return
+        axes = graph.page.axes
+        word = f"log{argument}" if argument in ("x", "y") else argument
+        if word not in AXIS_WORDS:
+            word = "logy" if not axes.is_log else "loglog" if axes.log_y and not axes.log_x else "linear"
+        graph.change_axes(word)
+        told = {"logx": "abscissa", "logy": "ordinate", "loglog": "both axes"}.get(word)
+        self.app.notify(f"Logarithmic: {told}." if told else "Linear axes.", timeout=2)
+
+    def equal(self, argument: str = "") -> None:
+        """Give both axes the same scale, or each its own again."""
+        del argument
+        page = self.app.graph.page
+        if page is None:
+            self.app.notify("No graph yet: press F5.", timeout=2)
+            return
+        self.app.graph.change_axes("equal" if not page.axes.equal else "unequal")
+
     def reset(self, argument: str = "") -> None:
         """Back to the program's scale."""
         del argument
@@ -119,12 +144,20 @@ class GraphActions(Controller):
                 LineDialog(
                     "Save the graph as",
                     f"{stem}{PNG.ending}",
-                    f"the ending {endings(PICTURES)} chooses the kind",
+                    f"the ending {endings(PICTURES)} chooses the kind; behind it, if you like, "
+                    "size in inches, resolution and style: graph.png 6x4 300dpi paper (or screen)",
                 )
             )
             if not typed:
                 return
             name = typed
+        try:
+            name, options = name_and_options(name)
+        except ValueError as error:
+            app.report_error(
+                f"no picture is made with {error}: sizes are like 6x4 (inches), 300dpi", code=None
+            )
+            return
         if (path := self._path(name, PNG.ending)) is None:
             return
         page = app.graph.page
@@ -133,7 +166,7 @@ class GraphActions(Controller):
 
         def write() -> None:
             try:
-                written = app.session.snapshot(path, page)
+                written = app.session.snapshot(path, page, options)
             except DesireError as error:
                 app.on_screen(app.show_problems, error.diagnostics)
             else:

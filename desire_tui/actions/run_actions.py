@@ -216,13 +216,17 @@ class RunActions(Controller):
 
     # --------------------------------------------------------------------------------------------- live mode
 
-    def live(self, argument: str = "") -> None:
-        """Give a parameter a slider: the named one, or the one chosen in the quantities pane."""
-        self.app.open_side("quantities")
-        self.app.quantities.add_slider(argument or self.app.editor.front.word_at_cursor())
+    async def live(self, argument: str = "") -> None:
+        """Give a parameter a slider: the named one, or those chosen from a list."""
+        await self.app.live_mode.choose(argument)
 
     def live_overlay(self, argument: str = "") -> None:
         """Turn overlaying of live runs on or off."""
         del argument
-        on = self.app.quantities.sliders.toggle_overlay()
+        on = self.app.graph.sliders.toggle_overlay()
         self.app.notify(f"Live runs {'overlay' if on else 'replace'} their curves.", timeout=2)
+
+    def live_write(self, argument: str = "") -> None:
+        """Write the values of the sliders into the program."""
+        del argument
+        self.app.live_mode.write()

@@ -7,9 +7,12 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
     from numpy.typing import NDArray
 
+    from desire_tui.engine.graph.curve import Curve
     from desire_tui.engine.graph.model import Graph
     from desire_tui.panes.zoom_window import Window
 
@@ -31,47 +34,99 @@ class Reading:
     head: str
     values: tuple[tuple[str, int, str], ...]
 
+    @property
+    def width(self) -> int:
+        """How many cells it takes in one row."""
+        return len(self.head) + 2 + sum(len(name) + len(value) + 6 for name, _, value in self.values)
 
-def read(graph: Graph, window: Window, part: float) -> Reading | None:
+
+def valued(name: str, value: str) -> str:
+    """Return `x = 0.5`, or `c = 0.3: 0.5` of a curve that is called by its run."""
+    return f"{name}: {value}" if "=" in name else f"{name} = {value}"
+
+
+def read(graph: Graph, window: Window, part: float, picked: Curve | None = None) -> Reading | None:
     """Read the curves at `part` (0 … 1) of the window's width.
 
-    For curves over x, at that part of their samples.
+    For curves over x, at that part of the samples of the run of the picked one, else of the last.
     """
-    import numpy as np
-
-    if not graph.curves:
+    curves = list(graph.curves)
+    if not curves:
         return None
+    label = labels(graph)
     frame = graph.frame
     if frame.kind == "dispt":
-        at = window.left + part * (window.right - window.left)
-        t = frame.left + at * (frame.right - frame.left)
-        values = []
-        for curve in graph.curves:
-            x, y = curve.samples()
-            if len(x) and x[-1] < x[0]:  # a run backward
-                x, y = x[::-1], y[::-1]
-            if _reaches(x, t):
-                number = min(int(np.searchsorted(x, t)), len(x) - 1)
-                if number and abs(x[number - 1] - t) < abs(x[number] - t):
-                    number -= 1
-                values.append((curve.name, curve.color, _shown(y[number])))
-            else:
-                values.append((curve.name, curve.color, GAP))
-        return Reading(part, f"t = {t:.6g}", tuple(values))
-    curve = graph.curves[-1]
-    x, y = curve.samples()
+        t = graph.axes.abscissa(frame, window.left + part * (window.right - window.left))
+        values = tuple((label(curve), curve.color, _shown(value_at(curve, t))) for curve in curves)
+        return Reading(part, f"t = {t:.6g}", values)
+    curve = picked if picked is not None else curves[-1]
+    x, _ = curve.samples()
     if not len(x):
         return None
     number = min(int(part * (len(x) - 1) + 0.5), len(x) - 1)
-    own = curve.frame
-    at = (x[number] - own.left) / ((own.right - own.left) or 1.0)
-    shown = (at - window.left) / (window.right - window.left)
-    run = [c for c in graph.curves if c.record is curve.record]
-    values = [(c.name, c.color, _shown(c.samples()[1][number])) for c in run if number < c.count]
+    at, _ = graph.axes.to_unit(curve.frame, x[number : number + 1], x[number : number + 1])
+    shown = (at[0] - window.left) / (window.right - window.left)
+    run = [c for c in curves if c.record is curve.record]
+    values = tuple((label(c), c.color, _shown(c.samples()[1][number])) for c in run if number < c.count)
     head = f"{curve.x_name} = {_shown(x[number])}"
     if curve.x_column:
         head = f"t = {curve.record.rows[number, 0]:.6g}  {head}"
-    return Reading(float(shown), head, tuple(values))
+    return Reading(float(shown), head, values)
+
+
+def labels(graph: Graph) -> Callable[[Curve], str]:
+    """Return what tells a graph's curves apart: names of variables, or what varies over the runs, or both."""
+    study = graph.study
+    alone = len({curve.name for curve in graph.curves}) == 1
+    if len(study.records) < 2:
+        return lambda curve: curve.name
+    if alone:
+        return lambda curve: study.name(curve.record) or curve.name
+    return lambda curve: ", ".join(filter(None, (curve.name, study.name(curve.record))))
+
+
+def value_at(curve: Curve, t: float) -> float:
+    """Return the sample of a curve over t that is nearest to a time; nan where its run has not come."""
+    number = _sample_at(curve, t)
+    return float("nan") if number is None else float(curve.samples()[1][number])
+
+
+def _sample_at(curve: Curve, t: float) -> int | None:
+    import numpy as np
+
+    x, _ = curve.samples()
+    backward = len(x) > 0 and x[-1] < x[0]
+    if backward:
+        x = x[::-1]
+    if not _reaches(x, t):
+        return None
+    number = min(int(np.searchsorted(x, t)), len(x) - 1)
+    if number and abs(x[number - 1] - t) < abs(x[number] - t):
+        number -= 1
+    return len(x) - 1 - number if backward else number
+
+
+def sample_at(graph: Graph, curve: Curve, window: Window, part: float) -> int | None:
+    """Return the number of a curve's sample at `part` of the window's width, as `read` takes it."""
+    if graph.frame.kind != "dispt":
+        return min(int(part * (curve.count - 1) + 0.5), curve.count - 1) if curve.count else None
+    at = window.left + part * (window.right - window.left)
+    return _sample_at(curve, graph.axes.abscissa(graph.frame, at))
+
+
+def told(graph: Graph, curve: Curve, number: int) -> str:
+    """Return what is said of a curve that is picked: its run, what varies there, and one of its samples."""
+    x, y = curve.samples(number, number + 1)
+    study, record = graph.study, curve.record
+    parts = [f"run {record.number}"] if record.number and len(study.records) > 1 else []
+    parts += [varied.at(study.place(record)) for varied in study.every]
+    sample = f"{curve.name} = {_shown(float(y[0]))}"
+    if not curve.x_column:
+        parts.append(f"{sample} at {curve.x_name} = {_shown(float(x[0]))}")
+    else:
+        t = curve.record.rows[number, 0]
+        parts.append(f"{sample}, {curve.x_name} = {_shown(float(x[0]))} at t = {_shown(float(t))}")
+    return " · ".join(parts)
 
 
 def _reaches(x: Floats, t: float) -> bool:

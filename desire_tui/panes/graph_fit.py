@@ -43,7 +43,7 @@ class CurveFit:
         if page is None or page.frame.kind == "picture":
             self._extent, self._extent_of = None, ()
             return window
-        shown = (page, *paging.under)
+        shown = (page, *paging.behind)
         if self._extent is None or self._extent_of != shown:
             from desire_tui.engine.graph.fit import Extent
 

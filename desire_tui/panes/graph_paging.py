@@ -14,12 +14,15 @@ OVERLAYS_MAX = 12
 
 
 class GraphPaging:
-    """The page shown; `overlay_next`: the next new one is laid over it."""
+    """The page shown; `overlay_next`: the next new one is laid over it; `ghost_next`: over that ghost."""
 
     def __init__(self) -> None:
         self.page: Graph | None = None
         self.under: list[Graph] = []
+        self.ghost: Graph | None = None
+        """The page whose curves stand pale in the background."""
         self.overlay_next = False
+        self.ghost_next: Graph | None = None
 
     def follow(self, graph: Graph) -> bool:
         """Show a graph that was just begun; returns whether it draws other variables than the one before."""
@@ -30,19 +33,20 @@ class GraphPaging:
         elif others or not self.overlay_next:
             self.under = []
         self.overlay_next = False
+        self.ghost, self.ghost_next = None if others else self.ghost_next, None
         self.page = graph
         return others
 
     def show_none(self) -> None:
         """Show no page; turning back shows the newest."""
-        self.page, self.under = None, []
+        self.page, self.under, self.ghost = None, [], None
 
     def turn(self, pages: Sequence[Graph], step: int) -> bool:
         """Show an older (-1) or newer (1) page; False if there is none."""
         at = pages.index(self.page) if self.page in pages else len(pages)
         if not 0 <= at + step < len(pages):
             return False
-        self.page, self.under = pages[at + step], []
+        self.page, self.under, self.ghost = pages[at + step], [], None
         return True
 
     def lay_under(self, pages: Sequence[Graph], number: int | None) -> bool:
@@ -65,8 +69,18 @@ class GraphPaging:
             return ""
         return f"page {pages.index(self.page) + 1}/{len(pages)}" if self.page in pages else "old page"
 
+    @property
+    def behind(self) -> tuple[Graph, ...]:
+        """The pages whose curves are drawn before those of the page shown."""
+        return (*self.under, *([self.ghost] if self.ghost is not None else []))
+
     def with_all_under(self, page: Graph) -> Graph:
-        """Return a page with the curves of those under it."""
-        if not self.under:
+        """Return a page with the curves of those under it, and the pale ones of the ghost."""
+        if not self.behind:
             return page
-        return replace(page, curves=[curve for graph in (*self.under, page) for curve in graph.curves])
+        from desire_tui.engine.graph.colors import GHOST
+
+        ghost = self.ghost.curves if self.ghost is not None else []
+        pale = [replace(curve, color=GHOST) for curve in ghost]
+        above = [curve for graph in (*self.under, page) for curve in graph.curves]
+        return replace(page, curves=[*pale, *above])

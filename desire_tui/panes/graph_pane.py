@@ -6,17 +6,22 @@ from itertools import groupby
 from typing import TYPE_CHECKING, ClassVar
 
 from rich.style import Style
+from textual import on
 from textual.binding import Binding, BindingType
+from textual.containers import Vertical
 from textual.geometry import Region
+from textual.message import Message
 
-from desire_tui.panes import graph_cursor
 from desire_tui.panes.graph_fit import CurveFit
 from desire_tui.panes.graph_key_row import KeyRow, KeyRowContent
 from desire_tui.panes.graph_paging import GraphPaging
+from desire_tui.panes.graph_readout import Readout
 from desire_tui.panes.graph_sheet import TILE_COLUMNS, GraphSheet, SheetStyles
 from desire_tui.panes.graph_styles import WHITE_STYLE, net_style
 from desire_tui.panes.graph_tiles import SheetTile
 from desire_tui.panes.mouse_gestures import MouseGestures
+from desire_tui.panes.reading_table import ReadingTable
+from desire_tui.panes.sliders import Sliders
 from desire_tui.panes.zoom_window import Window
 
 if TYPE_CHECKING:
@@ -28,6 +33,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.outputs.braille_canvas import Canvas
     from desire_tui.engine.outputs.incremental_drawing import Painter
     from desire_tui.engine.outputs.text_frame import TextFrame
+    from desire_tui.panes.graph_cursor import Reading
 
 NOTICE_COLUMNS_MIN = 30
 
@@ -39,11 +45,14 @@ class GraphPane(MouseGestures, can_focus=True):
     GraphPane { layout: horizontal; overflow: hidden; background: #0b0d11; color: #b8bec9; }
     GraphPane:light { background: #ffffff; color: #202020; }
     GraphPane:focus { border-left: solid $primary; }
+    GraphPane #below { dock: bottom; height: auto; width: 100%; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("plus,equals_sign", "app.do('graph.zoom_in')", show=False),
         Binding("minus", "app.do('graph.zoom_out')", show=False),
         Binding("a", "app.do('graph.fit')", show=False),
+        Binding("l", "app.do('graph.log')", show=False),
+        Binding("e", "app.do('graph.equal')", show=False),
         Binding("0,escape", "app.do('graph.reset')", show=False),
         Binding("r", "app.do('graph.read')", show=False),
         Binding("k", "app.do('graph.legend')", show=False),
@@ -51,8 +60,8 @@ class GraphPane(MouseGestures, can_focus=True):
         Binding("o", "app.do('graph.overlay')", show=False),
         Binding("p", "app.do('graph.picture')", show=False),
         Binding("f", "app.do('graph.full')", show=False),
-        Binding("pageup", "app.do('graph.older')", show=False),
-        Binding("pagedown", "app.do('graph.newer')", show=False),
+        Binding("pageup", "page(-1)", show=False),
+        Binding("pagedown", "page(1)", show=False),
         Binding("left", "arrow(-1, 0)", show=False),
         Binding("right", "arrow(1, 0)", show=False),
         Binding("up", "arrow(0, 1)", show=False),
@@ -69,6 +78,8 @@ class GraphPane(MouseGestures, can_focus=True):
         self.canvas: Canvas | None = None
         self.frame: TextFrame | None = None
         self.window = Window()
+        """What is to be shown at least: `view` is larger where the axes have equal scales."""
+        self.view = Window()
         self.fit = CurveFit()
         self._marks: tuple[object, ...] = ()
         self._failed = ""
@@ -76,14 +87,22 @@ class GraphPane(MouseGestures, can_focus=True):
         self._is_earlier = False
         """Whether the page is of a run before a start that failed."""
         self.keys_shown = True
-        self.reading: graph_cursor.Reading | None = None
-        self._cursor: float | None = None
+        self.readout = Readout()
+        self.sliders = Sliders()
+        self._below = Vertical(id="below")
         self._painter: Painter | None = None
         self._drawn: tuple[object, ...] = ()
         self.sheet = GraphSheet()
         self._keys: tuple[object, ...] = ()
         self._tiles: list[SheetTile] = []
         self._ground: tuple[tuple[str, bool], tuple[Style, bool]] | None = None
+
+    class TurnRequested(Message):
+        """Another graph is to be shown: the older (-1) or newer (1) one."""
+
+        def __init__(self, step: int) -> None:
+            super().__init__()
+            self.step = step
 
     def compose(self) -> ComposeResult:
         """Tiles for half of the screen, which is what the graph mostly has; more come with the size."""
@@ -92,7 +111,10 @@ class GraphPane(MouseGestures, can_focus=True):
         ]
         self.sheet.ground = self.paper[0]
         yield from self._tiles
-        yield KeyRow(self._key_row_content)
+        with self._below:
+            yield ReadingTable(self._key_row_content)
+            yield KeyRow(self._key_row_content)
+            yield self.sliders
 
     # ---------------------------------------------------------------------------------------------- drawing
 
@@ -117,7 +139,19 @@ class GraphPane(MouseGestures, can_focus=True):
 
     def _key_row_content(self) -> KeyRowContent:
         keys = self.page.keys if self.page is not None and self.keys_shown else ()
-        return KeyRowContent(*self.paper, keys, self.reading)
+        readout = self.readout
+        color = readout.picked.color if readout.picked is not None else 0
+        return KeyRowContent(*self.paper, keys, readout.reading, readout.told, color)
+
+    @property
+    def reading(self) -> Reading | None:
+        """What the cursor reads."""
+        return self.readout.reading
+
+    @property
+    def room(self) -> tuple[int, int]:
+        """Columns and rows for frame and curves."""
+        return self.size.width, max(self.size.height - max(self._below.size.height, 1), 1)
 
     @property
     def page_mark(self) -> str:
@@ -141,7 +175,7 @@ class GraphPane(MouseGestures, can_focus=True):
             return
         self._is_earlier = False
         if graph is self.page:
-            if self.paging.under:
+            if self.paging.behind:
                 self._drawn = ()
             self._show_keys()
         elif self.paging.follow(graph):
@@ -178,7 +212,7 @@ class GraphPane(MouseGestures, can_focus=True):
         if self._marks != (marks := self._marks_now()):
             self._marks = marks
             self._refresh_cells(self._lay())
-        if self._cursor is not None:
+        if self.readout.cursor is not None or self.readout.picked is not None:
             self._read()
         return begins or bool(dirty)
 
@@ -191,8 +225,8 @@ class GraphPane(MouseGestures, can_focus=True):
     def _state(self) -> tuple[object, ...]:
         page = self.page
         if page is None:
-            return self.paper, self.size, self._failed
-        under = tuple(len(graph.curves) for graph in self.paging.under)
+            return self.paper, self.room, self._failed
+        under = tuple((graph, len(graph.curves)) for graph in self.paging.behind)
         curves = len(page.curves) if under else 0
         title = page.title(fitted=self.fit.is_on)
         look = (
@@ -201,16 +235,17 @@ class GraphPane(MouseGestures, can_focus=True):
             self._is_earlier,
             page.label,
             page.net,
+            page.axes,
             self.paper,
             self.window,
-            self.size,
+            self.room,
         )
         return page, look, under, curves
 
     def _begin_page(self, state: tuple[object, ...]) -> None:
         self._drawn = state
         ground, white = self.paper
-        columns, rows = self.size.width, max(self.size.height - 1, 1)
+        columns, rows = self.room
         page = self.page
         if page is None:
             notice = self._failed or "No graph yet · F5 runs the program"
@@ -221,18 +256,19 @@ class GraphPane(MouseGestures, can_focus=True):
             return
         from desire_tui.engine.outputs.braille_canvas import Canvas
         from desire_tui.engine.outputs.incremental_drawing import Painter
-        from desire_tui.engine.outputs.text_frame import text_frame
+        from desire_tui.engine.outputs.text_frame import equal_view, text_frame
 
         before, canvas = self.frame, self.canvas
         mark = self.page_mark
+        self.view = Window(*equal_view(page, columns, rows, self.window, reserved=len(mark)))
         frame = self.frame = text_frame(
-            page, columns, rows, self.window, fitted=self.fit.is_on, reserved=len(mark)
+            page, columns, rows, self.view, fitted=self.fit.is_on, reserved=len(mark)
         )
         place = (frame.left, frame.columns, frame.rows)
         if before is None or canvas is None or place != (before.left, before.columns, before.rows):
             canvas = self.canvas = Canvas(max(frame.columns, 1), max(frame.rows, 1), frame.left)
         self._show_keys()
-        self._painter = Painter(canvas, self.paging.with_all_under(page), self.window)
+        self._painter = Painter(canvas, self.paging.with_all_under(page), self.view)
         self._painter.update()  # first: a piece is sent with what stands in it
         canvas.take_dirty()
         self._marks = self._marks_now()
@@ -245,7 +281,7 @@ class GraphPane(MouseGestures, can_focus=True):
         if page is None or frame is None or painter is None:
             return []
         ground, white = self.paper
-        columns, rows = self.size.width, max(self.size.height - 1, 1)
+        columns, rows = self.room
         lines = list(painter.clipped.lines(frame, self.fit.notice) if self._marks else frame.lines)
         mark = self.page_mark
         lines[0] = lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark
@@ -297,18 +333,24 @@ class GraphPane(MouseGestures, can_focus=True):
 
     def zoom(self, factor: float, x: float = 0.5, y: float = 0.5) -> None:
         """Make the window `factor` times as large, around a point given in parts of it."""
-        self.look_at(self.window.zoomed(factor, x, y))
+        self.look_at(self.view.zoomed(factor, x, y))
 
     def pan(self, x: float, y: float) -> None:
         """Move the window by parts of itself."""
-        self.look_at(self.window.panned(x, y))
+        self.look_at(self.view.panned(x, y))
+
+    def change_axes(self, word: str) -> None:
+        """Lay the values out in another way (`display` words)."""
+        if self.page is not None and self.page.frame.kind != "picture":
+            self.page.set_axes(self.page.axes.changed(word))
+            self.window, self.fit.wanted = Window(), None
+            self.tick()
 
     def reset_window(self) -> None:
         """Back to the program's scale; the cursor goes."""
-        self._cursor, self.reading = None, None
+        self.readout.clear()
         self.look_at(Window())
-        self.mark_cells()
-        self.query_one(KeyRow).refresh()
+        self._show_reading()
 
     def look_at(self, window: Window) -> None:
         """Show another part of the page; a picture has no parts."""
@@ -325,33 +367,76 @@ class GraphPane(MouseGestures, can_focus=True):
 
     def toggle_readout(self) -> bool:
         """Show or hide the cursor; returns whether it is shown."""
-        self._cursor = 0.5 if self._cursor is None else None
-        self._read()
-        self.mark_cells()
-        return self._cursor is not None
+        readout = self.readout
+        if readout.cursor is None:
+            readout.cursor = 0.5
+        else:
+            readout.clear()
+        readout.read(self.page, self.window)
+        self._show_reading()
+        return readout.cursor is not None
 
     def action_arrow(self, x: int, y: int) -> None:
-        """Move the cursor if it is shown, else the window."""
-        if self._cursor is None or not x:
+        """Move the cursor if it is shown, or to another curve; else move the window."""
+        if self.readout.cursor is None or self.page is None:
             self.pan(0.05 * x, 0.1 * y)
-            return
-        columns = self.canvas.columns if self.canvas is not None else 100
-        self._cursor = min(max(self._cursor + x / (2 * columns), 0.0), 1.0)
-        self._read()
+        elif x:
+            columns = self.canvas.columns if self.canvas is not None else 100
+            self.set_cursor(min(max(self.readout.cursor + x / (2 * columns), 0.0), 1.0))
+        else:
+            self.readout.step(self.page, -y)
+            self._read()
+
+    def action_page(self, step: int) -> None:
+        """Turn the pages of the read-out, or of the graphs where it has none."""
+        table = self.query_one(ReadingTable)
+        if table.display:
+            table.turn(step)
+        else:
+            self.post_message(self.TurnRequested(step))
 
     def _read(self) -> None:
-        before, self.reading = self.reading, None
-        if self._cursor is not None and self.page is not None:
-            self.reading = graph_cursor.read(self.page, self.window, self._cursor)
-        if self.reading != before:
-            self.query_one(KeyRow).refresh()
-            self.mark_cells()
+        if self.readout.read(self.page, self.view) or self._picked_changed():
+            self._show_reading()
+
+    def _picked_changed(self) -> bool:
+        changed = self.readout.draw(self.page, self.view, self.canvas)
+        self.sheet.above = self.readout.above
+        return changed
+
+    def _show_reading(self) -> None:
+        """Show the read-out as it is: below the graph, and in it cursor line and picked curve."""
+        self._picked_changed()
+        table = self.query_one(ReadingTable)
+        table.fit((self.size.height - 1) // 3)
+        table.show_picked(self.readout.number(self.page))
+        self.query_one(KeyRow).refresh()
+        self.mark_cells()
 
     def set_cursor(self, x: float) -> None:
         """Move the cursor, if it is shown, to x (part of the window)."""
-        if self._cursor is not None:
-            self._cursor = x
+        if self.readout.cursor is not None:
+            self.readout.cursor = x
             self._read()
+
+    def hover(self, x: float, y: float) -> None:
+        """Pick the curve at a place of the window."""
+        canvas = self.canvas
+        if canvas is not None and self.readout.hover(
+            self.page, self.view, (x, y), (canvas.columns, canvas.rows)
+        ):
+            self._show_reading()
+
+    def on_leave(self) -> None:
+        """Forget the curve under the mouse, unless that has only come to another tile."""
+        over = self.app.mouse_over
+        if (over is None or self not in over.ancestors_with_self) and self.readout.leave():
+            self._show_reading()
+
+    @on(Sliders.Left)
+    def _sliders_left(self, event: Sliders.Left) -> None:
+        event.stop()
+        self.focus()
 
     def toggle_keys(self) -> None:
         """Show or hide the colour keys."""

@@ -18,10 +18,14 @@ from desire_tui.panes.graph_styles import NO_COLOR, curve_style
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    import numpy as np
+    from numpy.typing import NDArray
     from textual.geometry import Region
 
     from desire_tui.engine.outputs.braille_canvas import Canvas
     from desire_tui.engine.outputs.text_frame import TextFrame
+
+    Dots = NDArray[np.uint8]
 
 TILE_COLUMNS = 8
 """As in `engine.outputs.braille_canvas`, which brings NumPy; a test holds them together."""
@@ -47,6 +51,8 @@ class GraphSheet:
         """Column of the cursor line, and its style."""
         self.box: Region | None = None
         """Rectangle that is being marked."""
+        self.above: Canvas | None = None
+        """What is drawn above the curves, on a canvas of the same size."""
         self.ground = Style()
         """Paper before anything was laid."""
         self._look: SheetStyles | None = None
@@ -132,8 +138,21 @@ class GraphSheet:
         last = min(start + TILE_COLUMNS - frame.left, canvas.columns)
         if first >= last:
             return None
-        patterns, colors = canvas.patterns[row, first:last], canvas.colors[row, first:last]
+        patterns, colors = self._drawn(canvas, row, first, last)
         return first + frame.left - start, patterns.tobytes(), colors.tobytes()
+
+    def _drawn(self, canvas: Canvas, row: int, first: int, last: int) -> tuple[Dots, Dots]:
+        """Return patterns and colours of some cells, with what stands above them."""
+        patterns, colors = canvas.patterns[row, first:last], canvas.colors[row, first:last]
+        above = self.above
+        if above is None or above.patterns.shape != canvas.patterns.shape:
+            return patterns, colors
+        on_top = above.patterns[row, first:last]
+        if not on_top.any():
+            return patterns, colors
+        colors = colors.copy()
+        colors[on_top != 0] = above.colors[row, first:last][on_top != 0]
+        return patterns | on_top, colors
 
     def _make(
         self, start: int, y: int, text: str, style: Style, dotted: bool, at: int, span: tuple[int, int] | None
@@ -145,12 +164,14 @@ class GraphSheet:
             first = max(start - frame.left, 0)
             last = min(start + TILE_COLUMNS - frame.left, canvas.columns)
             before, after = first + frame.left - start, last + frame.left - start
+            from desire_tui.engine.outputs.braille_canvas import color_runs
+
             curves = [
                 Segment(
                     dots,
                     look.ground if color == NO_COLOR else look.ground + curve_style(color, white=look.white),
                 )
-                for dots, color in canvas.runs(y - frame.top, first, last)
+                for dots, color in color_runs(*self._drawn(canvas, y - frame.top, first, last))
             ]
             ends = Segment(text[:before], style), Segment(text[after:], style)
             segments = [piece for piece in (ends[0], *curves, ends[1]) if piece.text]

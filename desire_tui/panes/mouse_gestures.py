@@ -23,7 +23,8 @@ class MouseGestures(Container):
 
     canvas: Canvas | None
     frame: TextFrame | None
-    window: Window
+    view: Window
+    """The part of the graph that is drawn."""
 
     class PauseRequested(Message):
         """The graph was clicked twice."""
@@ -45,6 +46,10 @@ class MouseGestures(Container):
         """Move the cursor line, if it is shown, to x (part of the window)."""
         raise NotImplementedError
 
+    def hover(self, x: float, y: float) -> None:
+        """Pick the curve at a place, given in parts of the window."""
+        raise NotImplementedError
+
     def on_mouse_down(self, event: events.MouseDown) -> None:
         """Begin a rectangle to zoom into."""
         if event.button == 1 and (cell := self._cell(event)) is not None:
@@ -52,8 +57,13 @@ class MouseGestures(Container):
             self.capture_mouse()
 
     def on_mouse_move(self, event: events.MouseMove) -> None:
-        """Show the rectangle."""
-        if self._drag is None or (cell := self._cell(event)) is None:
+        """Show the rectangle; without a button, pick the curve under the mouse."""
+        if (cell := self._cell(event)) is None or self.canvas is None:
+            return
+        if self._drag is None:
+            if not self._is_inside(event):
+                return
+            self.hover((cell[0] + 0.5) / self.canvas.columns, 1 - (cell[1] + 0.5) / self.canvas.rows)
             return
         (x1, x2), (y1, y2) = sorted((self._drag[0], cell[0])), sorted((self._drag[1], cell[1]))
         self.rubber = Region(x1, y1, x2 - x1 + 1, y2 - y1 + 1)
@@ -69,7 +79,7 @@ class MouseGestures(Container):
         columns, rows = self.canvas.columns, self.canvas.rows
         if box is not None and box.width > DRAG_CELLS_MIN and box.height > 1:
             bottom, top = 1 - box.bottom / rows, 1 - box.y / rows
-            self.look_at(self.window.part(box.x / columns, box.right / columns, bottom, top))
+            self.look_at(self.view.part(box.x / columns, box.right / columns, bottom, top))
         elif (cell := self._cell(event)) is not None:
             self.set_cursor((cell[0] + 0.5) / columns)
         self.mark_cells()
@@ -91,7 +101,16 @@ class MouseGestures(Container):
         event.stop()
         if (cell := self._cell(event)) is not None and self.canvas is not None:
             x, y = (cell[0] + 0.5) / self.canvas.columns, 1 - (cell[1] + 0.5) / self.canvas.rows
-            self.look_at(self.window.zoomed(factor, x, y))
+            self.look_at(self.view.zoomed(factor, x, y))
+
+    def _is_inside(self, event: events.MouseEvent) -> bool:
+        """Whether the mouse is on the canvas."""
+        if self.frame is None or self.canvas is None:
+            return False
+        x, y = self.frame.left + self.content_region.x, self.frame.top + self.content_region.y
+        return Region(x, y, self.canvas.columns, self.canvas.rows).contains(
+            int(event.screen_x), int(event.screen_y)
+        )
 
     def _cell(self, event: events.MouseEvent) -> tuple[int, int] | None:
         """Cell of the canvas under the mouse."""

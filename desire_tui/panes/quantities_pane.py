@@ -1,4 +1,4 @@
-"""All quantities of the session with their values; edit in place; sliders for live mode."""
+"""All quantities of the session with their values; edit in place; ask for plots and sliders."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from textual.containers import Vertical
 from textual.message import Message
 from textual.widgets import DataTable, Input
 
-from desire_tui.panes.sliders import Sliders
 from desire_tui.panes.value_summary import shape_text, value_text
 
 if TYPE_CHECKING:
@@ -37,7 +36,6 @@ class QuantitiesPane(Vertical):
         Binding("l", "slider", "Live slider", show=False),
         Binding("p", "plot", "Plot", show=False),
         Binding("slash", "filter", "Filter", show=False),
-        Binding("delete", "remove_slider", "Remove slider", show=False),
         Binding("escape", "done", "Done", show=False),
     ]
 
@@ -55,11 +53,10 @@ class QuantitiesPane(Vertical):
         self._editing = ""
 
     def compose(self) -> ComposeResult:
-        """Filter, table, field to edit in, sliders."""
+        """Filter, table, field to edit in."""
         yield Input(placeholder="filter · Enter edits · p plots · l live slider", id="filter")
         yield DataTable(cursor_type="row", show_header=False, cell_padding=1)
         yield Input(id="edit")
-        yield Sliders()
 
     @property
     def table(self) -> DataTable[str]:
@@ -161,30 +158,14 @@ class QuantitiesPane(Vertical):
         if (quantity := self.chosen) is not None:
             self.post_message(self.PlotRequested(quantity.name))
 
-    # ---------------------------------------------------------------------------------------------- sliders
+    class SliderRequested(Message):
+        """A quantity is to have a slider."""
 
-    @property
-    def sliders(self) -> Sliders:
-        """The sliders below the table."""
-        return self.query_one(Sliders)
+        def __init__(self, name: str) -> None:
+            super().__init__()
+            self.name = name
 
     def action_slider(self) -> None:
-        """Make a slider for the chosen quantity."""
+        """Ask for a slider for the chosen quantity."""
         if (quantity := self.chosen) is not None:
-            self.add_slider(quantity.name)
-
-    def add_slider(self, name: str) -> None:
-        """Give a scalar a slider, or move to the one it has."""
-        values = self._values
-        quantity = values.find(name) if values is not None and name else None
-        if values is not None and quantity is not None and not quantity.shape and values.is_defined(quantity):
-            self.sliders.add(name, values.cells[quantity.slot])
-            return
-        self.table.focus()
-        if name:
-            self.notify(f"'{name}' has no value yet: run the program, then choose a parameter.", markup=False)
-
-    def action_remove_slider(self) -> None:
-        """Take away the slider that has the focus."""
-        if self.sliders.remove_focused():
-            self.table.focus()
+            self.post_message(self.SliderRequested(quantity.name))

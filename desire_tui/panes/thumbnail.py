@@ -10,6 +10,7 @@ from textual.strip import Strip
 from textual.widget import Widget
 
 from desire_tui.engine.visible_text import visible
+from desire_tui.panes.graph_key_row import key_segments
 from desire_tui.panes.graph_styles import NO_COLOR, WHITE_STYLE, curve_style, net_style
 
 if TYPE_CHECKING:
@@ -72,12 +73,13 @@ class Thumbnail(Widget):
         from desire_tui.engine.graph.fit import WHOLE, fitted_view
         from desire_tui.engine.outputs.braille_canvas import Canvas
         from desire_tui.engine.outputs.incremental_drawing import Painter
-        from desire_tui.engine.outputs.text_frame import text_frame
+        from desire_tui.engine.outputs.text_frame import equal_view, text_frame
 
         white = graph.white or not self.app.current_theme.dark
         ground = WHITE_STYLE if white else self.rich_style
-        window = fitted_view(graph)
-        frame = text_frame(graph, width, height - 1, window, fitted=window != WHOLE)
+        fitted = fitted_view(graph)
+        window = equal_view(graph, width, height - 1, fitted)
+        frame = text_frame(graph, width, height - 1, window, fitted=fitted != WHOLE)
         canvas = Canvas(max(frame.columns, 1), max(frame.rows, 1))
         painter = Painter(canvas, graph, window)
         while painter.update():
@@ -101,13 +103,7 @@ class Thumbnail(Widget):
 
     def _keys(self, graph: Graph, ground: Style, *, white: bool) -> Strip:
         width = self.size.width
-        segments = []
-        for name, color in graph.keys:
-            segments += [
-                Segment(" ■ ", ground + curve_style(color, white=white)),
-                Segment(name, ground),
-            ]
-        strip = Strip(segments)
+        strip = Strip(key_segments(graph.keys, ground, width, white=white))
         if strip.cell_length > width:
             strip = Strip.join([strip.crop(0, width - 1), Strip([Segment("…", ground)], 1)])
         pad = Strip.blank((width - strip.cell_length) // 2, ground)

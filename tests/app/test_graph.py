@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 import math
+import struct
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from textual.widgets import Input
 
 from desire_tui.engine.graph.colors import rgb
 from desire_tui.engine.outputs import braille_canvas as engine_canvas
@@ -192,6 +194,16 @@ async def test_snapshot_and_export(program, tmp_path):
         await desk.line("snapshot 'g.svg'")
         await desk.until((tmp_path / "g.svg").exists)
         await desk.until(lambda: "g.svg" in desk.output.split("snapshot")[-1])
+        # size and resolution are typed behind the name
+        await desk.do("graph.snapshot")
+        await desk.pilot.pause()
+        desk.app.screen.query_one(Input).value = "small.png 4x3 50dpi"
+        await desk.press("enter")
+        await desk.until(lambda: "small.png" in desk.output)
+        width, height = struct.unpack(">II", (tmp_path / "small.png").read_bytes()[16:24])
+        assert (width, height) == (200, 150)
+        await desk.line("snapshot 'big.png' 900x4")
+        assert "no picture is made with 900x4" in desk.output
         await desk.line("export 'g.csv'")
         await desk.until((tmp_path / "g.csv").exists)
         table = np.genfromtxt(tmp_path / "g.csv", delimiter=",", names=True)

@@ -43,7 +43,7 @@ async def test_live_mode_reruns_with_the_sliders_value(program):
         await desk.press("f5")
         await desk.idle()
         await desk.line("live w")
-        slider = desk.app.quantities.query_one(Slider)
+        slider = desk.app.graph.query_one(Slider)
         assert slider.value == 1.0
         slider.focus()
         await desk.press("right", "right")
@@ -56,6 +56,7 @@ async def test_live_mode_reruns_with_the_sliders_value(program):
         await desk.press("f5")
         await desk.idle()
         assert desk.app.session.values.cells[desk.app.session.values.find("w").slot] == 1.0
+        assert slider.value == 1.0
 
 
 async def test_live_runs_overlay_when_asked(program):
@@ -64,7 +65,7 @@ async def test_live_runs_overlay_when_asked(program):
         await desk.idle()
         await desk.do("run.live_overlay")
         await desk.line("live w")
-        desk.app.quantities.query_one(Slider).focus()
+        desk.app.graph.query_one(Slider).focus()
         await desk.press("right")
         await desk.until(lambda: desk.app.live_mode.runs_made == 1 and not desk.app.engine.is_busy)
         desk.app.graph.tick()
@@ -75,7 +76,7 @@ async def test_a_slider_for_something_without_a_value_is_refused(program):
     async with desktop(program(PARAMETER)) as desk:
         await desk.line("live nothing")
         await desk.pilot.pause()
-        assert not desk.app.quantities.query(Slider)
+        assert not desk.app.graph.query(Slider)
 
 
 async def test_live_mode_only_keeps_the_newest_value(program):

@@ -107,6 +107,7 @@ def test_json_layout(decay, tmp_path):
     assert list(run) == [
         "segment", "line", "request", "overlay", "rule", "scale", "t0", "tmax", "nn", "dt", "t", "curves", "ended",
         "end_time", "steps", "rejected", "derivative_calls", "jacobian_calls", "dt_least", "dt_most", "order", "seconds",
+        "parameters", "initial", "continues",
     ]  # fmt: skip
     assert (run["segment"], run["line"], run["request"], run["overlay"]) == (None, 2, "dispt", False)
     assert (run["rule"], run["nn"], run["dt"], run["ended"], run["steps"]) == (1, 11, 0.1, "tmax", 10)

@@ -38,7 +38,8 @@ RUN = {
     "overlay": TRUTH, "rule": WHOLE, "scale": NUMBER, "t0": NUMBER, "tmax": NUMBER, "nn": WHOLE, "dt": NUMBER,
     "t": [NUMBER], "curves": [CURVE], "ended": ("tmax", "term", "stopped", "failed"), "end_time": NUMBER,
     "steps": WHOLE, "rejected": WHOLE, "derivative_calls": WHOLE, "jacobian_calls": WHOLE, "dt_least": NUMBER,
-    "dt_most": NUMBER, "order": WHOLE, "seconds": NUMBER,
+    "dt_most": NUMBER, "order": WHOLE, "seconds": NUMBER, "parameters": Mapped(NUMBER),
+    "initial": Mapped(NUMBER), "continues": TRUTH,
 }  # fmt: skip
 LAYOUT = {
     "desire": TEXT, "program": TEXT, "status": ("done", "failed", "stopped", "limit"), "problems": [PROBLEM],

@@ -136,10 +136,7 @@ def test_curves_on_a_shared_page_keep_their_own_scale():
 
 
 def test_keys_name_each_curve_once():
-    pages = GraphPages()
-    displayed(pages, "2")
-    for _ in range(3):
-        page = pages.begin_run(record_of("dispt", T, {"x": T, "y": T}))
+    page = page_of("dispt", T, {"x": T, "y": T})
     assert [(k.name, k.color) for k in page.keys] == [("x", 14), ("y", 15)]
 
 

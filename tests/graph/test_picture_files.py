@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.graph.colors import rgb
+from desire_tui.engine.graph.colors import curve_rgb, rgb
 from desire_tui.engine.graph.pages import GraphPages
 from desire_tui.engine.outputs.matplotlib_figure import picture_of
 from desire_tui.engine.outputs.picture_files import write_picture
-from desire_tui.engine.outputs.picture_options import PictureOptions
+from desire_tui.engine.outputs.picture_options import PictureOptions, name_and_options
 from tests.graph.graphing import displayed, page_of, record_of
 from tests.runtime.running import session_for
 
@@ -178,8 +178,9 @@ def test_earlier_runs_keep_their_scale(tmp_path):
     displayed(pages, "2", "N10", "R")
     pages.begin_run(record_of("dispt", T, {"x": 0.5 + 0 * T}, scale=1.0))
     page = pages.begin_run(record_of("dispt", T + 1, {"x": 0.5 + 0 * T}, scale=10.0))
-    rows, _ = where(pixels(page, tmp_path)[:680], rgb(10))
-    assert rows.max() - rows.min() > 80  # a quarter and almost half of the height down
+    drawn = pixels(page, tmp_path)[:680]
+    first, second = (where(drawn, curve_rgb(curve.color))[0] for curve in page.curves)
+    assert np.median(second) - np.median(first) > 80  # a quarter and almost half of the height down
 
 
 @pytest.mark.parametrize("name", ["g.jpg", "g", "g.txt"])
@@ -195,3 +196,24 @@ def test_svg_keeps_text_as_text(tmp_path):
     assert ">x, y<" in text
     assert ">t<" in text
     assert "scale = 1" in text
+
+
+@pytest.mark.parametrize(
+    ("typed", "name", "inches", "dpi", "style"),
+    [
+        ("g.png", "g.png", (8, 5), 150, None),
+        ("my graph.png 6x4 300dpi", "my graph.png", (6, 4), 300, None),
+        ("'g.pdf' 3.5×2.5 paper", "g.pdf", (3.5, 2.5), 150, "paper"),
+        ("g.svg screen 600 dpi", "g.svg", (8, 5), 600, "screen"),
+        ("6x4", "6x4", (8, 5), 150, None),
+    ],
+)
+def test_what_is_typed_behind_a_pictures_name(typed, name, inches, dpi, style):
+    found, options = name_and_options(typed)
+    assert (found, options.inches, options.dots_per_inch, options.style) == (name, inches, dpi, style)
+
+
+@pytest.mark.parametrize("typed", ["g.png 0x4", "g.png 600x4", "g.png 3dpi", "g.png 5000 dpi"])
+def test_sizes_that_no_picture_has(typed):
+    with pytest.raises(ValueError, match=r"x4|dpi"):
+        name_and_options(typed)

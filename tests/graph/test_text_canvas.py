@@ -215,7 +215,7 @@ def test_the_frame_has_its_hole_where_it_says(columns, rows):
     assert "x vs. t" in text
     for row in range(frame.top, frame.top + frame.rows):
         assert frame.lines[row][frame.left : frame.left + frame.columns].strip() == ""
-        assert frame.lines[row][frame.left - 1] in "│┤"
+        assert frame.lines[row][frame.left - 1] in "│┤├"
         assert frame.lines[row][frame.left + frame.columns] == "│"
     assert frame.lines[frame.top - 1][frame.left - 1] == "┌"
     assert frame.lines[frame.top + frame.rows][frame.left + frame.columns] == "┘"

@@ -57,7 +57,7 @@ SCRIPT = (
     "write #n", "write ##n", "connect input", "connect output", "disconnect", "dump #n", "time", "note",
     "irule n", "irule", "SEED", "drun", "drun NAME", "drun *", "drunr", "reset", "clear", "STOP",
     "MATRIX", "MATRIX = number", "A%", "$In", "$Tr", "Vector", "DOT", "AVG", "FFT F", "FFT I", "FFT R", "FFT C",
-    "title", "xlabel", "ylabel", "plot x, y", "plot z", "SHOW", *(f"display {code}" for code in (*"012ABCFNQRWY", "fit")),
+    "title", "xlabel", "ylabel", "units", "plot x, y", "plot z", "SHOW", *(f"display {code}" for code in (*"012ABCFNQRWY", "fit", "logx", "logy", "loglog", "equal", "linear")),
 )  # fmt: skip
 """Rows about the script; every one must be used by a program that checks something."""
 

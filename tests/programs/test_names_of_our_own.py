@@ -37,6 +37,7 @@ BEYOND = [
     "event",
     "every",
     "white",
+    "units",
 ]
 
 

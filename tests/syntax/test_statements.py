@@ -347,6 +347,8 @@ FORMS = {
     "title 'Rabbits | foxes'": GraphText("title", "Rabbits | foxes"),
     'xlabel "time, s"': GraphText("xlabel", "time, s"),
     "ylabel''": GraphText("ylabel", ""),
+    "units 'x m'": GraphText("units", "x m"),
+    "display logy": Display("logy", ()),
     "plot x, y": Plot((x, y)),
     "plot x, y, 3": Plot((x, y, N(3))),
     "plot z": Plot((z,)),

@@ -2,61 +2,92 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
-
-from desire_tui.engine.integration.rules import RULES
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
+    from desire_tui.engine.graph.curve import Curve
+    from desire_tui.engine.graph.study import Study
     from desire_tui.engine.runtime.run_record import RunRecord
 
+SIGNS = "■╍┉"
+"""Of solid, dashed and dotted curves."""
+KEYS_MOST = 8
+"""Of more runs, only what varies between them is named, beside some of their colours."""
 _NAMED_MOST = 3
 """So many runs that share a colour are named in one key."""
 
 
 class Key(NamedTuple):
-    """A colour key: a curve's name and its colour number."""
+    """A colour key: a name and the colour numbers that it stands for."""
 
     name: str
-    color: int
-
-
-class Colored(Protocol):
-    """What is asked of a curve."""
+    colors: tuple[int, ...]
+    dash: int = 0
+    """As `Curve.dash`."""
 
     @property
-    def name(self) -> str: ...  # noqa: D102
+    def sign(self) -> str:
+        """What stands for each of the colours in text."""
+        return SIGNS[min(self.dash, len(SIGNS) - 1)]
+
     @property
-    def color(self) -> int: ...  # noqa: D102
-    @property
-    def record(self) -> RunRecord: ...  # noqa: D102
+    def color(self) -> int:
+        """The first of the colours."""
+        return self.colors[0]
 
 
-def color_keys(curves: Sequence[Colored]) -> tuple[Key, ...]:
+def color_keys(curves: Sequence[Curve], study: Study) -> tuple[Key, ...]:
     """Return the keys of a page's curves, each name and colour once.
 
-    Where runs that share the page differ in rule, ERMAX or step size, the keys say so: `x, rule 3`.
+    Where runs share the page, keys say what was changed between them: `x, c = 0.3`, or for many of them
+    `x, c = 0.3 … 1.5`. The name of the only variable goes without saying.
     """
-    setting = _setting([curve.record for curve in curves])
-    settings: dict[Key, dict[str, None]] = {}
+    groups: dict[tuple[str, int], dict[RunRecord, None]] = {}
     for curve in curves:
-        settings.setdefault(Key(curve.name, curve.color), {})[setting(curve.record)] = None
+        groups.setdefault((curve.name, curve.color), {})[curve.record] = None
+    names = dict.fromkeys(name for name, _ in groups)
+    dashes = {curve.name: curve.dash for curve in curves}
+    if len(study.records) < 2:
+        return tuple(Key(name, (color,), dashes[name]) for name, color in groups)
+    if len(groups) <= KEYS_MOST and all(len(runs) <= _NAMED_MOST for runs in groups.values()):
+        alone = len(names) == 1
+        return tuple(
+            Key(_joined(name, _names(runs, study), alone=alone), (color,), dashes[name])
+            for (name, color), runs in groups.items()
+        )
     return tuple(
-        Key(f"{key.name}, {' and '.join(found)}", key.color)
-        if all(found) and len(found) <= _NAMED_MOST
-        else key
-        for key, found in settings.items()
+        Key(
+            _joined(name, study.span or study.run_name, alone=len(names) == 1),
+            _sample([color for known, color in groups if known == name]),
+            dashes[name],
+        )
+        for name in names
     )
 
 
-def _setting(records: Iterable[RunRecord]) -> Callable[[RunRecord], str]:
-    """Return what names the first setting in which runs differ, or says nothing."""
-    runs = list(dict.fromkeys(records))
-    if len({run.rule for run in runs}) > 1:
-        return lambda run: f"rule {run.rule}"
-    if len({run.error_max for run in runs}) > 1:
-        return lambda run: f"ERMAX {run.error_max:.3g}"
-    if len({run.dt for run in runs}) > 1 and all(RULES[run.rule].kind == "fixed" for run in runs):
-        return lambda run: f"DT {run.dt:.3g}"
-    return lambda _: ""
+def short_names(keys: Iterable[Key]) -> list[str]:
+    """Return the names of keys without what they share with the key before: `c = 0.3`, `0.6`, `0.9`."""
+    found, before = [], ""
+    for key in keys:
+        head, joint, tail = key.name.rpartition(" = ")
+        found.append(tail if joint and head == before else key.name)
+        before = head
+    return found
+
+
+def _names(runs: Iterable[RunRecord], study: Study) -> str:
+    return " and ".join(filter(None, (study.name(run) for run in runs)))
+
+
+def _joined(name: str, runs: str, *, alone: bool) -> str:
+    return runs if alone and runs else ", ".join(filter(None, (name, runs)))
+
+
+def _sample(colors: Sequence[int]) -> tuple[int, ...]:
+    """Return some of the colours, from the first to the last."""
+    if len(colors) <= KEYS_MOST:
+        return tuple(colors)
+    step = (len(colors) - 1) / (KEYS_MOST - 1)
+    return tuple(colors[round(number * step)] for number in range(KEYS_MOST))

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from desire_tui.engine.graph.ticks import rounded_limits
+from desire_tui.engine.graph.ticks import log_limits, rounded_limits
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.graph.model import Curve, Frame, Graph
+    from desire_tui.engine.graph.curve import Curve, Frame
+    from desire_tui.engine.graph.model import Graph
 
     Floats = NDArray[np.float64]
 
@@ -76,6 +77,9 @@ class Extent:
         return (*reach, len(self.outside), len(self.inside))
 
     def _take(self, curve: Curve | str, frame: Frame, x: Floats, y: Floats) -> None:
+        axes = self.graph.axes
+        if axes.is_log:
+            frame, (x, y) = axes.frame(frame), axes.values(x, y)
         with np.errstate(all="ignore"):
             total = float(x.sum() + y.sum())  # costs a tenth of looking at each number
         if not isfinite(total):
@@ -95,25 +99,27 @@ class Extent:
 
     @property
     def is_fitted(self) -> bool:
-        """Whether the graph asks to be fitted to its curves, as far as they have come."""
+        """Whether the graph asks to be fitted to its curves as far as they have come; log axes do."""
+        if self.graph.axes.is_log:
+            return True
         return self.graph.fit == "asked" or (self.graph.fit == "unset" and bool(self.outside))
 
     def view(self) -> View:
         """Return the window that holds all curves, at round numbers; time stays as the program sets it."""
-        frame = self.graph.frame
+        frame, axes = self.graph.axes.frame(self.graph.frame), self.graph.axes
         if frame.kind == "picture" or not self._low_y <= self._high_y:
             return WHOLE
-        bottom, top = _fitted(frame.bottom, frame.top, self._low_y, self._high_y)
+        bottom, top = _fitted(frame.bottom, frame.top, self._low_y, self._high_y, is_log=axes.log_y)
         left, right = 0.0, 1.0
-        if frame.kind != "dispt":
-            left, right = _fitted(frame.left, frame.right, self._low_x, self._high_x)
+        if frame.kind != "dispt" or axes.log_x:
+            left, right = _fitted(frame.left, frame.right, self._low_x, self._high_x, is_log=axes.log_x)
         view = View(left, right, bottom, top)
         return view if all(map(isfinite, view)) and left < right and bottom < top else WHOLE
 
 
 def fitted_view(graph: Graph) -> View:
     """Return what of a finished graph is shown: the program's scale, or what it asks to be fitted."""
-    if graph.fit == "no":
+    if graph.fit == "no" and not graph.axes.is_log:
         return WHOLE
     extent = Extent(graph)
     extent.update()
@@ -130,8 +136,8 @@ def notice(extent: Extent, remedy: str) -> str:
 
 
 def limits(graph: Graph, window: tuple[float, float, float, float]) -> View:
-    """Return left, right, bottom, top of a window (frame units) in program units."""
-    frame = graph.frame
+    """Return left, right, bottom, top of a window (frame units) in program units, or their logarithms."""
+    frame = graph.axes.frame(graph.frame)
     width, height = frame.right - frame.left, frame.top - frame.bottom
     left, right, bottom, top = window
     return View(
@@ -145,9 +151,11 @@ def _unit(start: float, end: float, *values: float) -> tuple[float, ...]:
     return tuple((value - start) / width for value in values)
 
 
-def _fitted(start: float, end: float, low: float, high: float) -> tuple[float, float]:
+def _fitted(start: float, end: float, low: float, high: float, *, is_log: bool) -> tuple[float, float]:
     width = (end - start) or 1.0
     low, high = start + low * width, start + high * width
+    if is_log:
+        return _unit(start, end, *log_limits(low, high))  # type: ignore[return-value]  # two of two
     # rounding must not make a difference of a start at 0, or of a constant
     tiny = 1e-12 * max(abs(low), abs(high), abs(width))
     low, high = (0.0 if abs(value) < tiny else value for value in (low, high))

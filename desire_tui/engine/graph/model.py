@@ -7,12 +7,19 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from desire_tui.engine.graph.axes import Axes
 from desire_tui.engine.graph.color_keys import color_keys
+from desire_tui.engine.graph.run_colors import RunColors
+from desire_tui.engine.graph.study import Study
+from desire_tui.engine.graph.units import units_of, with_units
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from desire_tui.engine.graph.color_keys import Key
+    from desire_tui.engine.graph.curve import Curve, Frame
     from desire_tui.engine.runtime.run_record import RunRecord
 
     Floats = NDArray[np.float64]
@@ -24,51 +31,9 @@ Fit = Literal["no", "asked", "unset"]
 curve leaves the scale of 1 that Desire starts with."""
 FEW_POINTS = 100
 _NAME_LEAST = 4
-FrameKind = Literal["dispt", "dispxy", "DISPXY", "plot", "picture"]
-
-
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """The window of program values that a graph shows: `left … right` by `bottom … top`."""
-
-    kind: FrameKind
-    left: float
-    right: float
-    bottom: float
-    top: float
-    scale: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Curve:
-    """One curve of one run; its samples grow while the run goes on.
-
-    `frame` is the window of its own run: in a graph shared by runs (`display 2`) every curve keeps the scale
-    it was made with, as ink on a screen does. `joined`: neighbouring samples are joined by lines; maps
-    (dispxy without `d/dt`) are clouds of dots.
-    """
-
-    name: str
-    x_name: str
-    color: int
-    record: RunRecord
-    y_column: int
-    x_column: int
-    frame: Frame
-    thickness: int = 1
-    joined: bool = True
-
-    @property
-    def count(self) -> int:
-        """Samples so far."""
-        return self.record.count
-
-    def samples(self, start: int = 0, stop: int | None = None) -> tuple[Floats, Floats]:
-        """Abscissas and ordinates of samples `start … stop - 1` (default: all so far), in program units."""
-        count = self.record.count
-        rows = self.record.rows
-        stop = count if stop is None else min(stop, count)
-        return rows[start:stop, self.x_column], rows[start:stop, self.y_column]
+_LINEAR = Axes()
+_GROWTH = 1.02
+"""What varies is looked for again when there are so many times as many curves."""
 
 
 @dataclass(slots=True, eq=False)
@@ -150,10 +115,13 @@ class Graph:
     program: str = ""
     """File name of the program that made it."""
     texts: dict[str, str] = field(default_factory=dict)
-    """What `title`, `xlabel`, `ylabel` say."""
+    """What `title`, `xlabel`, `ylabel`, `units` say."""
     fit: Fit = "no"
+    axes: Axes = _LINEAR
     erased: int = 0
     """Goes up when something drawn before must go: what a painter has kept is void."""
+    run_colors: RunColors = field(default_factory=RunColors)
+    _study: tuple[tuple[int, int], Study] | None = field(default=None, init=False)
 
     def title(self, *, fitted: bool = False, room: int | None = None) -> str:
         """Return the line above the graph: program, run, scale; of a long program's name what has room."""
@@ -181,7 +149,11 @@ class Graph:
         y, _, x = self.caption.partition(" vs. ")
         if " vs. " in x:
             y = x = ""
-        x, y = self.texts.get("xlabel") or x, self.texts.get("ylabel") or y
+        units = units_of(self.texts.get("units", ""))
+        x, y = (
+            self.texts.get("xlabel") or with_units(x, units),
+            self.texts.get("ylabel") or with_units(y, units),
+        )
         return (x, y) if x and y else None
 
     @property
@@ -192,17 +164,62 @@ class Graph:
 
     @property
     def run_name(self) -> str:
-        """Which runs are on it: `run 3`, `runs 1–5`; nothing for curves made without a run."""
-        numbers = [curve.record.number for curve in self.curves if curve.record.number]
-        if not numbers:
-            return ""
-        first, last = min(numbers), max(numbers)
-        return f"run {last}" if first == last else f"runs {first}–{last}"
+        """Which runs are on it, and what varies: `run 3`, `runs 1–5 · c = 0.3 … 1.5`."""
+        study = self.study
+        return " · ".join(filter(None, (study.run_name, study.span)))
+
+    @property
+    def study(self) -> Study:
+        """What varies over the runs on it; while many are made, as it was a moment ago."""
+        known, now = self._study, (len(self.curves), self.erased)
+        if known is None or not (known[0][1] == now[1] and known[0][0] <= now[0] <= known[0][0] * _GROWTH):
+            curves = list(self.curves)
+            known = self._study = ((len(curves), now[1]), Study([curve.record for curve in curves]))
+        return known[1]
+
+    def begin_run(self, curves: Sequence[Curve], ahead: int | None) -> None:
+        """Put a run's curves on it, in colours that tell them from those of other runs.
+
+        `ahead`: so many runs follow; None: that is not known.
+        """
+        colors = self.run_colors
+        if not self.has_keys or (self.curves and not colors.runs):
+            self.curves.extend(curves)  # all of one colour, or the page was begun for something else
+            return
+        colors.add(curves)
+        if colors.widen(ahead):
+            self._color_all([*self.curves, *curves])
+        else:
+            self.curves.extend(colors.colored(curves, colors.runs - 1, own_colors=self.has_own_colors))
+
+    def set_axes(self, axes: Axes) -> None:
+        """Lay the values out in another way."""
+        self.axes = axes
+        self.erased += 1
+
+    def end_runs(self) -> bool:
+        """Lay out the colours for the runs there are; returns whether that changed anything."""
+        self._study = None
+        colors = self.run_colors
+        if not colors.widen(0):
+            return False
+        self._color_all(self.curves)
+        return True
+
+    def erase(self) -> None:
+        """Take everything off."""
+        self.curves, self.shown, self.points = [], [], Points()
+        self.run_colors = RunColors()
+        self.erased += 1
+
+    def _color_all(self, curves: Sequence[Curve]) -> None:
+        self.curves = self.run_colors.colored(curves, 0, own_colors=self.has_own_colors)
+        self.erased += 1
 
     @property
     def keys(self) -> tuple[Key, ...]:
         """Colour keys, each name and colour once; none in graphs of one colour."""
-        return color_keys(self.curves) if self.has_keys else ()
+        return color_keys(list(self.curves), self.study) if self.has_keys else ()
 
     @property
     def has_few_points(self) -> bool:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.graph.model import Curve, Frame, Graph, ShownArray
+from desire_tui.engine.graph.axes import AXIS_WORDS
+from desire_tui.engine.graph.curve import Curve, Frame
+from desire_tui.engine.graph.model import Graph, ShownArray
 from desire_tui.engine.graph.settings import DisplaySettings
 from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.runtime.run_record import RunRecord
@@ -70,20 +72,20 @@ class GraphPages:
     def display(self, mode: str, args: Sequence[float], scale: float, *, at_once: bool = False) -> bool:
         """Carry out a `display` statement; returns whether a page changed.
 
-        `at_once`: what is said of fitting holds for the newest page too.
+        `at_once`: what is said of fitting and axes holds for the newest page too.
         """
         self.settings.apply(mode, args)
-        if mode == "fit" and at_once and self.current is not None:
-            self.current.fit = "asked"
+        if at_once and self.current is not None and (mode == "fit" or mode in AXIS_WORDS):
+            if mode == "fit":
+                self.current.fit = "asked"
+            else:
+                self.current.set_axes(self.current.axes.changed(mode))
             return True
         if mode in ("A", "B"):
             self._open_plot(scale, nonnegative=mode == "B")
             return True
         if mode == "F" and self.current is not None:
-            page = self.current
-            page.curves, page.shown = [], []
-            page.points = type(page.points)()
-            page.erased += 1
+            self.current.erase()
             return True
         return False
 
@@ -120,10 +122,12 @@ class GraphPages:
         *,
         program: str = "",
         has_scale: bool = True,
+        ahead: int | None = None,
     ) -> Graph | None:
         """Put a run's curves on a new page, or with `display 2` on the current one. None: nothing to show.
 
         `program` is its file's name. `has_scale`: the program, not the start value, decides the scale.
+        `ahead`: so many runs follow, if that is known.
         """
         self.program = program or self.program
         request = next((r for r in record.requests if r.kind != "type"), None)
@@ -139,9 +143,14 @@ class GraphPages:
         page.frame, page.caption, page.program = frame, caption(request), self.program
         self._apply_settings(page)
         page.fit = "asked" if self.settings.fit else "no" if has_scale else "unset"
-        page.curves.extend(self._curves(record, request, frame))
+        page.begin_run(list(self._curves(record, request, frame)), ahead)
         self._add_pictures(page, record, pictures)
         return page
+
+    def end_runs(self) -> Graph | None:
+        """Give the runs of the newest page their final colours; returns the page if that changed it."""
+        page = self.current
+        return page if page is not None and page.end_runs() else None
 
     def compare(self, records: Sequence[RunRecord]) -> Graph | None:
         """Show runs of one segment over each other on a page of their own, each in other colours.
@@ -185,9 +194,10 @@ class GraphPages:
         for number, (x, y) in enumerate(pairs):
             color = self.settings.curve_color(first_color + number)
             yield Curve(
-                name=names[y], x_name="t" if x < 0 else names[x], color=color, record=record,
+                name=names[y], x_name="t" if x < 0 else names[x], color=color, own_color=color, record=record,
                 y_column=first + y, x_column=0 if x < 0 else first + x, frame=frame,
                 thickness=self.settings.thickness, joined=joined,
+                dash=self.settings.curve_dash(first_color + number),
             )  # fmt: skip
 
     def _begin_pictures(self, record: RunRecord, pictures: Sequence[Picture]) -> Graph:
@@ -218,7 +228,7 @@ class GraphPages:
     def _apply_settings(self, page: Graph) -> None:
         page.net, page.white = self.settings.net_color, self.settings.white
         page.texts.update(self.settings.texts)
-        page.has_own_colors = self.settings.own_colors
+        page.has_own_colors, page.axes = self.settings.own_colors, self.settings.axes
         page.thickness, page.has_keys = self.settings.thickness, not self.settings.one_color
 
 

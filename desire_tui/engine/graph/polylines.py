@@ -12,7 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.graph.model import Frame
+    from desire_tui.engine.graph.curve import Frame
 
     Floats = NDArray[np.float64]
 

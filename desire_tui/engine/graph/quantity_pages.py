@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from desire_tui.engine.graph.model import Curve, Frame
+from desire_tui.engine.graph.curve import Curve, Frame
 from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.runtime.run_record import RunRecord
 
@@ -55,7 +55,17 @@ def array_page(pages: GraphPages, name: str, values: NDArray[Any]) -> Graph:
         t0=1.0, t_max=frame.right - 1.0, nn=length, dt=1.0, rows=table, count=length, ended="tmax",
     )  # fmt: skip
     curves = [
-        Curve(curve, "index", pages.settings.curve_color(n), record, 1 + n, 0, frame, joined=length > 1)
+        Curve(
+            curve,
+            "index",
+            pages.settings.curve_color(n),
+            record,
+            1 + n,
+            0,
+            frame,
+            joined=length > 1,
+            dash=pages.settings.curve_dash(n),
+        )
         for n, curve in enumerate(named)
     ]
     return pages.show_curves(frame, f"{name} vs. index", curves)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from desire_tui.engine.graph.axes import AXIS_WORDS, Axes
 from desire_tui.engine.graph.colors import BLACK, WHITE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 _FIRST_BRIGHT, _LAST_BRIGHT = 9, 15
+_LINEAR = Axes()
 _ONE_COLOR = (16, 18)  # N 16, 18, -18: all curves alike
 
 
@@ -31,7 +33,8 @@ class DisplaySettings:
     by_size: bool = False
     fit: bool = False
     texts: dict[str, str] = field(default_factory=dict)
-    """What `title`, `xlabel`, `ylabel` say."""
+    """What `title`, `xlabel`, `ylabel`, `units` say."""
+    axes: Axes = _LINEAR
     own_colors: bool = False
     """Whether the program says which colours to use."""
 
@@ -48,6 +51,8 @@ class DisplaySettings:
                 self.white = self.first < 0 or (self.white and self.net == 17)
             case "fit":
                 self.fit = True
+            case word if word in AXIS_WORDS:
+                self.axes = self.axes.changed(word)
             case "C" if args:
                 self.net = int(args[0])
                 self.white = self.white or self.net == 17
@@ -62,6 +67,10 @@ class DisplaySettings:
         """Colour number of the coordinate net, None where it cannot be seen or is switched off."""
         color = BLACK if self.net in (16, 17) else abs(self.net) % 16
         return None if color == (WHITE if self.white else BLACK) else color
+
+    def curve_dash(self, number: int) -> int:
+        """Return how often the colours were gone through before curve `number`."""
+        return 0 if self.one_color else number // (_LAST_BRIGHT - _FIRST_BRIGHT + 1)
 
     def curve_color(self, number: int) -> int:
         """Colour number of curve `number` (from 0): n, n + 1, … within 9 … 15, round again."""

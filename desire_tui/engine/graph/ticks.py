@@ -81,6 +81,48 @@ def rounded_limits(low: float, high: float) -> tuple[float, float]:
     return (bottom, top) if isfinite(bottom) and isfinite(top) else (low, high)
 
 
+def log_limits(low: float, high: float) -> tuple[float, float]:
+    """Return limits, as logarithms like the values, at powers of ten; at round numbers within one of them."""
+    if high - low >= 1:
+        return float(floor(low + _NEAR)), float(ceil(high - _NEAR))
+    bottom, top = rounded_limits(10.0**low, 10.0**high)
+    if bottom > 0:
+        return log10(bottom), log10(top)
+    return float(floor(low + _NEAR)), float(ceil(high - _NEAR))
+
+
+def log_ticks(low: float, high: float, most: int = _MOST) -> tuple[tuple[float, ...], tuple[str, ...]]:
+    """Return ticks of a logarithmic axis, given by the logarithms of its limits, and what is written at them.
+
+    Powers of ten; between few of them also 2 and 5 times those, or round numbers.
+    """
+    if not (isfinite(low) and isfinite(high)) or low >= high or most < 1:
+        return (), ()
+    powers = range(ceil(low - _NEAR), floor(high + _NEAR) + 1)
+    if len(powers) > 2:
+        step = -(-len(powers) // most)
+        ticks = [float(power) for power in powers if power % step == 0]
+    else:
+        numbers = [digit * 10.0**power for power in range(floor(low), ceil(high) + 1) for digit in (1, 2, 5)]
+        ticks = [log10(number) for number in numbers if low - _NEAR <= log10(number) <= high + _NEAR]
+        if len(ticks) > most:
+            ticks = [float(power) for power in powers]
+        if len(ticks) < 2:
+            ticks = [log10(number) for number in round_ticks(10.0**low, 10.0**high, most) if number > 0]
+    return tuple(ticks), tuple(tick_label(float(f"{10.0**tick:.6g}")) for tick in ticks)
+
+
+def minor_log_ticks(low: float, high: float, most: int) -> tuple[float, ...]:
+    """Return the places of 2 … 9 times powers of ten, at most `most`; else of the powers themselves."""
+    powers = range(floor(low), ceil(high) + 1)
+    for digits in (range(2, 10), range(1, 2)):
+        places = [power + log10(digit) for power in powers for digit in digits]
+        places = [place for place in places if low <= place <= high]
+        if len(places) <= most:
+            return tuple(places)
+    return ()
+
+
 def tick_labels(ticks: tuple[float, ...]) -> tuple[str, ...]:
     """Return the ticks as short texts that differ."""
     if not ticks:

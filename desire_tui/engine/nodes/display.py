@@ -12,9 +12,12 @@ if TYPE_CHECKING:
 
 @node
 class Display(Node):
-    """`display 2`, `display N14`, `display W 10,20`, `display fit`. `mode` is `0 1 2`, a letter or a word."""
+    """`display 2`, `display N14`, `display logy`. `mode` is `0 1 2`, a letter or a word."""
 
-    mode: Literal["0", "1", "2", "A", "B", "C", "F", "N", "Q", "R", "W", "Y", "fit"]
+    mode: Literal[
+        "0", "1", "2", "A", "B", "C", "F", "N", "Q", "R", "W", "Y",
+        "fit", "logx", "logy", "loglog", "linear", "equal",
+    ]  # fmt: skip
     args: tuple[Expr, ...]
     start: int = 0
     end: int = 0
@@ -22,9 +25,9 @@ class Display(Node):
 
 @node
 class GraphText(Node):
-    """`title 'x'`, `xlabel 'x'`, `ylabel 'x'`."""
+    """`title 'x'`, `xlabel 'x'`, `ylabel 'x'`, `units 'x m, t s'`."""
 
-    part: Literal["title", "xlabel", "ylabel"]
+    part: Literal["title", "xlabel", "ylabel", "units"]
     text: str
     start: int = 0
     end: int = 0

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 TILE_COLUMNS = 8
 NO_COLOR = 255
+DASHES = ((7, 11), (2, 5), (12, 15))
+"""Dots that are lit, of so many: dashed, dotted, long dashes."""
 _BRAILLE = 0x2800
 # Bits of the braille pattern by dot row and column (Unicode 15, section 21.1)
 _BITS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]], dtype=np.uint8)
@@ -56,11 +58,17 @@ class Canvas:
         dirty, self._dirty = self._dirty, set()
         return dirty
 
-    def line(self, x: Floats, y: Floats, color: int, thickness: int = 1) -> None:
-        """Draw a polyline; what is outside the frame is cut off, nan and inf break the line."""
+    def line(
+        self, x: Floats, y: Floats, color: int, thickness: int = 1, dash: int = 0, along: int = 0
+    ) -> int:
+        """Draw a polyline; what is outside the frame is cut off, nan and inf break the line.
+
+        `dash` chooses one of DASHES; `along`: so many dots of the line were passed before. Returns how many
+        are now.
+        """
         if len(x) == 1:
             self.dots(x, y, color, thickness)
-            return
+            return along
         x1, y1, x2, y2 = clip_polyline(x, y)
         column1, row1 = self._dot(x1, y1)
         column2, row2 = self._dot(x2, y2)
@@ -72,7 +80,14 @@ class Canvas:
         part = number / np.maximum(steps, 1)[segment]
         column = np.rint(column1[segment] + (column2 - column1)[segment] * part).astype(np.intp)
         row = np.rint(row1[segment] + (row2 - row1)[segment] * part).astype(np.intp)
+        if dash:
+            lit, period = DASHES[(dash - 1) % len(DASHES)]
+            place = along + np.arange(len(segment)) - segment  # the ends of neighbours are one dot
+            seen = place % period < lit
+            column, row = column[seen], row[seen]
+            along += len(segment) - len(steps)
         self._set(column, row, color, thickness)
+        return along
 
     def dots(self, x: Floats, y: Floats, color: int, thickness: int = 1) -> None:
         """Draw points; those outside the frame are left out."""
@@ -87,13 +102,7 @@ class Canvas:
 
     def runs(self, row: int, start: int = 0, stop: int | None = None) -> list[tuple[str, int]]:
         """Return cells `start … stop - 1` of a row as pieces of one colour each (NO_COLOR: blanks)."""
-        patterns, colors = self.patterns[row, start:stop], self.colors[row, start:stop]
-        if not len(patterns):
-            return []
-        edges = np.flatnonzero(colors[1:] != colors[:-1]) + 1
-        bounds = [0, *edges.tolist(), len(colors)]
-        characters = [chr(_BRAILLE + p) if p else " " for p in patterns.tolist()]
-        return [("".join(characters[a:b]), int(colors[a])) for a, b in pairwise(bounds)]
+        return color_runs(self.patterns[row, start:stop], self.colors[row, start:stop])
 
     def _dot(self, x: Floats, y: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Column from the left and row from the top of the dots that hold points of the unit square."""
@@ -121,3 +130,13 @@ class Canvas:
         tiles = self.tiles.stop
         keys = np.unique(cell_row[changed] * tiles + (cell_column[changed] + self.left) // TILE_COLUMNS)
         self._dirty.update(divmod(key, tiles) for key in keys.tolist())
+
+
+def color_runs(patterns: NDArray[np.uint8], colors: NDArray[np.uint8]) -> list[tuple[str, int]]:
+    """Return cells as pieces of one colour each (NO_COLOR: blanks)."""
+    if not len(patterns):
+        return []
+    edges = np.flatnonzero(colors[1:] != colors[:-1]) + 1
+    bounds = [0, *edges.tolist(), len(colors)]
+    characters = [chr(_BRAILLE + p) if p else " " for p in patterns.tolist()]
+    return [("".join(characters[a:b]), int(colors[a])) for a, b in pairwise(bounds)]

@@ -17,18 +17,35 @@ _ROWS = 10_000  # turned into text at a time
 def write_csv(runs: Sequence[RunData], file: IO[str], *, numbered: bool = True, delimiter: str = ",") -> None:
     """Write one row for each sample: `run, t, names…`, without `run` unless `numbered`.
 
-    A variable that a run did not record is empty there. Numbers read back as the same floats.
+    Behind them stand parameters that the script changed between the runs, and starts of states as `x(0)`. A
+    variable that a run did not record is empty there. Numbers read back as the same floats.
     """
     shown = dict.fromkeys(curve.name for run in runs for curve in run.curves)
     names = [name for name in shown if name != "t"]  # it has its column
+    starts = [run.parameters for run in runs]
+    if not all(run.continues for run in runs[1:]):
+        starts = [run.parameters | {f"{name}(0)": x for name, x in run.initial.items()} for run in runs]
+    varied = [name for name in _varied(starts) if name not in shown]
     header = csv.writer(file, delimiter=delimiter, lineterminator="\n")
-    header.writerow([*(["run"] if numbered else []), "t", *names])
-    for number, run in enumerate(runs, 1):
+    header.writerow([*(["run"] if numbered else []), "t", *names, *varied])
+    for number, (run, start) in enumerate(zip(runs, starts, strict=True), 1):
         first = [repeat(str(number))] if numbered else []
+        last = [repeat(repr(start[name]) if name in start else "") for name in varied]
         for columns in _texts(run, names):
             # numbers need no quotes: `csv` would look for something to quote, in a third more time
-            rows = map(delimiter.join, zip(*first, *columns, strict=False))  # what is repeated has no end
+            rows = map(
+                delimiter.join, zip(*first, *columns, *last, strict=False)
+            )  # what is repeated has no end
             file.writelines(f"{row}\n" for row in rows)
+
+
+def _varied(starts: Sequence[dict[str, float]]) -> Iterator[str]:
+    """Return the names that have several values; nan is as good as nan."""
+    values: dict[str, set[str]] = {}
+    for start in starts:
+        for name, value in start.items():
+            values.setdefault(name, set()).add(repr(value))
+    return (name for name, found in values.items() if len(found) > 1)
 
 
 def _texts(run: RunData, names: Sequence[str]) -> Iterator[list[Iterable[str]]]:

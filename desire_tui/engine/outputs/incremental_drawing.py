@@ -8,13 +8,14 @@ import numpy as np
 
 from desire_tui.engine.graph.fit import WHOLE
 from desire_tui.engine.graph.model import SQUARE_MOST
-from desire_tui.engine.graph.polylines import thin_columns, through, to_unit
+from desire_tui.engine.graph.polylines import thin_columns, through
 from desire_tui.engine.outputs.clip_marks import ClipMarks
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from desire_tui.engine.graph.model import Curve, Graph
+    from desire_tui.engine.graph.curve import Curve
+    from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.braille_canvas import Canvas
 
     Floats = NDArray[np.float64]
@@ -32,6 +33,7 @@ class Painter:
     def __init__(self, canvas: Canvas, graph: Graph, window: Window = WHOLE) -> None:
         self.canvas, self.graph, self.window = canvas, graph, window
         self._drawn: dict[Curve, int] = {}
+        self._along: dict[Curve, int] = {}  # dots of dashed curves
         self._points = 0
         self._pictures = 0
         self._few = graph.has_few_points
@@ -44,12 +46,14 @@ class Painter:
         if self.graph.erased != self._erased:
             self._erased = self.graph.erased
             self._drawn.clear()
+            self._along.clear()
             self._points = self._pictures = 0
             self.clipped = ClipMarks(self.canvas.columns, self.canvas.rows)
             self.canvas.clear()
         if self._few != self.graph.has_few_points:
             self._few = self.graph.has_few_points
             self._drawn.clear()
+            self._along.clear()
             self._points = self._pictures = 0
             self.canvas.clear()
         more = False
@@ -67,12 +71,14 @@ class Painter:
         stop = min(count, drawn + SAMPLES_MOST)
         # the last sample drawn is the first end of the next line
         x, y = curve.samples(max(drawn - 1, 0) if curve.joined else drawn, stop)
-        x, y = through(self.window, *to_unit(curve.frame, x, y))
+        x, y = through(self.window, *self.graph.axes.to_unit(curve.frame, x, y))
         self.clipped.add(x, y)
         if curve.joined:
             if curve.frame.kind == "dispt":
                 x, y = thin_columns(x, y, self.canvas.width)
-            self.canvas.line(x, y, curve.color, curve.thickness)
+            self._along[curve] = self.canvas.line(
+                x, y, curve.color, curve.thickness, curve.dash, self._along.get(curve, 0)
+            )
         else:
             self.canvas.dots(x, y, curve.color, self._thickness(curve.thickness))
         self._drawn[curve] = stop
@@ -85,7 +91,7 @@ class Painter:
         x, y, colors = points.so_far()
         x, y, colors = x[self._points :], y[self._points :], colors[self._points :]
         self._points += len(x)
-        x, y = through(self.window, *to_unit(self.graph.frame, x, y))
+        x, y = through(self.window, *self.graph.axes.to_unit(self.graph.frame, x, y))
         self.clipped.add(x, y)
         for color in np.unique(colors):
             chosen = colors == color

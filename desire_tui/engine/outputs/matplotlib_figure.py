@@ -12,8 +12,8 @@ import numpy as np
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
 from desire_tui.engine.graph.fit import WHOLE, Extent, limits, notice
 from desire_tui.engine.graph.model import SQUARE_MOST
-from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, through, to_unit
-from desire_tui.engine.graph.ticks import minor_ticks, round_ticks, tick_labels
+from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, through
+from desire_tui.engine.graph.ticks import log_ticks, minor_log_ticks, minor_ticks, round_ticks, tick_labels
 from desire_tui.engine.outputs.picture_options import FOR_PAPER, PictureOptions
 
 if TYPE_CHECKING:
@@ -21,14 +21,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
+    from desire_tui.engine.graph.curve import Curve
     from desire_tui.engine.graph.fit import View
-    from desire_tui.engine.graph.model import Curve, Graph, ShownArray
+    from desire_tui.engine.graph.model import Graph, ShownArray
     from desire_tui.engine.outputs.picture_options import PictureStyle
 
     Floats = NDArray[np.float64]
     Tint = tuple[float, float, float]
 
 _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
+_DASHES: tuple[Any, ...] = ("solid", (0, (5, 2)), (0, (1, 1.2)), (0, (8, 1.5, 1, 1.5)))
+_MARKERS = "osD^"
 _NAME_MOST = 40  # characters; a longer name of the ordinate stands in the caption
 _FEW_WIDTH = 5.0  # points; of points that are few
 _SPINE = 2 * 72 / FOR_PAPER.dots_per_inch  # two dots: crisp
@@ -126,13 +129,22 @@ def _style_axes(axes: Axes, graph: Graph, ink: Tint, reach: tuple[float, float, 
             spine.set_linewidth(_SPINE)
     axes.tick_params(colors=ink, labelsize=_FONT, length=4 if net is not None else 0)
     left, right, bottom, top = reach
-    for axis, low, high in ((axes.xaxis, left, right), (axes.yaxis, bottom, top)):
-        ticks = round_ticks(low, high)
-        axis.set_ticks(ticks, tick_labels(ticks))
+    for axis, low, high, is_log in (
+        (axes.xaxis, left, right, graph.axes.log_x), (axes.yaxis, bottom, top, graph.axes.log_y)
+    ):  # fmt: skip
+        if is_log:
+            ticks, labels = log_ticks(low, high)
+            minor = minor_log_ticks(low, high, 100)
+        else:
+            ticks = round_ticks(low, high)
+            labels, minor = tick_labels(ticks), minor_ticks(ticks, low, high, 40)
+        axis.set_ticks(ticks, labels)
         if net is not None:
-            axis.set_ticks(minor_ticks(ticks, low, high, 40), minor=True)
+            axis.set_ticks(minor, minor=True)
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
+    if graph.axes.equal and right > left and top > bottom:
+        axes.set_box_aspect((top - bottom) / (right - left))
     if net is None:
         return
     axes.tick_params(which="minor", colors=net, length=2)
@@ -141,14 +153,15 @@ def _style_axes(axes: Axes, graph: Graph, ink: Tint, reach: tuple[float, float, 
 
 def _draw_curve(axes: Axes, curve: Curve, graph: Graph, window: View) -> None:
     """Draw in parts of the window: a curve of an earlier run keeps its own scale."""
-    x, y = through(window, *to_unit(curve.frame, *curve.samples()))
+    x, y = through(window, *graph.axes.to_unit(curve.frame, *curve.samples()))
     color, width = _curve_tint(curve.color, graph), _WIDTHS[curve.thickness]
     if not curve.joined:
+        marker = _MARKERS[curve.dash % len(_MARKERS)]
         few = _FEW_WIDTH if graph.has_few_points else 0.0
         with np.errstate(invalid="ignore"):
             inside = (x >= 0) & (x <= 1) & (y >= 0) & (y <= 1)
         axes.plot(
-            x[inside], y[inside], linestyle="none", marker="o", markersize=few or 0.8 * width,
+            x[inside], y[inside], linestyle="none", marker=marker, markersize=few or 0.8 * width,
             markeredgewidth=0, color=color, transform=axes.transAxes,
         )  # fmt: skip
         return
@@ -157,8 +170,8 @@ def _draw_curve(axes: Axes, curve: Curve, graph: Graph, window: View) -> None:
     x1, y1, x2, y2 = clip_polyline(x, y)
     path_x, path_y = _connected(x1, y1, x2, y2)
     axes.plot(
-        path_x, path_y, color=color, linewidth=width, solid_joinstyle="round", transform=axes.transAxes,
-        clip_on=False, zorder=3,
+        path_x, path_y, color=color, linewidth=width, linestyle=_DASHES[curve.dash % len(_DASHES)],
+        solid_joinstyle="round", transform=axes.transAxes, clip_on=False, zorder=3,
     )  # fmt: skip
 
 
@@ -181,6 +194,7 @@ def _draw_points(axes: Axes, graph: Graph) -> None:
     if not len(x):
         return
     few = _FEW_WIDTH if graph.has_few_points else 0.0
+    x, y = graph.axes.values(x, y)
     axes.scatter(
         x, y, s=max(few, 2.0 * _WIDTHS[graph.thickness]) ** 2, c=[_curve_tint(int(c), graph) for c in colors],
         linewidths=0, zorder=3,
@@ -188,13 +202,27 @@ def _draw_points(axes: Axes, graph: Graph) -> None:
 
 
 def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
+    from matplotlib.legend_handler import HandlerTuple
     from matplotlib.lines import Line2D
 
-    tints = [(key.name, _curve_tint(key.color, graph)) for key in graph.keys]
-    handles = [Line2D([], [], color=tint, linewidth=3, label=name) for name, tint in tints]
+    keys = graph.keys
+    handles: list[Any] = [  # several lines side by side are a tuple, which its types do not know
+        tuple(
+            Line2D(
+                [],
+                [],
+                color=_curve_tint(color, graph),
+                linewidth=2 if key.dash else 3,
+                linestyle=_DASHES[key.dash % len(_DASHES)],
+            )
+            for color in key.colors
+        )
+        for key in keys
+    ]
     legend = figure.legend(
-        handles=handles, loc="outside lower center", ncols=min(len(handles), 8), frameon=False
-    )
+        handles, [key.name for key in keys], loc="outside lower center", ncols=min(len(keys), 8),
+        frameon=False, handler_map={tuple: HandlerTuple(ndivide=None, pad=0.0)},
+    )  # fmt: skip
     for text in legend.get_texts():
         text.set_color(ink)
 

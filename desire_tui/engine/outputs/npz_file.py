@@ -11,9 +11,16 @@ if TYPE_CHECKING:
 
 
 def write_npz(result: Result, file: IO[bytes]) -> None:
-    """Write an archive for `numpy.load`: `1/t`, `1/x` … are samples of run 1, `final/x` … final values."""
+    """Write an archive for `numpy.load`: `1/t`, `1/x` … are samples of run 1, `final/x` … final values.
+
+    `parameters/c`, `initial/x`: what each run started with, one number for each; nan where it has none.
+    """
     arrays = {f"final/{name}": np.asarray(value) for name, value in result.quantities.items()}
     for number, run in enumerate(result.runs, 1):
         arrays[f"{number}/t"] = run.t
         arrays |= {f"{number}/{curve.name}": curve.values for curve in run.curves}
+    for kind in ("parameters", "initial"):
+        starts: list[dict[str, float]] = [getattr(run, kind) for run in result.runs]
+        for name in dict.fromkeys(name for start in starts for name in start):
+            arrays[f"{kind}/{name}"] = np.array([start.get(name, np.nan) for start in starts])
     np.savez(file, **arrays)  # type: ignore[arg-type]  # its stub takes the first name for allow_pickle

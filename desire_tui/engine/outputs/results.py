@@ -79,6 +79,12 @@ class RunData:
     order: int
     """Of the last step under a rule 9 … 16; otherwise 0."""
     seconds: float
+    parameters: dict[str, float] = field(default_factory=dict)
+    """What the segment reads and does not change, as it was when the run began."""
+    initial: dict[str, float] = field(default_factory=dict)
+    """Values of the states then; here as there, elements of small arrays too."""
+    continues: bool = False
+    """Whether the states were where the run before had left them."""
 
     def __getitem__(self, name: str) -> Floats:
         """Return the samples of a variable, or of `t`; KeyError for one that was not requested."""
@@ -148,6 +154,9 @@ def run_data(record: RunRecord) -> RunData:
         ended=record.ended, end_time=record.end_time, steps=record.steps, rejected=record.rejected,
         derivative_calls=record.derivative_calls, jacobian_calls=record.jacobian_calls,
         dt_least=record.dt_least, dt_most=record.dt_most, order=record.order, seconds=record.seconds,
+        parameters=record.start.parameters if record.start is not None else {},
+        initial=record.start.initial if record.start is not None else {},
+        continues=record.start is not None and record.start.continues,
     )  # fmt: skip
 
 

@@ -8,13 +8,14 @@ limits change.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from threading import Lock
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.graph.axes import equalized
 from desire_tui.engine.graph.fit import WHOLE, limits
-from desire_tui.engine.graph.ticks import round_ticks, tick_labels
+from desire_tui.engine.graph.ticks import log_ticks, minor_log_ticks, minor_ticks, round_ticks, tick_labels
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 COLUMNS_LEAST, ROWS_LEAST = 20, 6
 _LABEL_GAP = 2
 _NO_TICKS: Ticks = ()
+_MINOR_COLUMNS = 6
+_MINOR = {"─": "┴", "│": "├"}
 _ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
 _plotext_lock = Lock()  # plotext has one global figure, and two threads may draw at once
 
@@ -60,27 +63,53 @@ def text_frame(
     if graph.frame.kind == "picture":
         return _frame(columns, rows, title, graph.label, _NO_TICKS, _NO_TICKS, graph.net is not None)
     left, right, bottom, top = limits(graph, window)
-    y_axis = _ticks(bottom, top, max(min((rows - 4) // 2, 7), 2))
+    axes = graph.axes
+    y_axis = _ticks(bottom, top, max(min((rows - 4) // 2, 7), 2), is_log=axes.log_y)
     inside = columns - max((len(label) for _, label in y_axis), default=0) - 2
-    x_axis = _x_ticks(left, right, inside)
-    return _frame(columns, rows, title, graph.label, x_axis, y_axis, graph.net is not None)
+    x_axis = _x_ticks(left, right, inside, is_log=axes.log_x)
+    minor = (
+        _minor(x_axis, left, right, inside // _MINOR_COLUMNS, is_log=axes.log_x),
+        _minor(y_axis, bottom, top, (rows - 4) // 2, is_log=axes.log_y),
+    )
+    return _frame(columns, rows, title, graph.label, x_axis, y_axis, graph.net is not None, minor)
 
 
-def _x_ticks(low: float, high: float, columns: int) -> Ticks:
+def equal_view(graph: Graph, columns: int, rows: int, window: Window, *, reserved: int = 0) -> Window:
+    """Return the window as it is drawn in so many cells: larger, where both axes are to have equal scales."""
+    if not graph.axes.equal or graph.frame.kind == "picture":
+        return window
+    frame = text_frame(graph, columns, rows, window, reserved=reserved)
+    ratio = frame.columns / (2 * frame.rows)  # a cell is twice as high as wide
+    return equalized(graph.axes.frame(graph.frame), window, ratio)
+
+
+def _minor(ticks: Ticks, low: float, high: float, most: int, *, is_log: bool) -> tuple[float, ...]:
+    """Return where minor ticks stand, in parts of the way from low to high."""
+    if is_log:
+        places = minor_log_ticks(low, high, most)
+    else:
+        places = minor_ticks(tuple(low + part * (high - low) for part, _ in ticks), low, high, most)
+    return tuple((place - low) / ((high - low) or 1.0) for place in places)
+
+
+def _x_ticks(low: float, high: float, columns: int, *, is_log: bool) -> Ticks:
     """Return as many ticks as have room with their labels."""
     for most in range(7, 1, -1):
-        ticks = _ticks(low, high, most)
+        ticks = _ticks(low, high, most, is_log=is_log)
         widest = max((len(label) for _, label in ticks), default=0)
         if (len(ticks) - 1) * (widest + _LABEL_GAP) <= columns - widest:
             return ticks
     return ticks
 
 
-def _ticks(low: float, high: float, most: int) -> Ticks:
+def _ticks(low: float, high: float, most: int, *, is_log: bool) -> Ticks:
     """Return ticks as parts of the way from low to high, with their labels; the limits if none is round."""
-    values = round_ticks(low, high, most) or (low, high)
+    values, labels = log_ticks(low, high, most) if is_log else ((), ())
+    if not values:
+        values = round_ticks(low, high, most) or (low, high)
+        labels = tick_labels(values)
     places = ((value - low) / ((high - low) or 1.0) for value in values)
-    return tuple(zip(places, tick_labels(values), strict=True))
+    return tuple(zip(places, labels, strict=True))
 
 
 @lru_cache(maxsize=16)
@@ -92,6 +121,7 @@ def _frame(
     x_ticks: Ticks,
     y_ticks: Ticks,
     net: bool,
+    minor: tuple[tuple[float, ...], tuple[float, ...]] = ((), ()),
 ) -> TextFrame:
     import plotext
 
@@ -120,4 +150,15 @@ def _frame(
         left = max((len(label) for _, label in y_ticks), default=0)
         return TextFrame(lines, left, 1, columns - left, rows - 2 - bool(caption), has_net=False)
     left = lines[top].index("┌") + 1
-    return TextFrame(lines, left, top + 1, lines[top].index("┐") - left, bottom - top - 1)
+    frame = TextFrame(lines, left, top + 1, lines[top].index("┐") - left, bottom - top - 1)
+    return replace(frame, lines=_with_minor(frame, *minor))
+
+
+def _with_minor(frame: TextFrame, x: tuple[float, ...], y: tuple[float, ...]) -> tuple[str, ...]:
+    """Return the frame's lines with minor ticks, which point to the inside."""
+    lines = [list(line) for line in frame.lines]
+    places = [(frame.top + frame.rows, frame.left + round(part * (frame.columns - 1))) for part in x]
+    places += [(frame.top + round((1 - part) * (frame.rows - 1)), frame.left - 1) for part in y]
+    for row, column in places:
+        lines[row][column] = _MINOR.get(lines[row][column], lines[row][column])
+    return tuple("".join(line) for line in lines)

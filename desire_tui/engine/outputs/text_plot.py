@@ -8,9 +8,10 @@ from desire_tui.engine.graph.colors import curve_rgb
 from desire_tui.engine.graph.fit import WHOLE, Extent, notice
 from desire_tui.engine.outputs.braille_canvas import NO_COLOR, Canvas
 from desire_tui.engine.outputs.incremental_drawing import Painter
-from desire_tui.engine.outputs.text_frame import text_frame
+from desire_tui.engine.outputs.text_frame import equal_view, text_frame
 
 if TYPE_CHECKING:
+    from desire_tui.engine.graph.color_keys import Key
     from desire_tui.engine.graph.model import Graph
 
 REMEDY = "display fit shows all"
@@ -22,7 +23,7 @@ def text_plot(graph: Graph, columns: int, rows: int, *, colored: bool) -> str:
     """Return a graph as `rows` lines of `columns` cells, the last for keys; ANSI colours if `colored`."""
     extent = Extent(graph)
     extent.update()
-    window = extent.view() if extent.is_fitted else WHOLE
+    window = equal_view(graph, columns, rows - 1, extent.view() if extent.is_fitted else WHOLE)
     frame = text_frame(graph, columns, rows - 1, window, fitted=extent.is_fitted)
     canvas = Canvas(frame.columns, frame.rows)
     painter = Painter(canvas, graph, window)
@@ -37,10 +38,15 @@ def text_plot(graph: Graph, columns: int, rows: int, *, colored: bool) -> str:
             lines.append(line[: frame.left] + inside + line[frame.left + frame.columns :])
         else:
             lines.append(line.rstrip())
-    keys = "   ".join(
-        _paint("■ " if colored else "", k.color, graph, colored=colored) + k.name for k in graph.keys
-    )
+    keys = "   ".join(_key(key, graph, colored=colored) for key in graph.keys)
     return "\n".join([*lines, " " * frame.left + keys]).rstrip() + "\n"
+
+
+def _key(key: Key, graph: Graph, *, colored: bool) -> str:
+    if not colored:
+        return key.name
+    squares = (_paint(key.sign, color, graph, colored=True) for color in key.colors)
+    return f"{''.join(squares)} {key.name}"
 
 
 def _paint(text: str, color: int, graph: Graph, *, colored: bool) -> str:

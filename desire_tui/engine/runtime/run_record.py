@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
+    from desire_tui.engine.runtime.start_values import StartValues
 
 EndedWord = Literal["running", "tmax", "term", "stopped", "failed"]
 
@@ -37,6 +38,8 @@ class RunRecord:
     dt: float
     error_max: float = 0.0
     """ERMAX of rules that look at it, else 0."""
+    start: StartValues | None = None
+    """Parameters and states as they were when it began."""
     rows: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 1)))
     count: int = 0
     ended: EndedWord = "running"

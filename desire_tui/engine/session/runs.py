@@ -14,6 +14,7 @@ from desire_tui.engine.runtime.gap_warnings import gap_warnings
 from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
+from desire_tui.engine.runtime.start_values import StartQuantities
 from desire_tui.engine.runtime.stash import write_stash
 from desire_tui.engine.session.checkpoint import NUMBERS_MOST, Checkpoint
 
@@ -21,11 +22,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.pause_and_stop import Control
+    from desire_tui.engine.runtime.start_values import StartValues
     from desire_tui.engine.session.listener import Listener
     from desire_tui.engine.session.type_output import TypeOutput
     from desire_tui.engine.session.workspace import Workspace
@@ -55,6 +60,8 @@ class Runs:
         """Runs made since then."""
         self._bytes = 0  # of all samples kept but the newest run's
         self._scale_of: tuple[Program | None, bool] = (None, False)
+        self._starts: tuple[Segment, StartQuantities] | None = None  # of the segment that ran last
+        self._left: tuple[NDArray[np.intp], NDArray[np.float64]] | None = None  # its states and their end
         self.start: Checkpoint | None = None
         """Where the last run began, unless the model is large."""
         self._gaps: set[Span | None] = set()  # places of the variables that have been warned of since then
@@ -69,9 +76,12 @@ class Runs:
         rule: int,
         *,
         star: bool,
+        ahead: int | None,
         on_start: Callable[[RunRecord], TypeOutput],
     ) -> None:
         """Make one run of a segment, to its end; `star`: its stash is not written.
+
+        `ahead`: so many runs of the script follow, if that is known.
 
         `on_start` is called once the model is compiled; it returns what lists the run's `type` lines.
         """
@@ -107,12 +117,13 @@ class Runs:
             number=self.count, segment=label, line=workspace.line_of(placed), requests=segment.requests,
             columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule,
             scale=plan.scale, t0=plan.t0, t_max=plan.span, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
-            compile_seconds=perf_counter() - began,
+            start=self._start_values(segment, start), compile_seconds=perf_counter() - began,
         )  # fmt: skip
         self._keep(record)
         graph = self._graphs.begin_run(
             record, segment.pictures,
             program=program.source.file_name, has_scale=plan.scale != 1.0 or self._sets_scale(program),
+            ahead=ahead,
         )  # fmt: skip
         type_output = on_start(record)
         self._listener.run_started(record)
@@ -129,6 +140,9 @@ class Runs:
             record.message = internal_error("the run went on", error).message
             raise
         finally:
+            if self._starts is not None:
+                states = self._starts[1].states
+                self._left = states, self._values.data[states]
             self._warn_of_gaps(segment, record)
             workspace.notebook.run_ended(record, workspace.overrides)
             self._listener.run_ended(record)
@@ -149,6 +163,15 @@ class Runs:
             self._gaps.add(noise.span)
             problem = at_statement("noise-in-step", {}, segment, noise)
             self._listener.problems((replace(problem, severity="warning"),))
+
+    def _start_values(self, segment: Segment, start: Checkpoint | None) -> StartValues:
+        if self._starts is None or self._starts[0] is not segment:
+            if self._starts is not None:
+                self._starts[1].settle()
+            self._starts = segment, StartQuantities(segment, self._values)
+        continues = self._left is not None and bool((self._values.data[self._left[0]] == self._left[1]).all())
+        saved = start.saved if start is not None else None
+        return self._starts[1].start(self._values, saved, continues=continues)
 
     def _warn_of_gaps(self, segment: Segment, record: RunRecord) -> None:
         """Name variables that have become inf or nan without ending the run, each place once in a program."""
@@ -205,7 +228,9 @@ class Runs:
         self._gaps.clear()
         self._graphs.limit_memory()
         self._not_stashed = False
-        self.start = self.run_of = None
+        if self._starts is not None:
+            self._starts[1].forget()
+        self._starts = self._left = self.start = self.run_of = None
         self.count = self._bytes = 0
 
     @contextmanager

@@ -152,3 +152,5 @@ class ScriptRunner:
                 raise DesireError(*(d.within(source) for d in error.diagnostics)) from error
             except MemoryError:
                 raise DesireError(Diagnostic("memory-exhausted", source=source)) from None
+            finally:
+                self._host.end_runs()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -62,18 +63,25 @@ class ScriptHost:
 
     def drun(self, label: str | None, placed: Placed, *, star: bool) -> None:
         """Make one run of a segment, to its end."""
-        with self._activity.during(State.COMPILING):
-            self._runs.make(label, placed, self.rule, star=star, on_start=self._run_starts)
-
-    def _run_starts(self, record: RunRecord) -> TypeOutput:
-        self._activity.state = State.RUNNING
         ahead = self._interpreter.runs_ahead()
+        with self._activity.during(State.COMPILING):
+            self._runs.make(
+                label, placed, self.rule, star=star, ahead=ahead, on_start=partial(self._run_starts, ahead)
+            )
+
+    def _run_starts(self, ahead: int | None, record: RunRecord) -> TypeOutput:
+        self._activity.state = State.RUNNING
         self.runs_expected = None if ahead is None else record.number + ahead
         return TypeOutput(record, self._console.write, self._interpreter.write_to_channel)
 
     def reset(self) -> None:
         """Restore t, DT and states to the start of the last run."""
         self._runs.simulator.reset()
+
+    def end_runs(self) -> None:
+        """Tell that no runs follow for now."""
+        if (changed := self._graphs.end_runs()) is not None:
+            self._listener.graph_changed(changed)
 
     def begin_program(self) -> None:
         """Set the display back to where a program starts."""

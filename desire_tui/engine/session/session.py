@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.compiler_state import CompilerState
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.nodes.program import Placed, Program
+    from desire_tui.engine.outputs.picture_options import PictureOptions
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.listener import StoppedAt
     from desire_tui.engine.session.quantity_plots import PlotOutcome
@@ -307,7 +308,7 @@ class Session:
 
     # ------------------------------------------------------------------ results
 
-    def snapshot(self, path: Path, graph: Graph | None = None) -> Path:
+    def snapshot(self, path: Path, graph: Graph | None = None, options: PictureOptions | None = None) -> Path:
         """Write a graph (default: the newest) as PNG, SVG or PDF by the path's ending; returns the path.
 
         DesireError 34: another ending, 106: cannot be written, 471: no graph yet.
@@ -316,8 +317,9 @@ class Session:
         if graph is None:
             raise DesireError(Diagnostic("no-graph"))
         from desire_tui.engine.outputs.picture_files import write_picture
+        from desire_tui.engine.outputs.picture_options import FOR_PAPER
 
-        write_picture(graph, path)
+        write_picture(graph, path, options or FOR_PAPER)
         self._notebook.picture(path)
         return path
 

@@ -21,7 +21,7 @@ _DELTA = re.compile(r"[ \t]*(delta)(?=[ \t]+[A-Za-z])")
 _NAMED = re.compile(r"[ \t]+[A-Za-z]")
 _OF_ARRAYS = frozenset({"delta", "UPDATE"})
 """Likely names of variables: keywords only where a name follows."""
-_TITLES = frozenset({"title", "xlabel", "ylabel"})
+_TITLES = frozenset({"title", "xlabel", "ylabel", "units"})
 _QUOTED = re.compile(r"[ \t]*['\"]")
 _MOMENTS = frozenset({"event", "every"})
 _OPERAND = re.compile(r"[ \t]+(?:[A-Za-z0-9.(]|[-+](?![ \t]))|[ \t]*(?:\n|\||--|\Z)")
@@ -38,7 +38,8 @@ _ASSIGNED = re.compile(r"[ \t]*=")
 _SUBSCRIPTED = re.compile(r"[ \t]*\[")
 _BRACKETS = re.compile(r"[\[\]|\n]")
 _MODE = re.compile(
-    r"[ \t]*(?:([ABCFNQRWY]|fit(?![0-9]))(?![A-Za-z$_\[(])|([012])(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed)))"
+    r"[ \t]*(?:([ABCFNQRWY]|(?:fit|log[xy]|loglog|linear|equal)(?![0-9]))(?![A-Za-z$_\[(])"
+    r"|([012])(?=[ \t\r]*(?:\n|\||--|\Z|else|proceed)))"
 )
 _FFT_KIND = re.compile(r"[ \t]*([FIRC])(?=[ \t]*[,;])")
 _REST = re.compile(r"[ \t]*((?:'[^'\n]*'|\"[^\"\n]*\"|(?!--|—)[^|\n'\"])*)")

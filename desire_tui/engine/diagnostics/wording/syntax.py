@@ -7,7 +7,7 @@ from dataclasses import replace
 from desire_tui.engine.diagnostics.wording.entry import Wording
 
 _FOR = "write: for i = 1 to 10 step 2"
-_DISPLAY = "display takes 0, 1, 2, or a letter: A B C F N Q R W Y"
+_DISPLAY = "display takes 0, 1, 2, a letter (A B C F N Q R W Y) or fit, logx, logy, loglog, linear, equal"
 
 _SENTENCES: dict[str, Wording] = {
     # ------------------------------------------------------------------ one statement

@@ -1,0 +1,75 @@
+"""Colours of runs that share a graph: a ramp from the first to the last.
+
+How many runs there will be is often not known: the ramp is laid out for more, and anew when these have come
+and when the program is over.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.graph.colors import ramp_color
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.graph.curve import Curve
+
+SPAN_LEAST = 4
+
+
+class RunColors:
+    """What is known of the runs of a graph. `span`: for so many runs the ramp is laid out now."""
+
+    def __init__(self) -> None:
+        self.runs = self.span = 0
+        self._hues: dict[str, set[int]] = {}
+        self._runs_of: dict[str, int] = {}
+
+    def add(self, curves: Sequence[Curve]) -> None:
+        """Take note of a run's curves."""
+        self.runs += 1
+        for curve in curves:
+            self._hues.setdefault(curve.name, set()).add(curve.hue)
+            self._runs_of[curve.name] = self._runs_of.get(curve.name, 0) + 1
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether runs would have the same colours without a ramp."""
+        return self.runs > 1 and all(
+            len(hues) == 1 or self._runs_of[name] == 1 for name, hues in self._hues.items()
+        )
+
+    def widen(self, ahead: int | None) -> bool:
+        """Make room for the runs there are and those ahead, if known; returns whether the ramp changed."""
+        if not self.is_wanted:
+            return False
+        span = self.span
+        if ahead is not None:
+            span = self.runs + ahead
+        elif self.runs > span:
+            span = max(SPAN_LEAST, 2 * span)
+        changed, self.span = span != self.span, span
+        return changed
+
+    def colored(self, curves: Sequence[Curve], first: int, *, own_colors: bool) -> list[Curve]:
+        """Return curves in the colours of their runs; the first belong to run number `first` (from 0).
+
+        `own_colors`: the program says which hue a curve has.
+        """
+        if not self.is_wanted:
+            return list(curves)
+        alone = len(self._hues) == 1 and not own_colors
+        place, before, found = first - 1, None, []
+        for curve in curves:
+            if curve.record is not before:
+                place, before = place + 1, curve.record
+            found.append(self._with_color(curve, place, alone=alone))
+        return found
+
+    def _with_color(self, curve: Curve, place: int, *, alone: bool) -> Curve:
+        if self._runs_of[curve.name] == 1:
+            return replace(curve, color=curve.hue)
+        part = min(place / max(self.span - 1, 1), 1.0)
+        return replace(curve, color=ramp_color(part, None if alone else curve.hue))
