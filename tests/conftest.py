@@ -19,6 +19,15 @@ if "PYTEST_XDIST_WORKER" not in os.environ:  # parse tables and native code are 
     os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="desire-tests-cache-")
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Make the parse tables before there are processes that would all make them at the same time."""
+    if config.getoption("numprocesses", None) and "PYTEST_XDIST_WORKER" not in os.environ:
+        from desire_tui.engine.source import Source
+        from desire_tui.engine.syntax.parse import parse
+
+        parse(Source("x = 1"))
+
+
 def pytest_collection_finish() -> None:
     """Leave all imports and 7,500 tests out of garbage collections, as the desktop does with its own imports."""
     gc.collect()
