@@ -41,13 +41,13 @@ BEYOND = [
 ]
 
 
-@pytest.mark.parametrize("name", [*LIBRARY, *BEYOND[6:], "auto", "delta", "UPDATE", "SHOW"])
+@pytest.mark.parametrize("name", [*LIBRARY, *BEYOND[6:], "ERABS", "auto", "delta", "UPDATE", "SHOW"])
 def test_a_script_may_use_the_name(name) -> None:
     for form in SCRIPT:
         assert value_of_y(form.format(n=name)) == 4
 
 
-@pytest.mark.parametrize("name", [*BEYOND, "delta", "UPDATE"])
+@pytest.mark.parametrize("name", [*BEYOND, "ERABS", "delta", "UPDATE"])
 def test_a_segment_may_use_the_name(name) -> None:
     for form in SEGMENT:
         assert value_of_y(form.format(n=name)) == 4

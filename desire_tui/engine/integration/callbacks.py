@@ -99,7 +99,8 @@ class PythonCallbacks:
         system = self.system
         np.maximum(system.largest, np.abs(y), out=system.largest)
         system.problem.floor = FLOOR * float(system.largest.max(initial=0.0))
-        weights[:] = 1.0 / (system.problem.tolerance * _scale(system))
+        problem = system.problem
+        weights[:] = 1.0 / np.maximum(problem.tolerance * _scale(system) + problem.absolute, system.noise)
         return 0
 
     def _jacobian(self, t: float, y: int, fy: int, matrix: int, _user: int, *_spare: int) -> int:

@@ -35,6 +35,18 @@ FLOOR = 1e-20
 themselves would take the smallest of steps, and 1/1e-320 is no number at all."""
 
 
+NOISE_WAIT, NOISE_FAILURE = 300, 20
+"""Steps until rounding noise is looked for, a failed try counting as 20; twice as many each time that there
+is none."""
+NOISE_TRIES = 6
+"""Evaluations with states moved by -2.5 … 2.5 ulps: what the derivatives differ by is their rounding level."""
+NOISE_PART = 100.0
+"""A derivative within so many rounding levels of 0, of a state within so many of their sum, is noise."""
+NOISE_ROOM = 1000.0
+"""Errors of such a state may be so many times as large: the corrector is held to a thousandth of them."""
+ULP = 2.220446049250313e-16
+
+
 FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "derivatives": (_INT, (_ADDRESS, _ADDRESS)),
     "tangent": (_INT, (_ADDRESS, _ADDRESS)),
@@ -88,6 +100,14 @@ class SolverProblem(ctypes.Structure):
         ("largest", _ADDRESS),  # max |y| so far
         ("floor", _REAL),  # no state's largest value counts as less: FLOOR times that of all states
         ("tolerance", _REAL),  # ERMAX
+        ("absolute", _REAL),  # ERABS
+        ("noise", _ADDRESS),  # below this error a state is nothing but rounding noise (`stiff.rounding`)
+        ("moved", _ADDRESS),  # n numbers each, to find that
+        ("base", _ADDRESS),
+        ("rate", _ADDRESS),
+        ("level", _ADDRESS),
+        ("noise_seen", _INT),  # steps and failed tries when noise was looked for last …
+        ("noise_wait", _INT),  # … and how many more there must be until the next time
         ("method", _INT),  # a Matrix
         ("colours", _INT),
         ("seed_starts", _ADDRESS),

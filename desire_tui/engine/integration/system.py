@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.integration.bdf.solver import OwnSolver
-from desire_tui.engine.integration.problem import ERROR_SHARE, Matrix, SolverProblem
+from desire_tui.engine.integration.problem import ERROR_SHARE, NOISE_WAIT, Matrix, SolverProblem
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Solver
@@ -26,6 +26,7 @@ class SolverCounters(Protocol):
     """What is wanted of `runtime.run_memory.RunMemory`."""
 
     error_max: float
+    error_absolute: float
     dt_max: float
     derivative_calls: int
     jacobian_calls: int
@@ -77,8 +78,10 @@ class StiffSystem:
         self.n = n = sum(count for _, _, count in ranges)
         self.problem = problem = SolverProblem()
         self._ranges = np.array(ranges, dtype=np.int64).reshape(-1, 3)
-        self._buffers = np.zeros((4, n))
-        self.largest, self.last, own, spare = self._buffers
+        self._buffers = np.zeros((9, n))
+        self.largest, self.last, own, spare, self.noise, *probe = self._buffers
+        problem.noise = self.noise.ctypes.data
+        problem.moved, problem.base, problem.rate, problem.level = (a.ctypes.data for a in probe)
         problem.values = values
         problem.n, problem.range_count, problem.ranges = n, len(self._ranges), self._ranges.ctypes.data
         problem.states = own.ctypes.data  # not the values: CVODE works in it while callbacks write those
@@ -124,6 +127,9 @@ class StiffSystem:
         problem.watch_t = float("nan")  # nothing is nearer: the first look only notes where it was
         problem.jacobian_calls = problem.derivative_calls = 0
         problem.suspect = -1
+        problem.absolute = memory.error_absolute * ERROR_SHARE
+        problem.noise_seen, problem.noise_wait = 0, NOISE_WAIT
+        self.noise[:] = 0.0
         self.largest[:] = problem.floor = 0.0
         self.solver.limit(memory.dt_max)
 

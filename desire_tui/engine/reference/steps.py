@@ -74,7 +74,7 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
             cells[T] = here + node * dt
             model.run_stage(stage, memory)
         checked = checked_state(memory.checked, model.numbers)
-        difference, state = _difference(model, tableau, dt, start, checked)
+        difference, state = _difference(model, tableau, dt, start, checked, memory.error_one)
         if not difference > memory.error_max:
             break
         dt = 0.5 * dt
@@ -103,13 +103,12 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
 
 
 def _difference(
-    model: SteppedModel, tableau: Tableau, dt: float, start: Sequence[float], checked: int
+    model: SteppedModel, tableau: Tableau, dt: float, start: Sequence[float], checked: int, one: float
 ) -> tuple[float, int]:
     """Return the largest test difference, and the number of its state.
 
-    Relative to |x| + 1 with x at the step's start; absolute, and of one state, with CHECKN (0: that state is
-    not integrated). A state that
-    is nan has no difference: the run ends at it when the step is done.
+    Relative to |x| + `one` with x at the step's start; absolute, and of one state, with CHECKN (0: that
+    state is not integrated). A state that is nan has no difference: the run ends at it when the step is done.
     """
     assert tableau.test is not None
     denominator, multiples = whole_multiples(tableau.test)
@@ -118,7 +117,7 @@ def _difference(
         return 0.0, 0
     if checked:
         return float(np.nan_to_num(absolute[checked - 1], posinf=np.inf)), checked - 1
-    relative = np.nan_to_num(absolute / (np.abs(np.asarray(start)) + 1.0), posinf=np.inf)
+    relative = np.nan_to_num(absolute / (np.abs(np.asarray(start)) + one), posinf=np.inf)
     largest = int(np.argmax(relative))
     return float(relative[largest]), largest
 

@@ -33,6 +33,7 @@ from desire_tui.engine.passes.sparsity import sparsity_pattern
 from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.reference.model import ReferenceModel
+from desire_tui.engine.reference.rounding import watch_noise
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
@@ -190,6 +191,7 @@ class StiffReferenceModel(ReferenceModel):
                 raise failure
             done = flag == TSTOP_RETURN or t >= t_next
             t = t_next if done else t
+            flag = watch_noise(system, self.derivatives, memory, t, flag)
             problem.stuck = problem.stuck + 1 if t == problem.t else 0
             if problem.stuck > STUCK_MOST:
                 flag = STUCK_AT_EDGE_FLAG if problem.suspect >= 0 else STUCK_FLAG

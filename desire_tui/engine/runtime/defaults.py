@@ -21,6 +21,7 @@ from desire_tui.engine.values import (
     NN,
     SCALE,
     TMAX,
+    Kind,
     T,
 )  # fmt: skip
 from desire_tui.engine.whole_numbers import whole
@@ -128,6 +129,7 @@ class Defaults:
             checked=self._checked(segment.order) if step_rule else 0,
             scale=cells[SCALE],
             backward=backward,
+            error_absolute=self._absolute() if rule.controls_error else 0.0,
         )  # fmt: skip
 
     def saved(self) -> SavedDefaults:
@@ -190,6 +192,16 @@ class Defaults:
         if own is None and rule.kind == "multistep":
             self._warn("ermax-missing", "ERMAX", rule=rule.number, taken=ERMAX_DEFAULT)
         return self._or_default("ERMAX", ERMAX, ERMAX_DEFAULT, counts=rule.controls_error)
+
+    def _absolute(self) -> float:
+        """Return ERABS: no system variable, since programs may use the name; a number that they may set."""
+        found = self._values.find("ERABS")
+        if found is None or found.shape or found.is_state or found.kind is not Kind.REAL:
+            return 0.0
+        value = self._values.cells[found.slot]
+        if not self._values.is_defined(found) or not value > 0.0 or value == inf:
+            return 0.0
+        return value
 
     def _checked(self, order: int) -> int:
         value = self._own(CHECKN) or 0.0

@@ -34,11 +34,17 @@ class RunPlan:
     checked: int
     scale: float
     backward: bool = False
+    error_absolute: float = 0.0
 
     @property
     def span(self) -> float:
         """TMAX, with its sign."""
         return -self.t_max if self.backward else self.t_max
+
+    @property
+    def error_one(self) -> float:
+        """What rules 4, 7 and 8 add to |x|: error ≤ ERMAX·(|x| + 1), or ERMAX·|x| + ERABS if that is set."""
+        return self.error_absolute / self.error_max if self.error_absolute else 1.0
 
     @property
     def tolerance(self) -> float:

@@ -71,6 +71,11 @@ class RunMemory(ctypes.Structure):
         ("dt_min", ctypes.c_double),
         ("error_max", ctypes.c_double),
         ("error_min", ctypes.c_double),
+        ("error_absolute", ctypes.c_double),
+        (
+            "error_one",
+            ctypes.c_double,
+        ),  # added to |x| where rules 4, 7, 8 take a test difference relative to it
         ("dt_least", ctypes.c_double),  # smallest and largest step taken
         ("dt_most", ctypes.c_double),
         ("k", ctypes.c_int64),

@@ -139,7 +139,8 @@ class Simulator:
             values=values.address, counters=positions.counters.ctypes.data, lags=lag.ctypes.data,
             random=values.random.ctypes.data, t_start=start, t_max=plan.t_max, comint=plan.comint,
             t_base=start, dt_base=plan.dt, dt_max=plan.dt_max, dt_min=plan.dt_min, error_max=plan.error_max,
-            error_min=plan.error_min, points_before=positions.points, joined=int(joined), nn=plan.nn,
+            error_min=plan.error_min, error_absolute=plan.error_absolute, error_one=plan.error_one,
+            points_before=positions.points, joined=int(joined), nn=plan.nn,
             every=plan.every, checked=plan.checked, phase=Phase.AT_POINT,
         )  # fmt: skip
         for level in segment.levels:

@@ -104,11 +104,12 @@ class ArrayStorage:
         text.do(f"store i64 0, ptr {where}")
         checked = text.op(f"add i64 {self.memory.load('checked')}, -1")
         relative = text.op(f"icmp slt i64 {checked}, 0")
+        one_more = self.memory.load("error_one")
 
         def one(i: str) -> None:
             total = weighted(lanes, row, lambda stage: fetch(lanes, f"%k{stage}", i))
             absolute = lanes.mul(factor, lanes.intrinsic("fabs", total))
-            size = lanes.add(lanes.intrinsic("fabs", fetch(lanes, "%x0", i)), lanes.const(1.0))
+            size = lanes.add(lanes.intrinsic("fabs", fetch(lanes, "%x0", i)), one_more)
             mine = text.op(f"icmp eq i64 {checked}, {i}")
             own = lanes.choose(mine, absolute, lanes.const(0.0))
             value = lanes.choose(relative, lanes.div(absolute, size), own)

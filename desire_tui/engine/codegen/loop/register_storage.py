@@ -106,11 +106,12 @@ class RegisterStorage:
         factor = scaled(lanes, row, dt)
         checked = self.memory.load("checked")
         relative = text.op(f"icmp eq i64 {checked}, 0")
+        one_more = self.memory.load("error_one")
         most, where = lanes.const(0.0), "0"
         for number in range(len(self.states)):
             total = weighted(lanes, row, lambda stage, n=number: self._k(stage, n))  # type: ignore[misc]  # n=: bound now
             absolute = lanes.mul(factor, lanes.intrinsic("fabs", total))
-            size = lanes.add(lanes.intrinsic("fabs", self._x0(number)), lanes.const(1.0))
+            size = lanes.add(lanes.intrinsic("fabs", self._x0(number)), one_more)
             mine = text.op(f"icmp eq i64 {checked}, {number + 1}")
             own = lanes.choose(mine, absolute, lanes.const(0.0))
             value = lanes.choose(relative, lanes.div(absolute, size), own)

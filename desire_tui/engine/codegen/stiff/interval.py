@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.plain_python.library import copy
 from desire_tui.engine.codegen.stiff.cvode_steps import begin, failures, last_size, take_step
 from desire_tui.engine.codegen.stiff.model_calls import gather, scatter
+from desire_tui.engine.codegen.stiff.rounding import watch_noise
 from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
     CHATTER_PART,
@@ -49,6 +50,7 @@ def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
         done = flag == TSTOP_RETURN or t >= t_next
         if done:
             t = t_next
+        flag = watch_noise(problem, memory, t, flag)
         flag = watch_progress(problem, t, flag)
         flag = watch_chatter(problem, memory, t, flag)
         values[T] = t

@@ -81,7 +81,7 @@ def has_finite_sum(numbers: Reals, n: int) -> int:
 
 
 def weigh(problem: SolverProblem, y: Reals, weights: Reals) -> Int32:
-    """1 / (ERMAX·max |y| so far), the maximum taken as 1 while it is 0 (language.md 11)."""
+    """1 / (ERMAX·max |y| so far + ERABS), the maximum taken as 1 while it is 0 (language.md 11)."""
     largest: Reals = problem.largest
     tolerance: float = problem.tolerance
     n = problem.n
@@ -91,8 +91,10 @@ def weigh(problem: SolverProblem, y: Reals, weights: Reals) -> Int32:
         largest[i] = size
         most = max(most, size)
     problem.floor = most * FLOOR
+    noise: Reals = problem.noise
+    absolute: float = problem.absolute
     for i in range(n):
-        weights[i] = 1.0 / (tolerance * scale(problem, i))
+        weights[i] = 1.0 / max(tolerance * scale(problem, i) + absolute, noise[i])
     return 0
 
 

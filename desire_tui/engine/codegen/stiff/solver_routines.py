@@ -22,6 +22,7 @@ from desire_tui.engine.codegen.stiff import (
     jacobian_fill,
     model_calls,
     own_steps,
+    rounding,
 )
 from desire_tui.engine.integration import problem
 from desire_tui.engine.integration.bdf import choice, coefficients, memory, newton, start, step
@@ -44,7 +45,7 @@ _CALLED = (
     "CVode", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
 )  # fmt: skip
-_MODEL = (model_calls, jacobian_fill, interval)
+_MODEL = (model_calls, jacobian_fill, rounding, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
 _CONSTANTS = (memory, problem, run_memory, signatures)
