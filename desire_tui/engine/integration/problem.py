@@ -39,7 +39,7 @@ NOISE_WAIT, NOISE_FAILURE = 300, 20
 """Steps until rounding noise is looked for, a failed try counting as 20; twice as many each time that there
 is none."""
 NOISE_TRIES = 6
-"""Evaluations with states moved by -2.5 … 2.5 ulps: what the derivatives differ by is their rounding level."""
+"""Evaluations with states up to 2.5 ulps away: what the derivatives differ by is their rounding level."""
 NOISE_PART = 100.0
 """A derivative within so many rounding levels of 0, of a state within so many of their sum, is noise."""
 NOISE_ROOM = 1000.0
