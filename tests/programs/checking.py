@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -59,6 +60,10 @@ class ColumnFamily:
         raise KeyError(wanted)
 
 
+_OF_A_RUN = re.compile(r"\b(?:at|peak)\(")
+"""Words that look at samples: without `run n:` at those of the last run."""
+
+
 class Names(dict[str, object]):
     """What an expectation's names mean: columns of its run first, then final quantities, then words of our own."""
 
@@ -99,6 +104,8 @@ def _check(expected: Check, outcome: Outcome) -> str | None:
     run = None
     if expected.run is not None:
         run = outcome.runs[expected.run - 1 if expected.run > 0 else expected.run]
+    elif _OF_A_RUN.search(expected.left) and outcome.runs:
+        run = outcome.runs[-1]
     names = Names(outcome, run)
     left, right = _value(expected.left, names), _value(expected.right, names)
     if expected.op == "<":

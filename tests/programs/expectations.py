@@ -2,6 +2,7 @@
 
     --? x = 1.193253129                    final value of a quantity
     --? run 2: max(X) + scale = 1.5887     samples of a run; X and t are arrays (0-based), nth, at, last … below;
+                                           (`at` and `peak` without it: of the last run);
                                            steps, rejected, calls, jacobians count, least and most are steps
     --? x = 1.19 +- 1e-6                   absolute tolerance; `+- 1e-6 rel` relative; `<` and `>` need none
     --? with ERMAX = 1e-8 | NN = 11: …     the same, checked on another run with these values overridden

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.integration.rules import RULES
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.lowered.segment import DelayedValue
 from desire_tui.engine.values import T
@@ -21,10 +20,7 @@ def delayed(context: LoweringContext, node: Call, extent: Extent) -> Value:
     if extent:
         return context.report("delay-of-array", node)
     source, tau, *before = [context.lower(argument) for argument in node.args]
-    rule = context.rule
-    if rule is not None and rule in RULES and RULES[rule].kind == "multistep":
-        return context.report("delay-under-rule", node, rule=rule)
-    if rule == 0:
+    if context.rule == 0:
         return context.report("delay-without-states", node)
     number = len(context.delays)
     context.delays.append(DelayedValue(source, tau, context.where(node)))

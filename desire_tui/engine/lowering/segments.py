@@ -118,9 +118,6 @@ def lower_segment(
         breakpoints=_filled_by_script(context.breakpoints, body), events=tuple(builder.events),
         delays=tuple(context.delays),
     )  # fmt: skip
-    if rule in RULES and segment.states and RULES[rule].kind == "multistep":
-        for event in segment.events:
-            context.add(Diagnostic("event-under-rule", event.where.span, {"rule": rule}, source))
     return _with_noise(context, segment), context.problems
 
 

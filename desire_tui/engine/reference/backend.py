@@ -34,6 +34,10 @@ class ReferenceBackend:
                 tableau = TABLEAUS.get(rule) if segment.order else None
                 return MomentReferenceModel(segment, tableau, values, numbers, vital)
             return ReferenceModel(segment, TABLEAUS.get(rule), values, numbers, vital)
+        if segment.events or segment.delays:
+            from desire_tui.engine.reference.stiff_moments import StiffMomentModel
+
+            return StiffMomentModel(segment, rule, values)
         from desire_tui.engine.reference.stiff import StiffReferenceModel
 
         return StiffReferenceModel(segment, rule, values)

@@ -27,6 +27,28 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 
+def connect(stepper: Stepper, segment: Segment, closures: StatementClosures, derivative: Run) -> None:
+    """Give a model's `Moments` its functions; `derivative` is the pass, as `closures` has compiled it."""
+    found, moments = closures.derivatives, stepper.moments
+    closures.histories.append(moments)
+    size = 8 * len(found)
+
+    def function(run: Run, *, writes: bool = False) -> Any:
+        def compute(_memory: int, k: int) -> int:
+            run()
+            if writes:
+                ctypes.memmove(k, found.ctypes.data, size)
+            return 0
+
+        return Compute(compute)
+
+    compile_ = closures.compile
+    moments.derivative = function(derivative, writes=True)
+    moments.conditions = function(compile_(conditions_pass(segment, moments.now)))
+    moments.blocks = function(compile_(blocks_pass(segment, moments.due)))
+    moments.sources = function(compile_(sources_pass(segment, moments.source)))
+
+
 class MomentReferenceModel(ReferenceModel):
     """A segment with events under a rule 0 … 8."""
 
@@ -42,23 +64,7 @@ class MomentReferenceModel(ReferenceModel):
         self._stepper = stepper = Stepper(segment, tableau, values)
         self.statements.histories.append(stepper.moments)
         self._others = others = StatementClosures(values, segment.order)
-        moments = stepper.moments
-        others.histories.append(moments)
-        moments.conditions = self._function(others.compile(conditions_pass(segment, moments.now)))
-        moments.blocks = self._function(others.compile(blocks_pass(segment, moments.due)))
-        moments.sources = self._function(others.compile(sources_pass(segment, moments.source)))
-        moments.derivative = self._function(others.compile(derivative_slice(segment)), writes=True)
-
-    def _function(self, run: Run, *, writes: bool = False) -> Any:
-        found, size = self._others.derivatives, 8 * len(self._others.derivatives)
-
-        def compute(_memory: int, k: int) -> int:
-            run()
-            if writes:
-                ctypes.memmove(k, found.ctypes.data, size)
-            return 0
-
-        return Compute(compute)
+        connect(stepper, segment, others, others.compile(derivative_slice(segment)))
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on; see `ReferenceModel`."""

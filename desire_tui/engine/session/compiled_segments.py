@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.runtime.stash import read_stash, with_recovery
 
@@ -109,6 +110,10 @@ class CompiledSegments:
 
     def model(self, segment: Segment, rule: int) -> Model:
         """Return a segment made ready for a rule; the back end keeps it."""
+        if (segment.events or segment.delays) and rule_numbered(rule).kind == "multistep" and segment.order:
+            from desire_tui.engine.reference.backend import ReferenceBackend
+
+            return ReferenceBackend().model(segment, rule, self._values)  # native code has no such loop
         return self.backend.model(segment, rule, self._values)
 
     def recovering(self, segment: Segment, stash: Path) -> Segment:

@@ -201,11 +201,9 @@ MESSAGES: dict[str, Wording] = {
     "white-without-states": Wording(
         488, "white() needs a differential equation: its size depends on DT", "use gauss() between points"
     ),
-    "event-under-rule": Wording(485, "events cannot be carried out under rule {rule}", "use irule 3, 4 or 8"),
     "delay-of-array": Wording(
         75, "delay(x, tau) is a number, not an array", "assign it to a variable in a line of its own"
     ),
-    "delay-under-rule": Wording(484, "delay(x, tau) cannot be used under rule {rule}", "use irule 3, 4 or 8"),
     "delay-without-states": Wording(
         484, "delay(x, tau) needs a differential equation", "use the statement delay y = D(x, tau)"
     ),

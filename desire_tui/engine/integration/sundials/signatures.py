@@ -44,6 +44,7 @@ CVODE: Signatures = {
     "CVodeSetNonlinConvCoef": (_I, (_P, _D)),
     "CVodeSetStopTime": (_I, (_P, _D)),
     "CVode": (_I, (_P, _D, _P, _P, _I)),
+    "CVodeGetDky": (_I, (_P, _D, _I, _P)),
     "CVodeGetLastStep": (_I, (_P, _P)),
     "CVodeGetCurrentStep": (_I, (_P, _P)),
     "CVodeGetEstLocalErrors": (_I, (_P, _P)),

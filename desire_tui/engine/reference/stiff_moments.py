@@ -1,0 +1,194 @@
+"""Segments with events or delays under rules 9 … 16: steps located by the solver's interpolant."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.integration.bdf.memory import Bdf
+from desire_tui.engine.integration.bdf.solver import OwnSolver
+from desire_tui.engine.integration.problem import STUCK_AT_EDGE_FLAG, STUCK_FLAG, STUCK_MOST
+from desire_tui.engine.integration.sundials.library import libraries
+from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
+from desire_tui.engine.integration.tableaus import EULER
+from desire_tui.engine.reference.moments import connect
+from desire_tui.engine.reference.stiff import StiffReferenceModel
+from desire_tui.engine.runtime.moments.blocks import any_rises, arrive, begin, next_time
+from desire_tui.engine.runtime.moments.histories import record
+from desire_tui.engine.runtime.moments.setup import Stepper
+from desire_tui.engine.runtime.moments.steps import SPLITS_MOST
+from desire_tui.engine.runtime.run_memory import Ended, Phase
+from desire_tui.engine.values import DT, T
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.integration.sundials.solver import Solver
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.runtime.run_memory import RunMemory
+    from desire_tui.engine.values import Values
+
+    Array = NDArray[np.float64]
+
+_PLACES = 4
+"""A step is looked at in so many places, its end included; histories have as many knots in it."""
+_SAME = 1e-10
+"""Part of COMINT by which two moments are the same."""
+
+
+class StiffMomentModel(StiffReferenceModel):
+    """A segment with events or delays under a multistep rule."""
+
+    def __init__(self, segment: Segment, rule: int, values: Values) -> None:
+        super().__init__(segment, rule, values)
+        self._stepper = stepper = Stepper(self._segment, EULER, values)
+        self.statements.histories.append(stepper.moments)
+        connect(stepper, self._segment, self._others, self._stage)
+
+    def advance(self, memory: RunMemory) -> Ended:
+        """Run on; see `ReferenceModel`."""
+        if not memory.begun:
+            memory.begun = 1
+            self._others.memory = memory
+            self._stepper.prepare(memory, memory.times, memory.taus)
+            if begin(self._stepper.moments) > 1:
+                return self._too_fast(memory)
+        return super().advance(memory)
+
+    def _step(self, memory: RunMemory) -> Ended | None:
+        """Go to the next communication point, or to where a block or code at steps' starts has run."""
+        memory.phase = Phase.IN_STEP
+        m, cells = self._stepper.moments, self.cells
+        t_next = memory.t_start + memory.point * memory.comint
+        m.near = slack = _SAME * memory.comint
+        while True:
+            if m.delay_count and m.knots == 1:
+                self._remember(cells[T], self._states())
+            t0 = cells[T]
+            ended = self._solver_step(memory, t_next, slack)
+            if ended is not None:
+                return ended
+            located = self._locate(t0)
+            self._remember_step(t0)
+            came = arrive(m, slack)
+            if came > 1:
+                return self._too_fast(memory)
+            if came or located:
+                self.system.last[0] = np.nan  # whatever has changed, the solver begins anew
+                if m.delay_count:
+                    self._remember(cells[T], self._states())
+            if cells[T] >= t_next - slack:
+                memory.phase = Phase.AT_POINT
+                return None
+            if self._acts or memory.stop:
+                return None
+
+    def _solver_step(self, memory: RunMemory, t_next: float, slack: float) -> Ended | None:
+        """Take a step, to the next moment of a clock at most."""
+        system, cells, m = self.system, self.cells, self._stepper.moments
+        problem, solver = system.problem, system.solver
+        self._follow()
+        stop, soon, t0 = t_next, next_time(m), cells[T]
+        if soon < t_next - slack:
+            stop = max(soon, t0)
+        if m.tau_least > 0.0:
+            stop = min(stop, t0 + m.tau_least)
+        if stop - t0 <= slack:
+            cells[T] = problem.t = stop
+            system.last[0] = np.nan
+            return None
+        problem.suspect = problem.suspect if problem.stuck else -1
+        m.is_inside = 1
+        flag, t = solver.step(stop)
+        m.is_inside = 0
+        if self._callbacks.failure is not None:
+            failure, self._callbacks.failure = self._callbacks.failure, None
+            raise failure
+        t = stop if flag == TSTOP_RETURN or t >= stop else t
+        problem.stuck = problem.stuck + 1 if t == problem.t else 0
+        if problem.stuck > STUCK_MOST:
+            flag = STUCK_AT_EDGE_FLAG if problem.suspect >= 0 else STUCK_FLAG
+        y = self._solution()
+        self._place(t, y)
+        system.last[:] = y
+        problem.t = t
+        if flag < 0:
+            memory.which, memory.phase = flag, Phase.ENDED
+            return Ended.SOLVER
+        cells[DT] = solver.last_step
+        memory.dt_least = cells[DT] if memory.steps == 0 else min(memory.dt_least, cells[DT])
+        memory.dt_most = max(memory.dt_most, cells[DT])
+        memory.steps += 1
+        return None
+
+    def _locate(self, t0: float) -> bool:
+        """Put t and the states to behind the first event of the step, if there is one in it."""
+        m, t1 = self._stepper.moments, self.cells[T]
+        if not m.condition_count or t1 <= t0:
+            return False
+        left, right = t0, t1
+        for k in range(1, _PLACES + 1):
+            right = t1 if k == _PLACES else t0 + (t1 - t0) * k / _PLACES
+            self._place(right, self._between(right))
+            if any_rises(m):
+                break
+            left = right
+        else:
+            return False
+        while left < (middle := left + 0.5 * (right - left)) < right:
+            self._place(middle, self._between(middle))
+            if any_rises(m):
+                right = middle
+            else:
+                left = middle
+        self._place(right, self._between(right))
+        any_rises(m)
+        return True
+
+    def _between(self, t: float) -> Array:
+        """Return the states at a time in the last step."""
+        if t == self.system.problem.t:
+            return np.array(self.system.last)
+        return interpolated(self.system.solver, t, self.order)
+
+    def _remember_step(self, t0: float) -> None:
+        m, t1 = self._stepper.moments, self.cells[T]
+        if not m.delay_count or t1 <= t0:
+            return
+        if m.knots + SPLITS_MOST > m.room:
+            self._stepper.grow()
+        for k in range(1, _PLACES + 1):
+            t = t1 if k == _PLACES else t0 + (t1 - t0) * k / _PLACES
+            self._remember(t, self._between(t))
+
+    def _remember(self, t: float, y: Array) -> None:
+        """Record a knot of the histories, with the states' derivatives there."""
+        m = self._stepper.moments
+        self._place(t, y)
+        m.derivative(m.memory, m.k_at[0])
+        record(m)
+
+    def _too_fast(self, memory: RunMemory) -> Ended:
+        memory.which, memory.phase = self._stepper.moments.last_fired, Phase.ENDED
+        return Ended.ZENO
+
+
+def interpolated(solver: Solver | OwnSolver, t: float, n: int) -> Array:
+    """Return the solution at a time inside the last step."""
+    out = np.zeros(n)
+    if isinstance(solver, OwnSolver):
+        bdf = Bdf.from_address(solver.memory)
+        z = np.ctypeslib.as_array(bdf.z, ((bdf.order + 1) * n,)).reshape(bdf.order + 1, n)
+        part = (t - bdf.t) / bdf.h
+        for row in z[::-1]:
+            out = out * part + row
+        return out
+    cvode = libraries().cvode
+    context = ctypes.cast(solver.vector, ctypes.POINTER(ctypes.c_void_p))[2]  # {content, ops, sunctx}
+    vector = cvode.N_VMake_Serial(n, out.ctypes.data, context)
+    flag = cvode.CVodeGetDky(solver.memory, t, 0, vector)
+    cvode.N_VDestroy_Serial(vector)
+    assert flag == 0, flag
+    return out
