@@ -35,7 +35,7 @@ RUNS = (
     # delays
     _runtime("yield from _lines(action.body, before.copy())", "yield from _lines(action.body, before)", *program("dynamic/delay_time_under_if")),
     _runtime("whole(records, 0, line.count)", "whole(records, 0, line.count - 1)", *program("dynamic/delay_of_a_whole_buffer")),
-    _runtime("plan.comint) + ROUNDING", "plan.comint)", *program("dynamic/delay_time_under_if")),
+    _runtime("tau / interval + ROUNDING", "tau / interval", *program("dynamic/delay_time_under_if")),
     # runs and what connects them
     _runtime("record.pictures[::2]", "record.pictures[1::2]", "tests/runtime/test_pictures.py"),
     _runtime("positions.points -= 1", "pass", *program("dynamic/last_of_thinned")),

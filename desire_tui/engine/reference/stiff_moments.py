@@ -18,7 +18,7 @@ from desire_tui.engine.reference.stiff import StiffReferenceModel
 from desire_tui.engine.runtime.moments.blocks import any_rises, arrive, begin, next_time
 from desire_tui.engine.runtime.moments.histories import record
 from desire_tui.engine.runtime.moments.setup import Stepper
-from desire_tui.engine.runtime.moments.steps import SPLITS_MOST
+from desire_tui.engine.runtime.moments.steps import SPLITS_MOST, note_extremes
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
@@ -118,8 +118,7 @@ class StiffMomentModel(StiffReferenceModel):
             memory.which, memory.phase = flag, Phase.ENDED
             return Ended.SOLVER
         cells[DT] = solver.last_step
-        memory.dt_least = cells[DT] if memory.steps == 0 else min(memory.dt_least, cells[DT])
-        memory.dt_most = max(memory.dt_most, cells[DT])
+        note_extremes(memory, cells[DT])
         memory.steps += 1
         return None
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import weakref
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -23,6 +23,7 @@ from desire_tui.engine.lowered.statements import (
 from desire_tui.engine.lowered.walk import simple_actions
 from desire_tui.engine.runtime.before_run import evaluate, needed
 from desire_tui.engine.runtime.plan import ROUNDING
+from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.values import DT
 from desire_tui.engine.whole_numbers import whole
 
@@ -33,6 +34,10 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.values import Values
+
+
+_LEAST_CUT = 1e-6
+"""Part of a record by which a time must be too long for a warning."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +52,8 @@ class Delays:
     """The delay lines of segments, looked for once; forgotten with their segment."""
 
     def __init__(self) -> None:
+        self.cut: list[Diagnostic] = []
+        """Warnings about the last run's delays."""
         self._found: dict[int, tuple[weakref.ref[Segment], tuple[TimedDelay, ...], bool]] = {}
 
     def lags(self, segment: Segment, plan: RunPlan, values: Values) -> dict[int, int]:
@@ -58,7 +65,8 @@ class Delays:
             gone = weakref.ref(segment, lambda _: found.pop(number, None))
             known = found[number] = (gone, tuple(_lines(segment.body, [])), changes_dt)
         _, lines, changes_dt = known
-        return _lags(segment, lines, changes_dt, plan, values) if lines else {}
+        self.cut = []
+        return _lags(segment, lines, changes_dt, plan, values, self.cut) if lines else {}
 
 
 def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[TimedDelay]:
@@ -82,7 +90,12 @@ def _lines(body: tuple[Action, ...], before: list[Set]) -> Iterator[TimedDelay]:
 
 
 def _lags(
-    segment: Segment, lines: tuple[TimedDelay, ...], changes_dt: bool, plan: RunPlan, values: Values
+    segment: Segment,
+    lines: tuple[TimedDelay, ...],
+    changes_dt: bool,
+    plan: RunPlan,
+    values: Values,
+    cut: list[Diagnostic],
 ) -> dict[int, int]:
     found: dict[int, int] = {}
     for known in lines:
@@ -93,13 +106,21 @@ def _lags(
         tau = evaluate(line.tau, known.before, values)
         if not (math.isfinite(tau) and tau >= 0.0):
             raise _error("delay-negative", segment, line, tau=tau)
-        records = tau / (plan.dt if per_step else plan.comint) + ROUNDING
+        interval = plan.dt if per_step else plan.comint
+        records = tau / interval + ROUNDING
         lag = whole(records, 0, line.count)
         if lag is None:
             name, needed = segment.names.get(line.buffer_slot, "buffer"), f"{records // 1:.15g}"
             raise _error(
                 "delay-too-long", segment, line, tau=tau, needed=needed, buffer=name, count=line.count
             )
+        if records - lag > _LEAST_CUT:
+            facts: dict[str, object] = {
+                "tau": tau, "kept": lag * interval, "word": "tdelay" if line.per_step else "delay",
+                "interval": interval, "what": "steps" if per_step else "communication intervals",
+            }  # fmt: skip
+            problem = at_statement("delay-cut", facts, segment, line.where)
+            cut.append(replace(problem, severity="warning"))
         found[line.counter] = lag
     return found
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.runtime.moments.setup import Stepper
     from desire_tui.engine.values import Values
 
 
@@ -24,6 +25,8 @@ class Positions:
     """
 
     counters: NDArray[np.int64]
+    stepper: Stepper | None = None
+    """What holds the histories of `delay(x, tau)`."""
     points: int = 0
     end: float = float("nan")
     runs: int = 0

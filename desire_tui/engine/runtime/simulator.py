@@ -75,6 +75,10 @@ class Simulator:
         self.history.reset()
         self.defaults.follow()
 
+    def cut_delays(self) -> list[Diagnostic]:
+        """Return warnings about the last run's delays that are cut to whole steps."""
+        return self._delays.cut
+
     def pace(self, steps: int, record: RunRecord | None) -> float:
         """Return steps per second, without pauses: of the present run, or of `record`. From any thread."""
         began = self._began
@@ -96,7 +100,7 @@ class Simulator:
         positions = self.history.begin(segment)
         memory = self._set_up(segment, plan, positions, lag)
         memory.rows = record.rows.ctypes.data
-        memory.times, memory.taus = times, taus
+        memory.times, memory.taus, memory.past = times, taus, positions
         self.memory = memory
         self._turn_time(plan)
         self._control.attach(memory)

@@ -19,7 +19,7 @@ from desire_tui.engine.runtime.stash import write_stash
 from desire_tui.engine.session.checkpoint import NUMBERS_MOST, Checkpoint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
     from pathlib import Path
 
     import numpy as np
@@ -143,7 +143,8 @@ class Runs:
             if self._starts is not None:
                 states = self._starts[1].states
                 self._left = states, self._values.data[states]
-            self._warn_of_gaps(segment, record)
+            self._warn_once(gap_warnings(segment, record))
+            self._warn_once(self.simulator.cut_delays())
             workspace.notebook.run_ended(record, workspace.overrides)
             self._listener.run_ended(record)
         problems = workspace.segments.backend.problems()
@@ -173,9 +174,9 @@ class Runs:
         saved = start.saved if start is not None else None
         return self._starts[1].start(self._values, saved, continues=continues)
 
-    def _warn_of_gaps(self, segment: Segment, record: RunRecord) -> None:
-        """Name variables that have become inf or nan without ending the run, each place once in a program."""
-        new = [problem for problem in gap_warnings(segment, record) if problem.span not in self._gaps]
+    def _warn_once(self, problems: Iterable[Diagnostic]) -> None:
+        """Show what a run has to say about its lines, about each line once in a program."""
+        new = [problem for problem in problems if problem.span not in self._gaps]
         self._gaps.update(problem.span for problem in new)
         if new:
             self._listener.problems(new)

@@ -164,6 +164,13 @@ MESSAGES: dict[str, Wording] = {
         "A delay buffer keeps one value for each step (tdelay) or communication point (delay) of the delay.",
     ),
     "delay-negative": Wording(105, "the delay {tau:g} is no time to wait", "a delay must be 0 or more"),
+    "delay-cut": Wording(
+        482,
+        "the delay {tau:g} is cut to {kept:g}: `{word}` delays by whole {what} of {interval:g}",
+        "make it a multiple, or use the function delay(x, tau)",
+        "A warning, given once for each line.",
+        warning=True,
+    ),
     "delay-variable-step": Wording(
         122,
         "tdelay needs a constant DT, but rule {rule} changes it",

@@ -32,7 +32,7 @@ def begin(m: Moments) -> int:
         value: float = m.values[m.now + i]
         m.values[m.due + i] = 0.0
         m.before[i] = value
-        m.armed[i] = value <= 0.0
+        m.armed[i] = value < 0.0 or (value == 0.0 and m.goes_on == 0)
     if due(m, 0.0) != 0 and carry_out(m) > 1:
         return 2
     begin_histories(m)

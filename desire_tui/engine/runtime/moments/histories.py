@@ -15,14 +15,17 @@ _POINTS = 4
 
 
 def begin_histories(m: Moments) -> None:
-    """Begin with the values at the run's start."""
-    m.knots = 0
-    m.jump_count = 0
+    """Begin with the values at the run's start, or go on from those of the run before."""
     m.is_inside = 0
     m.near = 0.0
     for j in range(m.delay_count):
-        m.jump_at[j] = 0
         m.found[j] = 0
+    if m.has_past != 0:
+        return
+    m.knots = 0
+    m.jump_count = 0
+    for j in range(m.delay_count):
+        m.jump_at[j] = 0
     for i in range(m.n):
         m.k[i] = 0.0
     record(m)

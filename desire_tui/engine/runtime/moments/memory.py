@@ -32,6 +32,7 @@ class Moments(ctypes.Structure):
         ("now", _INT), ("due", _INT),  # first slots
         ("before", _REALS), ("at_left", _REALS), ("at_right", _REALS), ("fired", _REALS),
         ("armed", _INTS),
+        ("goes_on", _INT),  # 1: the run continues one, in which what stands at 0 has had its turn
         ("period", _REALS), ("start", _REALS), ("ticks", _REALS), ("next", _REALS),
         # very many events in a very short time
         ("firings", _INT), ("firings_since", _REAL), ("span", _REAL), ("last_fired", _INT),
@@ -51,6 +52,7 @@ class Moments(ctypes.Structure):
         ("state_of", _INTS),  # the state that a value is, or -1
         ("tau", _REALS),  # 0: it varies
         ("tau_least", _REAL),
+        ("has_past", _INT),  # 1: histories are those of the run before
         ("room", _INT), ("knots", _INT),
         ("times", _REALS), ("history", _REALS), ("slopes", _REALS),
         ("spare", _REALS),  # four numbers

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from math import ceil
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -26,6 +26,12 @@ _ROOM = 4096
 _JUMPS = 4096
 _SAME = 1e-9
 """Part of a period by which a run's start is one of its times."""
+
+
+class Past(Protocol):
+    """What runs that continue one another hand on."""
+
+    stepper: Stepper | None
 
 
 class Stepper:
@@ -75,6 +81,29 @@ class Stepper:
         self._remembered: list[np.ndarray[Any, np.dtype[np.float64]]] = []
         self._make_room(_ROOM)
 
+    def _take_past(self, past: Past | None, t: float) -> None:
+        """Go on with the histories of the run before up to t, if there are such; else begin anew."""
+        m = self.moments
+        old = None if past is None else past.stepper
+        m.has_past = int(old is not None and old.moments.delay_count == m.delay_count)
+        if old is None or not m.has_past:
+            self._remembered, m.knots = [], 0
+            self._make_room(_ROOM)
+        elif old is not self:
+            self._remembered, m.knots = old._remembered, old.moments.knots  # noqa: SLF001 - another of this class
+            self._make_room(old.moments.room)
+            m.jump_count = old.moments.jump_count
+            for name, count in (("jumps", _JUMPS), ("smoothness", _JUMPS), ("jump_at", m.delay_count)):
+                here, there = getattr(m, name), getattr(old.moments, name)
+                ctypes.memmove(here, there, 8 * count)
+
+        if m.has_past:  # a run that is made once more finds what came later
+            m.knots = int(np.searchsorted(self._remembered[0][: m.knots], t, side="right"))
+            jumps = np.ctypeslib.as_array(m.jumps, (_JUMPS,))[: m.jump_count]
+            m.jump_count = int(np.searchsorted(jumps, t, side="right"))
+            for j in range(m.delay_count):
+                m.jump_at[j] = min(m.jump_at[j], m.jump_count)
+
     def _make_room(self, room: int) -> None:
         m, count, knots = self.moments, self.moments.delay_count, self.moments.knots
         times, history, slopes = np.empty(room), np.empty((count, room)), np.empty((count, room))
@@ -118,7 +147,9 @@ class Stepper:
         if taus:
             self._tau[:] = taus
             m.tau_least = min((tau for tau in taus if tau > 0.0), default=0.0)
-            self._make_room(_ROOM)
+            self._take_past(memory.past if memory.joined else None, memory.t_start)
+            memory.past.stepper = self
+        m.goes_on = memory.joined
         m.memory = ctypes.addressof(memory)
         m.span = _SPAN * memory.comint
         for number, (period, start) in enumerate(times):
