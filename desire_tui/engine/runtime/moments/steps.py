@@ -151,7 +151,7 @@ def test(m: Moments, memory: RunMemory, dt: float) -> float:
         absolute = factor * abs(combined(m, row, i))
         value = absolute
         if memory.checked == 0:
-            value = absolute / (abs(m.x0[i]) + 1.0)
+            value = absolute / (abs(m.x0[i]) + memory.error_one)
         if value > most:
             most = value
             memory.which = i
