@@ -138,3 +138,16 @@ def test_results_keep_what_each_run_started_with():
     numbers = np.load(archive)
     assert numbers["parameters/c"] == pytest.approx([0.3, 0.6, 0.9, 1.2, 1.5])
     assert numbers["initial/x"].tolist() == [1.0] * 5
+
+
+def test_what_only_events_read_are_parameters_and_what_they_set_is_none():
+    session = Session(backend="reference")
+    session.erun(
+        Source(
+            "y = 50 | keep = 0.8 | T = 7 | n = 0 | irule 3 | TMAX = 20 | DT = 0.01 | NN = 21\ndrun\nDYNAMIC\n"
+            "d/dt y = v\nd/dt v = -9.8\ndispt y\nevent -y\nv = -keep*v | y = 0 | n = n + 1\nevery T\nn = n + 1\n"
+        )
+    )
+    start = session.runs[-1].start
+    assert start.parameters == {"keep": 0.8, "T": 7.0}
+    assert start.initial == {"y": 50.0, "v": 0.0}

@@ -10,16 +10,18 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from desire_tui.engine.lowered.effects import reads, writes
-from desire_tui.engine.lowered.walk import walk_actions
+from desire_tui.engine.lowered.effects import memory, reads, writes
+from desire_tui.engine.lowered.walk import walk_actions, walk_values
 from desire_tui.engine.values import SCALAR_SLOTS, SYSTEM_SLOTS, Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from numpy.typing import NDArray
 
+    from desire_tui.engine.lowered.effects import Piece
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.values import Quantity, Saved, Values
 
     Floats = NDArray[np.float64]
@@ -81,9 +83,8 @@ class StartQuantities:
             segment = self._segment
             assert segment is not None
             states = [(states.slot, states.count) for states in segment.states]
-            read = {*_slots(piece for action in walk_actions(segment.body) for piece in reads(action))}
-            read.update(slot for slot, _ in segment.constants)
-            read -= {*_slots(piece for action in walk_actions(segment.body) for piece in writes(action))}
+            read = {*_slots(_read(segment)), *(slot for slot, _ in segment.constants)}
+            read -= {*_slots(piece for action in _actions(segment) for piece in writes(action))}
             of_states = {*_slots(states)}
             names = _names(self._quantities, read | of_states)
             parameters = sorted(slot for slot in read - of_states if slot in names)
@@ -142,6 +143,22 @@ class StartValues:
         """Values of the states."""
         count = self.parameter_count
         return dict(zip(self.names[count:], self.values[count:].tolist(), strict=True))
+
+
+def _actions(segment: Segment) -> Iterator[Action]:
+    """Yield every statement of a segment, those of its events too."""
+    for body in (segment.body, *(event.body for event in segment.events)):
+        yield from walk_actions(body)
+
+
+def _read(segment: Segment) -> Iterator[Piece]:
+    """Yield what the statements read, and what decides when events come and how far delays reach."""
+    for action in _actions(segment):
+        yield from reads(action)
+    times = [value for event in segment.events for value in (event.condition, event.period, event.start)]
+    times += [value for delay in segment.delays for value in (delay.source, delay.tau)]
+    for node in walk_values(*times):
+        yield from memory(node)
 
 
 def _slots(pieces: Iterable[tuple[int, int]]) -> Iterable[int]:
