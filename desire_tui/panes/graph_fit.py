@@ -19,7 +19,7 @@ class CurveFit:
         self.wanted: bool | None = None
         """Whether the user wants the window that holds all curves; None: as the program says."""
         self._extent: Extent | None = None
-        self._extent_of: tuple[Graph, ...] = ()
+        self._extent_of: tuple[object, ...] = ()
 
     @property
     def is_on(self) -> bool:
@@ -43,7 +43,7 @@ class CurveFit:
         if page is None or page.frame.kind == "picture":
             self._extent, self._extent_of = None, ()
             return window
-        shown = (page, *paging.behind)
+        shown = (page, page.axes, page.erased, *paging.behind)
         if self._extent is None or self._extent_of != shown:
             from desire_tui.engine.graph.fit import Extent
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from desire_tui.engine.graph.colors import GHOST
+from desire_tui.engine.graph.fit import limits
 from desire_tui.panes.parameter_list import ParameterList
 from desire_tui.panes.slider_scale import SliderScale
 
@@ -57,6 +60,12 @@ async def test_parameters_are_chosen_from_a_list_and_agree_with_the_runs(program
         app.graph.tick()
         assert app.graph.paging.ghost is before
         assert [curve.color for curve in app.graph._painter.graph.curves] == [GHOST, GHOST, 14, 15]
+        await desk.do("graph.log")  # both on axes from power to power of ten
+        values = [curve.samples()[1] for curve in (*before.curves, *app.graph.page.curves)]
+        least = min(float(y[y > 0].min()) for y in values)
+        bottom, top = limits(app.graph.page, app.graph.window)[2:]
+        assert (bottom, top) == pytest.approx((math.floor(math.log10(least)), 1))
+        await desk.do("graph.log", "linear")
         await desk.press("down", "right")
         await settled(desk)
         assert app.session.runs[-1].start.initial["x"] == sliders["x(0)"].value == 1.02
