@@ -8,7 +8,6 @@ from desire_tui.panes.zoom_window import Window
 
 if TYPE_CHECKING:
     from desire_tui.engine.graph.fit import Extent
-    from desire_tui.engine.graph.model import Graph
     from desire_tui.panes.graph_paging import GraphPaging
 
 

@@ -106,14 +106,14 @@ class StartValues:
         self.continues = continues
 
     def condense(self, now: Values | None = None) -> Floats:
-        """Keep the values that are asked for, and no others; return them. Without a copy, those of `now`."""
+        """Keep the values that are asked for, and no others; return them. At the start those of `now`."""
         if self._values is None:
             slots, saved = self._quantities.found.slots, self._saved
-            if saved is not None:
-                self._values = _taken(saved, slots)
-            else:
-                assert now is not None
+            if now is not None:
                 self._values = now.data[slots]
+            else:
+                assert saved is not None
+                self._values = _taken(saved, slots)
         self._saved = None
         return self._values
 
