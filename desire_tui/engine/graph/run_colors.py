@@ -24,22 +24,22 @@ class RunColors:
 
     def __init__(self) -> None:
         self.runs = self.span = 0
-        self._hues: dict[str, set[int]] = {}
+        self._hues: dict[str, int] = {}
+        self._has_own = False  # the program gives the runs colours
         self._runs_of: dict[str, int] = {}
 
     def add(self, curves: Sequence[Curve]) -> None:
         """Take note of a run's curves."""
         self.runs += 1
         for curve in curves:
-            self._hues.setdefault(curve.name, set()).add(curve.hue)
+            if self._hues.setdefault(curve.name, curve.hue) != curve.hue:
+                self._has_own = True
             self._runs_of[curve.name] = self._runs_of.get(curve.name, 0) + 1
 
     @property
     def is_wanted(self) -> bool:
         """Whether runs would have the same colours without a ramp."""
-        return self.runs > 1 and all(
-            len(hues) == 1 or self._runs_of[name] == 1 for name, hues in self._hues.items()
-        )
+        return self.runs > 1 and not self._has_own
 
     def widen(self, ahead: int | None) -> bool:
         """Make room for the runs there are and those ahead, if known; returns whether the ramp changed."""
