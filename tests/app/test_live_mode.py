@@ -75,6 +75,14 @@ async def test_parameters_are_chosen_from_a_list_and_agree_with_the_runs(program
         assert (sliders["c"].value, sliders["x(0)"].value) == (0.1, 1.0)
         app.graph.tick()
         assert app.graph.paging.ghost is None
+        # so does Shift+F5
+        sliders["c"].focus()
+        await desk.press("right")
+        await settled(desk)
+        assert app.session.runs[-1].start.parameters["c"] == sliders["c"].value == 0.102
+        await desk.press("shift+f5")
+        await desk.idle()
+        assert app.session.runs[-1].start.parameters["c"] == sliders["c"].value == 0.1
         # value and limits are typed
         sliders["c"].focus()
         await desk.press("enter")

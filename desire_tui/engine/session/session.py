@@ -174,6 +174,7 @@ class Session:
         if self._script.stopped is not None and source.text != self._workspace.source.text:
             self._script.edited = True
         active, script = program, structure(program)
+        self._workspace.own = program, script
         if self._workspace.overrides:
             from desire_tui.engine.session.overrides import with_overrides
 
@@ -232,7 +233,7 @@ class Session:
 
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
-        self._workspace.program = self._workspace.structure = None
+        self._workspace.program = self._workspace.structure = self._workspace.own = None
         self._script.forget()
         self._host.rule = DEFAULT_RULE
 
@@ -250,7 +251,13 @@ class Session:
             self._script.run(scale=1.0)
 
     def run(self) -> None:
-        """Run the active program's script again from the top, keeping irule and scale."""
+        """Run the active program's script again from the top, keeping irule and scale.
+
+        It runs as its text says: settings that held for the last run only (`override`) are over.
+        """
+        workspace = self._workspace
+        if workspace.own is not None and not workspace.overrides:
+            workspace.program, workspace.structure = workspace.own
         with self._notebook.task("run", lambda: self.graph):
             self._script.run(scale=self.values.cells[SCALE])
 

@@ -37,6 +37,8 @@ class Workspace:
         self.permissions = permissions
         self.program: Program | None = None
         self.structure: Structure | None = None
+        self.own: tuple[Program, Structure] | None = None
+        """The active program as its text says, without overrides."""
         self.command: Source | None = None
         """The command line being carried out, None while the script runs."""
         self.overrides: dict[str, float] = {}
