@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
+from rich.segment import Segment
+from rich.style import Style
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
+from textual.strip import Strip
 from textual.widgets import Input, Label, SelectionList
 from textual.widgets.selection_list import Selection
 
@@ -22,6 +25,25 @@ ROWS_MOST = 500
 KINDS = {"number": "", "computed": "computed by the script", "initial": "initial value"}
 
 
+class Marks(SelectionList[str]):
+    """Boxes that are empty or marked: in other colours alone they would look alike on some terminals."""
+
+    def render_line(self, y: int) -> Strip:
+        """Draw a row with its own box."""
+        line = super().render_line(y)
+        row = self.scroll_offset.y + y
+        if row >= self.option_count:
+            return line
+        chosen = self.get_option_at_index(row).value in self.selected
+        parts = list(line)
+        base = parts[3].style or Style()
+        box = [
+            Segment(text, base + Style(meta=part.style.meta if part.style else None))
+            for text, part in zip("[x]" if chosen else "[ ]", parts[:3], strict=True)
+        ]
+        return Strip([*box, *parts[3:]], line.cell_length)
+
+
 class ParameterList(Question["list[Parameter] | None"]):
     """Parameters with their values; Space chooses, Enter gives the chosen ones sliders, Esc: None."""
 
@@ -31,14 +53,9 @@ class ParameterList(Question["list[Parameter] | None"]):
         background: $panel; border: round $primary; border-title-color: $accent; }
     ParameterList Input { border: none; height: 1; padding: 0 1; background: $surface; }
     ParameterList Input:focus { border: none; }
-    ParameterList SelectionList { height: auto; max-height: 16; border: none; padding: 0;
+    ParameterList Marks { height: auto; max-height: 16; border: none; padding: 0;
         background: $panel; }
-    ParameterList SelectionList:focus { border: none; }
-    ParameterList .selection-list--button, ParameterList .selection-list--button-highlighted {
-        color: $surface; background: $surface; }
-    ParameterList .selection-list--button-selected,
-    ParameterList .selection-list--button-selected-highlighted {
-        color: $accent; background: $surface; }
+    ParameterList Marks:focus { border: none; }
     ParameterList Label { width: 1fr; color: $text-muted; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -60,7 +77,7 @@ class ParameterList(Question["list[Parameter] | None"]):
         box.border_title = "Sliders for"
         with box:
             yield Input(placeholder="type to filter · ↓ to the list")
-            yield SelectionList[str]()
+            yield Marks()
             yield Label("Space chooses · Enter shows the sliders · Esc cancels", markup=False)
 
     def on_mount(self) -> None:
@@ -69,8 +86,8 @@ class ParameterList(Question["list[Parameter] | None"]):
         self._list.focus()
 
     @property
-    def _list(self) -> SelectionList[str]:
-        return self.query_one(SelectionList)
+    def _list(self) -> Marks:
+        return self.query_one(Marks)
 
     def _fill(self, wanted: str) -> None:
         rows = [one for one in self._found if wanted.casefold() in one.label.casefold()][:ROWS_MOST]

@@ -45,7 +45,10 @@ async def test_parameters_are_chosen_from_a_list_and_agree_with_the_runs(program
         assert isinstance(app.screen, ParameterList)
         rows = [app.screen._list.get_option_at_index(n).value for n in range(app.screen._list.option_count)]
         assert rows == ["g", "c", "q[2]", "w", "x(0)", "v(0)"]
-        await desk.press("down", "space", "down", "down", "down", "space", "enter")  # c and x(0)
+        await desk.press("down", "space", "down", "down", "down", "space")  # c and x(0)
+        boxes = [app.screen._list.render_line(y).text[:3] for y in range(6)]
+        assert boxes == ["[ ]", "[x]", "[ ]", "[ ]", "[x]", "[ ]"]
+        await desk.press("enter")
         await desk.pilot.pause()
         sliders = {slider.label: slider for slider in app.graph.sliders.shown}
         assert [(label, slider.value) for label, slider in sliders.items()] == [("c", 0.1), ("x(0)", 1.0)]
