@@ -53,6 +53,7 @@ def prepare(folder: Path) -> None:
     work = folder / "work"
     work.mkdir(exist_ok=True)
     os.chdir(work)
+    os.environ.setdefault("XDG_CACHE_HOME", str(Path.home() / ".cache"))  # parse tables take seconds to make
     for name in ("CONFIG", "STATE", "DATA"):
         os.environ[f"XDG_{name}_HOME"] = str(folder / name.lower())
     os.environ["HOME"] = str(work)
