@@ -12,19 +12,23 @@ def _fault(old: str, new: str, *first: str) -> Mutant:
 LOWERING = (
     # persistence
     _fault(
-        "self.ready = {name: load for name, load in self.ready.items() if name in ready}",
-        "self.ready |= ready",
+        "self.ready.update((name, load) for name, load in ready.items() if name in then.ready)",
+        "self.ready.update(ready | then.ready)",
         *program("dynamic/persistence_in_branches"),
     ),
-    _fault("self.set_slots &= slots", "self.set_slots |= slots", *program("dynamic/persistence_in_branches")),
     _fault(
-        "self.set_ranges = self.set_ranges.common(ranges)",
+        "self.set_slots.update((slot, None) for slot in slots if slot in then.slots)",
+        "self.set_slots.update(slots | then.slots)",
+        *program("dynamic/persistence_in_branches"),
+    ),
+    _fault(
+        "self.set_ranges = ranges.common(then.ranges)",
         "pass",
         *program("dynamic/persistence_in_branches"),
     ),
     _fault(
-        "self.ready, self.set_slots, self.set_ranges = saved",
-        "pass",
+        "while len(found) > left:",
+        "while False:",
         *program("dynamic/persistence_in_branches"),
     ),
     _fault(

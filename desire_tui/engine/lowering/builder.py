@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Picture, SampleColumn, SampleRequest
     from desire_tui.engine.lowered.statements import Action, Where
     from desire_tui.engine.lowering.lowering_context import LoweringContext
-    from desire_tui.engine.lowering.persistence import Snapshot
+    from desire_tui.engine.lowering.persistence import Branch, Mark
     from desire_tui.engine.lowering.states import StateTable
     from desire_tui.engine.source import Span
     from desire_tui.engine.values import Quantity
@@ -38,14 +38,14 @@ class OpenGuard:
     where: Where
     serial: int
     outer: list[Action]
-    saved: Snapshot
+    saved: Mark
     condition: Value | None = None
     every: int = 1
     period: Value | None = None
     start: Value | None = None
     otherwise: bool = False
     then: tuple[Action, ...] = ()
-    after_then: Snapshot | None = None
+    after_then: Branch | None = None
 
 
 @dataclass
@@ -110,7 +110,7 @@ class SegmentBuilder:
     def open(self, kind: GuardKind, where: Where, condition: Value | None = None, every: int = 1) -> None:
         """Begin a guard."""
         self.serials += 1
-        saved = self.context.flow.snapshot()
+        saved = self.context.flow.mark()
         self.guards.append(OpenGuard(kind, where, self.serials, self.body, saved, condition, every))
         self.body = []
 
@@ -143,9 +143,7 @@ class SegmentBuilder:
             return False
         guard = self.guards[-1]
         flow = self.context.flow
-        guard.then, guard.after_then, guard.otherwise = tuple(self.body), flow.snapshot(), True
-        flow.restore(guard.saved)
-        guard.saved = flow.snapshot()
+        guard.then, guard.after_then, guard.otherwise = tuple(self.body), flow.take_back(guard.saved), True
         self.body = []
         self._reopen(inner)
         return True
@@ -194,9 +192,9 @@ class SegmentBuilder:
         flow = self.context.flow
         then, orelse = (guard.then, tuple(self.body)) if guard.otherwise else (tuple(self.body), ())
         if guard.after_then is not None:
-            flow.keep_common(guard.after_then)
+            flow.keep_common(guard.saved, guard.after_then)
         else:
-            flow.restore(guard.saved)
+            flow.take_back(guard.saved)
         self.body = guard.outer
         if guard.kind == "event":
             self.events.append(Event(then, guard.where, guard.condition, guard.period, guard.start))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from desire_tui.engine.lowered.statements import Set, SetDot, SetMat, SetVec
 from desire_tui.engine.passes.intervals import Intervals
@@ -19,7 +19,24 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Load
 
 Assignment = Set | SetVec | SetMat | SetDot
-Snapshot = tuple[dict[str, "Load"], set[int], Intervals]
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+
+
+class Mark(NamedTuple):
+    """How much was surely set at a point of the pass: only what comes behind it is undone, or compared."""
+
+    ready: int
+    slots: int
+    ranges: Intervals
+
+
+class Branch(NamedTuple):
+    """What was set behind a mark; `ranges`: all that are set by then."""
+
+    ready: dict[str, Load]
+    slots: dict[int, None]
+    ranges: Intervals
 
 
 @dataclass
@@ -28,29 +45,32 @@ class Flow:
 
     `ready`: names that can be read here without more ado, each with the `Load` that reads it.
     `set_slots`, `set_ranges`: numbers surely set by now; `early_slots`, `early_ranges`: read before that.
+    What is ready and the slots stand in the order in which they came: a guard's end takes the last ones back.
     """
 
     ready: dict[str, Load] = field(default_factory=dict)
-    set_slots: set[int] = field(default_factory=set)
+    set_slots: dict[int, None] = field(default_factory=dict)
     set_ranges: Intervals = field(default_factory=Intervals)
     early_slots: set[int] = field(default_factory=set)
     early_ranges: Intervals = field(default_factory=Intervals)
     assignments: list[Assignment] = field(default_factory=list)
 
-    def snapshot(self) -> Snapshot:
-        """Return what is surely set here, to come back to when a guard ends."""
-        return dict(self.ready), set(self.set_slots), self.set_ranges.copy()
+    def mark(self) -> Mark:
+        """Return a point to come back to when a guard ends."""
+        return Mark(len(self.ready), len(self.set_slots), self.set_ranges.copy())
 
-    def restore(self, saved: Snapshot) -> None:
-        """Forget what was set inside a guard."""
-        self.ready, self.set_slots, self.set_ranges = saved
+    def take_back(self, mark: Mark) -> Branch:
+        """Forget what was set behind a mark; return it."""
+        branch = Branch(_taken(self.ready, mark.ready), _taken(self.set_slots, mark.slots), self.set_ranges)
+        self.set_ranges = mark.ranges.copy()
+        return branch
 
-    def keep_common(self, other: Snapshot) -> None:
+    def keep_common(self, mark: Mark, then: Branch) -> None:
         """After if/else: surely set is what both branches set."""
-        ready, slots, ranges = other
-        self.ready = {name: load for name, load in self.ready.items() if name in ready}
-        self.set_slots &= slots
-        self.set_ranges = self.set_ranges.common(ranges)
+        ready, slots, ranges = self.take_back(mark)
+        self.ready.update((name, load) for name, load in ready.items() if name in then.ready)
+        self.set_slots.update((slot, None) for slot in slots if slot in then.slots)
+        self.set_ranges = ranges.common(then.ranges)
 
     def read_slot(self, slot: int) -> None:
         """Note that a number which the segment may assign is read."""
@@ -85,3 +105,12 @@ class Flow:
                 kept = kept or (at < len(early) and early[at] < slot + count) or ranges.touches(slot, count)
             if kept:
                 made.persistent = True  # type: ignore[misc]  # nodes are frozen for the type checker only
+
+
+def _taken(found: dict[Key, Value], left: int) -> dict[Key, Value]:
+    """Take entries off the end of a dictionary until so many are left."""
+    taken = {}
+    while len(found) > left:
+        key, value = found.popitem()
+        taken[key] = value
+    return taken

@@ -45,7 +45,7 @@ def scalar_slot(context: LoweringContext, target: Target) -> int | None:
 
 def mark_set(context: LoweringContext, target: Target, slot: int) -> None:
     """Note that the pass has set a scalar or an element."""
-    context.flow.set_slots.add(slot)
+    context.flow.set_slots[slot] = None
     if isinstance(target, Name):
         context.flow.ready[context.actual(target.name)] = Load(slot)
 
