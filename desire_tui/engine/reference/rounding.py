@@ -60,11 +60,14 @@ def _find_noise(
         return out
 
     base, level = rate(states), np.zeros(n)
+    if not np.isfinite(base).all():
+        return False
     for k in range(NOISE_TRIES):
         ulps = (k - np.arange(n)) % NOISE_TRIES - 2.5
-        level = np.maximum(level, np.abs(rate(states * (1.0 + ulps * ULP)) - base))
-    if not (np.isfinite(base).all() and np.isfinite(level).all()):
-        return False
+        near = rate(states * (1.0 + ulps * ULP))
+        if not np.isfinite(near).all():  # no evaluation more: difference equations take part in each
+            return False
+        level = np.maximum(level, np.abs(near - base))
     most = level * horizon
     found = False
     for i in np.flatnonzero(
