@@ -142,10 +142,11 @@ class DesireApp(LastingApp):
         self.theme_changed_signal.subscribe(self.main_screen, lambda _: self.follow_theme())
         self.call_later(self._show)
 
-    def _show(self) -> None:
+    async def _show(self) -> None:
         """Draw the desktop for the first time, now that everything stands in its place."""
         self.main_screen.release()
         self.is_shown = True
+        await self.take_typed_ahead()
         self.main_screen.set_timer(ENGINE_AFTER_S, self.engine.start)
 
     def engine_ready(self) -> None:

@@ -63,6 +63,8 @@ class AppBase(App[None]):
             lambda: list(self.session.graphs),
         )
         self.key_ordering = KeyOrdering(self)
+        self._typed_ahead: list[events.Event] | None = []
+        """Keys and pasted text that came before the tabs were open; None: they are."""
         self.reach = Reach()
 
     def get_driver_class(self) -> type[Driver]:
@@ -81,6 +83,9 @@ class AppBase(App[None]):
 
     async def on_event(self, event: events.Event) -> None:
         """Deal with an event; keys in the order in which they were typed. Alt with a letter types nothing."""
+        if self._typed_ahead is not None and isinstance(event, events.Key | events.Paste):
+            self._typed_ahead.append(event)
+            return
         if isinstance(event, events.Key) and event.key.startswith("alt+"):
             event.character = None
         if isinstance(event, events.Key) and isinstance(self.screen, Choice) and not self.screen.takes(event):
@@ -89,6 +94,12 @@ class AppBase(App[None]):
             await self.key_ordering.carry_out(event, super().on_event)
         else:
             await super().on_event(event)
+
+    async def take_typed_ahead(self) -> None:
+        """Deal with what was typed while the desktop opened, now that it has the panes and tabs meant."""
+        typed, self._typed_ahead = self._typed_ahead or [], None
+        for event in typed:
+            await self.on_event(event)
 
     async def _on_message(self, message: Message) -> None:
         """Deal with a message; while the desktop closes its panes are gone, and nobody handles it."""

@@ -193,6 +193,17 @@ def test_a_session(terminal: Callable[..., Terminal], tmp_path: Path):
     assert_restored(bytes(screen.raw))
 
 
+def test_what_is_typed_while_the_desktop_opens_waits_for_it(
+    terminal: Callable[..., Terminal], tmp_path: Path
+):
+    (tmp_path / "a.src").write_text("x = 1\n")
+    screen = terminal("a.src")
+    screen.send(CTRL_N + "early\r\x1b[200~pasted\x1b[201~")
+    screen.until(lambda: "untitled-1" in screen.text and "early" in screen.text and "pasted" in screen.text)
+    screen.until(lambda: screen.text.index("early") < screen.text.index("pasted"))
+    assert "internal error" not in screen.text
+
+
 def test_what_is_typed_is_what_is_saved(terminal: Callable[..., Terminal], tmp_path: Path):
     """At several speeds; word lists open at the slower ones, they take no Enter."""
     path = tmp_path / "empty.src"
