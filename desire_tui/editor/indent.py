@@ -10,7 +10,7 @@ WIDTH = 2
 """Blanks a level."""
 
 OPENING = frozenset({"for", "while", "repeat", "PROCEDURE", "SUBMODEL"})
-CLOSING = frozenset({"next", "until", "end", "end if", "end while", "end event", "proceed"})
+CLOSING = frozenset({"next", "until", "end", "end if", "end while", "proceed"})
 """First words of statements; `else` closes a block and opens another."""
 COMMENT = re.compile(r"^(\s*)--\s?")
 JOINED = re.compile(r"(.?)_[ \t\r]*\Z")
