@@ -57,7 +57,8 @@ def memory_for(values, segment, *, t_max, dt, nn, **more):
     values.assign(DT, dt)
     settings = {
         "t_start": t, "t_max": t_max, "comint": t_max / (nn - 1), "t_base": t, "dt_base": dt, "nn": nn, "every": 1,
-        "dt_max": t_max / (nn - 1), "dt_min": dt / 16, "error_max": 1e-3, "error_min": 1e-5, "row_limit": nn + 2,
+        "dt_max": t_max / (nn - 1), "dt_min": dt / 16, "error_max": 1e-3, "error_min": 1e-5, "error_one": 1.0,
+        "row_limit": nn + 2,
     }  # fmt: skip
     memory = RunMemory(
         values=values.address, rows=rows.ctypes.data, counters=counters.ctypes.data, lags=lags.ctypes.data,
