@@ -162,7 +162,7 @@ def test_a_column_that_no_state_depends_on_has_a_gap(storage):
 @pytest.mark.parametrize("rule", [4, 7, 8])
 def test_deadlock_restores_the_step(rule, storage):
     model, segment, values = made_of(
-        "DYNAMIC\nd/dt u = 1\nd/dt x = 1000*swtch(t - 0.31)\ndispt x\n", rule, storage, x=0.0
+        "DYNAMIC\nd/dt u = 1\nd/dt x = 1000*sigmoid(1E+6*(t - 0.31))\ndispt x\n", rule, storage, x=0.0
     )
     memory, _ = memory_for(values, segment, t_max=1.0, dt=0.02, nn=3, dt_min=0.004, error_max=1e-3)
     assert model.advance(memory) is Ended.DEADLOCK

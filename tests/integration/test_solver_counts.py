@@ -13,7 +13,7 @@ from tests.integration.stiff_programs import run
 from tests.integration.test_bdf import Problem, cvodes, ours
 
 VAN_DER_POL = """
-TMAX = 2 | NN = 21 | DT = 1e-4 | ERMAX = 1e-5 | irule {rule}
+TMAX = 2 | NN = 21 | DT = 1e-4 | DTMAX = 0.1 | ERMAX = 1e-5 | irule {rule}
 x = 2 | y = 0
 drun
 DYNAMIC

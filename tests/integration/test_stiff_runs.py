@@ -57,10 +57,10 @@ def test_samples_stand_exactly_on_communication_points(rule, backend):
 def test_what_happened_is_recorded(rule, backend):
     session, _ = run(LINEAR.format(rule=rule), backend)
     record = session.runs[-1]
-    assert record.steps > 40
+    assert record.steps > 20
     assert record.derivative_calls >= record.steps
     assert 0 < record.dt_least <= 0.001
-    assert record.dt_least < record.dt_most <= 0.05 * (1 + 1e-12)
+    assert record.dt_least < record.dt_most
     assert 1 <= record.order <= 12
     assert (record.jacobian_calls > 0) == (rule in (10, 11, 14, 15))
     shown = record.values("DT")
@@ -85,7 +85,7 @@ def test_a_second_run_goes_on_and_reset_goes_back(backend):
     assert list(map(float, second.split())) == pytest.approx([2.0, exp(-2)], rel=1e-5)
 
 
-def test_term_is_looked_at_where_steps_end(backend):
+def test_term_is_located(backend):
     text = """irule 15 | ERMAX = 1E-8 | y = 100 | DT = 0.001 | DTMAX = 0.01 | TMAX = 5 | NN = 11
 drun
 write t, y, v
@@ -98,8 +98,8 @@ dispt y
     session, _ = run(text, backend)
     t, y, v = numbers(text, backend)
     fall = sqrt(200 / 32.2)
-    assert fall < t <= fall + 0.0101  # the first step end below the ground
-    assert y == pytest.approx(100 - 16.1 * t * t, abs=1e-3)
+    assert t == pytest.approx(fall, abs=2e-5)
+    assert y == pytest.approx(0, abs=1e-3)
     assert v == pytest.approx(-32.2 * t, rel=1e-5)
     record = session.runs[-1]
     assert record.ended == "term"
@@ -308,17 +308,20 @@ def test_an_infinite_element_of_jacobian_ends_the_run_with_its_place(backend):
     assert record.values("x")[:10] == pytest.approx([exp(-0.1 * k) for k in range(10)], rel=1e-4)
 
 
-@pytest.mark.parametrize("rule", [14, 15])
-def test_a_relay_that_holds_the_solution_on_its_jump_ends_the_run(rule, backend, monkeypatch):
-    """x' = −sgn(x) from 1 is 1 − t; at 0, from t = 1, no step can go on."""
-    if backend == "reference":  # looks fifty times as often: in Python 50,000 steps take 20 s
-        monkeypatch.setattr("desire_tui.engine.reference.stiff.CHATTER_STEPS", 1_000)
-    session, problem = failure(SIMPLE.format(rule=rule, ermax="1E-6", x=1, f="-sgn(x)"), backend)
-    assert problem.code == 222
-    assert "'x'" in problem.message
+@pytest.mark.parametrize("rule", [4, 9, 14, 15])
+def test_a_relay_that_holds_the_solution_on_its_jump(rule, backend):
+    """x' = −sgn(x) from 1 is 1 − t, then 0, where sgn(0) = 0; 1 − 2·swtch(x) has no solution from there on."""
+    text = SIMPLE.format(rule=rule, ermax="1E-6", x=1, f="{f}")
+    expected = [max(1 - 0.1 * k, 0) for k in range(31)]
+    if rule != 4:  # which does not hit 0 to the last digit
+        session, _ = run(text.format(f="-sgn(x)"), backend)
+        assert session.runs[-1].values("x") == pytest.approx(expected, abs=1e-5)
+    session, problem = failure(text.format(f="1 - 2*swtch(x)"), backend)
+    assert problem.code == 477
+    assert "'swtch'" in problem.message
     record = session.runs[-1]
-    assert record.end_time == pytest.approx(1.0, abs=0.01)
-    assert record.values("x")[:10] == pytest.approx([1 - 0.1 * k for k in range(10)], abs=1e-5)
+    assert record.end_time == pytest.approx(1.0, abs=1e-5)
+    assert record.values("x")[:10] == pytest.approx(expected[:10], abs=1e-5)
 
 
 @pytest.mark.parametrize(("rule", "ermax"), [(14, 1e-6), (14, 1e-7), (14, 1e-8), (15, 1e-6), (15, 1e-8)])

@@ -29,7 +29,7 @@ RUNS = (
     _reference("total += sign * float(", "total += float(", "tests/reference/test_arrays.py"),
     # defaults of a run
     _runtime("abs(t_max) / dt * (1 + ROUNDING) + 1.0", "abs(t_max) / dt + 1.0", *program("dynamic/nn_within_rounding")),
-    _runtime("least / 16", "least / 8", "tests/runtime/test_plan_defaults.py"),
+    _runtime("least / 65536", "least / 8", "tests/runtime/test_plan_defaults.py"),
     _runtime("self._supplied.pop(slot, None)", "pass", *program("dynamic/default_made_ones_own", "dynamic/dtmax_made_ones_own")),
     _runtime("if dt is not None and dt == self._steps.left:", "if False:", *program("dynamic/dt_left_by_rule", "dynamic/dt_between_runs")),
     # delays

@@ -88,7 +88,8 @@ def test_initial_t_defaults_to_zero_with_derivatives():
 
 @pytest.mark.parametrize("rule", [4, 7, 8])
 @pytest.mark.parametrize(
-    ("name", "taken"), [("DT", 0.05), ("DTMAX", 0.1), ("DTMIN", 0.05 / 16), ("ERMAX", 0.001), ("ERMIN", 1e-5)]
+    ("name", "taken"),
+    [("DT", 0.05), ("DTMAX", 0.1), ("DTMIN", 0.05 / 65536), ("ERMAX", 0.001), ("ERMIN", 1e-5)],
 )
 @pytest.mark.parametrize("number", ["0", "-2"])
 def test_a_setting_that_cannot_be_is_replaced_with_one_warning(rule, name, taken, number):
@@ -115,7 +116,7 @@ def test_variable_step_defaults_can_be_read_afterwards():
     assert value(session, "ERMAX") == 0.001
     assert value(session, "ERMIN") == pytest.approx(0.001 / 100)
     assert value(session, "DTMAX") == pytest.approx(0.1)
-    assert value(session, "DTMIN") == pytest.approx(0.01 / 16)
+    assert value(session, "DTMIN") == pytest.approx(0.01 / 65536)
 
 
 def test_checkn_beyond_the_last_state_is_error_93():

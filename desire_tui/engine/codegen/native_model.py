@@ -9,14 +9,18 @@ import numpy as np
 
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
+from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.scalar.slot_usage import survey
+from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.integration.rules import rule_numbered
+from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
+from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
-from desire_tui.engine.runtime.run_memory import Ended, RunMemory
+from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,6 +28,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.background import Improver
     from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.switching import Switching
     from desire_tui.engine.values import Values
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
@@ -51,6 +56,9 @@ class NativeModel:
         vital = vital_columns(segment)
         variable = rule_numbered(rule).kind == "variable"
         segment, self._numbers = stepped_segment(segment, values.room, variable=variable)
+        switching = None
+        if variable:
+            segment, switching = switches(segment, values.room)
         self._store = code
         self._segment = segment
         self._rule = rule
@@ -67,7 +75,12 @@ class NativeModel:
             setattr(self.context, kind, self._tables.addresses[kind])
         self._kept: list[object] = []
         self._stage_memory()
-        self._loop = array_loop(rule, contiguous=bool((np.diff(self._states) == 1).all()))
+        self._watcher: Watcher | None = None
+        if switching is not None:
+            self._watch(switching)
+        watched = self._watcher is not None
+        contiguous = bool((np.diff(self._states) == 1).all())
+        self._loop = array_loop(rule, contiguous=contiguous, watched=watched)
         self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
         self.improved = False
@@ -92,6 +105,21 @@ class NativeModel:
             setattr(context, name, array.ctypes.data)
         self._kept.append(flat)
 
+    def _watch(self, switching: Switching) -> None:
+        """Prepare what sees to the segment's switches."""
+        values, segment, context = self._values, self._segment, self.context
+        ranges = [(s.slot, s.first, s.count) for s in segment.states]
+        inner = {"modes": switching.live_pass, "derivative": self._passes["derivative"]}
+        functions = PassFunctions(self._store, values, segment.order, inner, frozenset())
+        watching = watch_functions()
+        self._watcher = watcher = Watcher(switching, values, ranges)
+        modes, derivative = functions.address("modes"), functions.address("derivative")
+        watcher.connect(watching.begin, modes, derivative, watching.place_on_step, watcher.address)
+        watcher.take_step_from(context.x0, context.k1)
+        context.watch, context.limit = watcher.address, watching.limit
+        context.follow, context.depart = watching.follow, watching.depart
+        self._kept += [functions, watching]
+
     def _use(self, compiled: Compiled) -> None:
         self._kept.append(compiled)
         self._run = _RUN(compiled.address)
@@ -101,7 +129,8 @@ class NativeModel:
         small = self._is_small()
         if small:
             states, columns = self._states.tolist(), self._columns.tolist()
-            self._loop = register_loop(self._passes, self._rule, states, columns, self._vital_slots.tolist())
+            self._loop = register_loop(self._passes, self._rule, states, columns, self._vital_slots.tolist(),
+                                       watched=self._watcher is not None)  # fmt: skip
         self._better = self._store.fast(self._loop, slp=not small or self._segment.order >= PAIRED_LEAST)
         self.context.hurry = 1
         yield
@@ -121,6 +150,8 @@ class NativeModel:
         """Run on (`runtime.run_memory`)."""
         self.context.memory = ctypes.addressof(memory)
         at, context = ctypes.addressof(memory), ctypes.addressof(self.context)
+        if self._watcher is not None and memory.phase == Phase.AT_POINT and memory.point == 0:
+            self._watcher.begin(memory)
         checked = memory.checked
         memory.checked = checked_state(checked, self._numbers)
         while True:
@@ -132,6 +163,8 @@ class NativeModel:
             if ended is not Ended.RUNNING or memory.row >= memory.row_limit:
                 break
         memory.checked = checked
+        if ended is Ended.CHATTERS and self._watcher is not None:
+            memory.culprit = self._watcher.culprit()
         if ended is Ended.NOT_FINITE:
             memory.which = first_not_finite(self._values.data, self._states, self._columns, self._vital)
         if ended in {Ended.NOT_FINITE, Ended.DEADLOCK} and memory.which >= 0:

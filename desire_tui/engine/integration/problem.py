@@ -17,6 +17,8 @@ STUCK_MOST = 100
 """So many steps in a row that leave t as it was end the run: a pole, or a jump that no step gets across."""
 STUCK_FLAG, STUCK_AT_EDGE_FLAG = -1, -10
 """What is then reported, as CVODE's flags: too much work; derivatives that were not finite."""
+TOO_NEAR = 2e-15
+"""A step is not worth making if t and its end differ by this part of t: CVODE refuses it."""
 CHATTER_STEPS, CHATTER_PART, CHATTER_FLAG = 50_000, 1e-3, -3
 """A run ends (CVODE's flag: error test failed) if so many steps went through less than this part of COMINT
 and half as many were rejected besides: a relay that holds the solution on its jump would take for ever."""
@@ -55,6 +57,10 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "data_of": (_ADDRESS, (_ADDRESS,)),
     "indices_of": (_ADDRESS, (_ADDRESS,)),
     "starts_of": (_ADDRESS, (_ADDRESS,)),
+    "limit": (_REAL, (_ADDRESS, _REAL, _REAL)),
+    "look": (ctypes.c_int32, (_ADDRESS, _REAL, _REAL)),
+    "settle": (ctypes.c_int32, (_ADDRESS, _REAL)),
+    "depart": (ctypes.c_int32, (_ADDRESS,)),
 }
 """What the functions are whose addresses stand in a `SolverProblem`: results and arguments."""
 
@@ -129,8 +135,24 @@ class SolverProblem(ctypes.Structure):
         ("solver", _ADDRESS),  # CVODE's memory
         ("vector", _ADDRESS),  # N_Vector over `states`
         ("derivative_calls", _INT),
-        ("started", _INT),  # 0: begin anew
-        ("t", _REAL),  # time that CVODE has reached
+        ("started", _INT),  # 0: nothing has been done yet
+        ("anew", _INT),  # 1: begin anew before the next step
+        ("t", _REAL),  # of the states in `last`, which the values were left with
+        ("t_step", _REAL),  # time that the solver has reached, its states in `states`
+        ("t_end", _REAL),  # of the run
+        ("passed", _REAL),  # time at which the pass at a step's start has been made
+        ("is_free", _INT),  # 1: steps go beyond communication points, where states are interpolated
+        ("settled", _INT),  # 0: what has switched in the last step is still to be taken up
+        ("between", _ADDRESS),  # n numbers: states inside a step …
+        ("between_vector", _ADDRESS),  # … and CVODE's N_Vector over them
+        ("inputs", _ADDRESS),  # int64 slots of what code at points and steps sets and derivatives read …
+        ("inputs_kept", _ADDRESS),  # … and the numbers there when the last step began
+        ("input_count", _INT),
+        ("watch", _ADDRESS),  # `switching.memory.Watch`, 0: nothing switches
+        ("limit", _ADDRESS),  # functions of `switching.watch`
+        ("look", _ADDRESS),
+        ("settle", _ADDRESS),
+        ("depart", _ADDRESS),
         ("first_step", _REAL),  # 0: CVODE looks for one
         ("jacobian_calls", _INT),
         ("failed", _INT),  # steps tried again before the last restart

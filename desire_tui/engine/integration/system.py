@@ -17,6 +17,8 @@ from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Sol
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from desire_tui.engine.integration.plan import SolverPlan
 
 _DATA_OF = {"dense": "SUNDenseMatrix_Data", "band": "SUNBandMatrix_Data", "sparse": "SUNSparseMatrix_Data"}
@@ -28,6 +30,8 @@ class SolverCounters(Protocol):
     error_max: float
     error_absolute: float
     dt_max: float
+    t_start: float
+    t_max: float
     derivative_calls: int
     jacobian_calls: int
     rejected: int
@@ -78,8 +82,8 @@ class StiffSystem:
         self.n = n = sum(count for _, _, count in ranges)
         self.problem = problem = SolverProblem()
         self._ranges = np.array(ranges, dtype=np.int64).reshape(-1, 3)
-        self._buffers = np.zeros((9, n))
-        self.largest, self.last, own, spare, self.noise, *probe = self._buffers
+        self._buffers = np.zeros((10, n))
+        self.largest, self.last, own, spare, self.noise, self.between, *probe = self._buffers
         problem.noise = self.noise.ctypes.data
         problem.moved, problem.base, problem.rate, problem.level = (a.ctypes.data for a in probe)
         problem.values = values
@@ -88,6 +92,7 @@ class StiffSystem:
         problem.last, problem.largest, problem.spare = (
             a.ctypes.data for a in (self.last, self.largest, spare)
         )
+        problem.between = self.between.ctypes.data
         problem.derivatives, problem.tangent = functions.derivatives, functions.tangent
         problem.jacobian, problem.step = functions.jacobian, functions.step
         problem.directions, problem.array = values + 8 * directions, values + 8 * array
@@ -97,11 +102,12 @@ class StiffSystem:
             linear = replace(linear, jacobian=natives.jacobian)
         self.solver: Solver | OwnSolver
         if natives.own:
-            self.solver = OwnSolver(n, problem.states, ctypes.addressof(problem))
+            self.solver = OwnSolver(n, problem.states, ctypes.addressof(problem), problem.between)
         else:
             callbacks = Callbacks(natives.rhs, natives.weights, ctypes.addressof(problem))
-            self.solver = Solver(rule, n, problem.states, callbacks, linear)
+            self.solver = Solver(rule, n, problem.states, callbacks, linear, problem.between)
         problem.solver, problem.vector = self.solver.memory, self.solver.vector
+        problem.between_vector = self.solver.between
 
     def _connect_matrix(self) -> None:
         problem, plan = self.problem, self.plan
@@ -122,6 +128,9 @@ class StiffSystem:
         problem.memory = ctypes.addressof(memory)  # type: ignore[arg-type]
         problem.tolerance = memory.error_max * ERROR_SHARE
         problem.first_step = first_step
+        problem.anew = 0
+        problem.settled = 1
+        problem.t_end = memory.t_start + memory.t_max
         problem.started = problem.failed = problem.restarts = problem.stuck = 0
         problem.watch_steps = problem.watch_failed = 0
         problem.watch_t = float("nan")  # nothing is nearer: the first look only notes where it was
@@ -132,6 +141,11 @@ class StiffSystem:
         self.noise[:] = 0.0
         self.largest[:] = problem.floor = 0.0
         self.solver.limit(memory.dt_max)
+
+    def interpolate(self, t: float) -> NDArray[np.float64]:
+        """Return the states at a time inside the last step."""
+        self.solver.interpolate(t)
+        return self.between
 
     def report(self, memory: SolverCounters) -> None:
         """Write what CVODE did so far into the run's memory."""

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.passes.assigned_states import stepped_segment
+from desire_tui.engine.passes.switching import switching
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.reference.model import ReferenceModel
+from desire_tui.engine.reference.switches import Switches
 
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
@@ -33,7 +35,11 @@ class ReferenceBackend:
 
                 tableau = TABLEAUS.get(rule) if segment.order else None
                 return MomentReferenceModel(segment, tableau, values, numbers, vital)
-            return ReferenceModel(segment, TABLEAUS.get(rule), values, numbers, vital)
+            switches = None
+            if kind == "variable":
+                segment, found = switching(segment, values.room)
+                switches = None if found is None else Switches(found, segment, values)
+            return ReferenceModel(segment, TABLEAUS.get(rule), values, numbers, vital, switches)
         if segment.events or segment.delays:
             from desire_tui.engine.reference.stiff_moments import StiffMomentModel
 

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.passes.renewal import renewals
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.states import make_states
-from desire_tui.engine.reference.steps import fixed_step, variable_step
+from desire_tui.engine.reference.steps import chattering, fixed_step, variable_step
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.reference.statements import Run
+    from desire_tui.engine.reference.switches import Switches
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -44,7 +46,9 @@ class ReferenceModel:
         values: Values,
         numbers: Sequence[int],
         vital: Iterable[int],
+        switches: Switches | None = None,
     ) -> None:
+        self.switches = switches
         self.cells = values.cells
         self.numbers = numbers
         """What the states' numbers were before those that the segment assigns were taken out."""
@@ -63,6 +67,7 @@ class ReferenceModel:
         variable = tableau is not None and tableau.variable
         self.renewal, self.step_renewal = map(compile_, renewals(segment) if variable else ((), ()))
         # each stage's pass writes its own k; k1 is written by the full and the step pass
+        self.restage: Run | None = None if switches is None else compile_(derivative_slice(segment))
         self.stages: list[Run] = []
         for k in self.states.k[1:]:
             self.statements.derivatives = k
@@ -71,17 +76,30 @@ class ReferenceModel:
     def advance(self, memory: RunMemory) -> Ended:
         """Run on until the rows are full, `stop` is set, the run ends or a fault shows."""
         self.statements.memory = memory
+        if self.switches is not None and memory.phase == Phase.AT_POINT and memory.point == 0:
+            self.switches.begin(memory)
         with np.errstate(all="ignore"):
             if memory.row >= memory.row_limit:
                 return Ended.RUNNING
             if memory.phase == Phase.ENDED:
                 return Ended.TMAX
-            ended = self._step(memory) if memory.phase == Phase.AFTER_POINT else None
+            ended = self._depart(memory) if memory.phase == Phase.AFTER_POINT else None
             while ended is None:
-                ended = self._point(memory) if memory.phase == Phase.AT_POINT else self._inside(memory)
+                at_point = memory.phase == Phase.AT_POINT
+                ended = self._point(memory) if at_point else self._inside(memory)
                 if ended is None and self.tableau is not None:
-                    ended = self._step(memory)
+                    ended = self._depart(memory) if at_point else self._step(memory)
             return ended
+
+    def _depart(self, memory: RunMemory) -> Ended | None:
+        """Make the first step behind a communication point, where something may switch."""
+        if self.switches is not None:
+            bits = self.switches.depart()
+            if bits >= CHATTERS:
+                return chattering(self.switches, memory)
+            if bits and self.restage is not None:
+                self._pass(self.restage, memory)
+        return self._step(memory)
 
     def _point(self, memory: RunMemory) -> Ended | None:
         """Make `pass(COMM, STEP)`, sample, and see whether the run is over."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.tableaus import STILL_MOST, whole_multiples
 from desire_tui.engine.passes.assigned_states import checked_state
 from desire_tui.engine.reference.states import sum_of_multiples
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.reference.states import States
+    from desire_tui.engine.reference.switches import Switches
     from desire_tui.engine.runtime.run_memory import RunMemory
 
 TOLERANCE = 1e-9
@@ -29,6 +31,7 @@ class SteppedModel(Protocol):
     states: States
     nodes: list[tuple[int, float]]
     numbers: Sequence[int]
+    switches: Switches | None
 
     def run_stage(self, stage: int, memory: RunMemory) -> None:
         """Make a pass with both flags off; its derivatives are k[stage]."""
@@ -64,14 +67,16 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
     assert tableau.test is not None
     here, start = cells[T], states.fetch()
     next_point = memory.t_start + memory.point * memory.comint
-    left = next_point - here
+    switches = model.switches
+    stop = next_point if switches is None else switches.limit(here, next_point)
+    left = stop - here
     lands = cells[DT] >= left * (1.0 - TOLERANCE)
     cut = cells[DT] > left * (1.0 + TOLERANCE)
     dt = left if lands else cells[DT]
     while True:
         for stage, node in model.nodes:
             states.move(stage, start, dt)
-            cells[T] = here + node * dt
+            cells[T] = stop if switches is not None and lands and node == 1.0 else here + node * dt
             model.run_stage(stage, memory)
         checked = checked_state(memory.checked, model.numbers)
         difference, state = _difference(model, tableau, dt, start, checked, memory.error_one)
@@ -93,13 +98,24 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
         return Ended.STALLED
     states.move(tableau.stages, start, dt)
     memory.steps += 1
-    cells[T] = next_point if lands else here + dt
+    cells[T] = stop if lands else here + dt
     _note_extremes(memory, dt)
     if difference < memory.error_min and not cut:
         cells[DT] = min(2.0 * cells[DT], memory.dt_max)
+    if switches is not None:
+        bits = switches.follow(here, cells[T], next_point, start, states.k[0])
+        if bits >= CHATTERS:
+            return chattering(switches, memory)
+        lands = cells[T] >= next_point
     if lands:
         memory.phase = Phase.AT_POINT
     return None
+
+
+def chattering(switches: Switches, memory: RunMemory) -> Ended:
+    """End a run that a switch holds up."""
+    memory.culprit, memory.phase = switches.culprit(), Phase.ENDED
+    return Ended.CHATTERS
 
 
 def _difference(

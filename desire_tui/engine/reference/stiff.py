@@ -20,21 +20,27 @@ from desire_tui.engine.integration.problem import (
     STUCK_AT_EDGE_FLAG,
     STUCK_FLAG,
     STUCK_MOST,
+    TOO_NEAR,
 )
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
+from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
 from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
+from desire_tui.engine.passes.point_effects import changed_inputs, steps_are_free
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
+from desire_tui.engine.passes.switching import switching
 from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.reference.model import ReferenceModel
 from desire_tui.engine.reference.rounding import watch_noise
 from desire_tui.engine.reference.statements import StatementClosures
+from desire_tui.engine.reference.steps import chattering
+from desire_tui.engine.reference.switches import Switches
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
@@ -53,13 +59,21 @@ if TYPE_CHECKING:
 class StiffReferenceModel(ReferenceModel):
     """A segment under a multistep rule. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
 
+    sees_switches = True
+    """Whether steps end where derivatives jump."""
+
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         if rule_numbered(rule).corrector == "jacobian" and segment.jacobian is not None:
             checked_array(segment, values)
         self._given = segment.jacobian and (segment.jacobian.slot, segment.order)
         vital = vital_columns(segment)
         segment, numbers = without_assigned_states(segment, values.room)
-        super().__init__(segment, EULER, values, numbers, vital)
+        segment, found = switching(segment, values.room) if self.sees_switches else (segment, None)
+        switches = None if found is None else Switches(found, segment, values, self._state_at)
+        super().__init__(segment, EULER, values, numbers, vital, switches)
+        inputs = changed_inputs(segment)
+        self._inputs = np.array(inputs, dtype=np.int64)
+        self._inputs_kept: Array = np.full(len(inputs), np.nan)
         self.values, self.data, self.order = values, values.data, segment.order
         self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._segment = segment
@@ -74,6 +88,7 @@ class StiffReferenceModel(ReferenceModel):
         self.system = self._callbacks.system = StiffSystem(
             rule, way, values.address, self.ranges, ModelFunctions(), natives
         )  # fmt: skip
+        self.system.problem.is_free = not inputs and steps_are_free(segment)
         if isinstance(self.system.solver, OwnSolver):
             self.system.solver.connect(*self._callbacks.own)
 
@@ -175,59 +190,147 @@ class StiffReferenceModel(ReferenceModel):
         problem.watch_steps, problem.watch_t, problem.watch_failed = 0, t, failed
         return bool(near and often)
 
+    def _depart(self, memory: RunMemory) -> Ended | None:
+        """Go to the next communication point; what may switch is seen to by `_step`."""
+        return self._step(memory)
+
     def _step(self, memory: RunMemory) -> Ended | None:
-        """Go to the next communication point, or one step if there is something to do at steps' starts."""
+        """Go to the next communication point, as `codegen.stiff.interval` does."""
         memory.phase = Phase.IN_STEP
-        system, cells = self.system, self.cells
-        problem, solver = system.problem, system.solver
+        problem = self.system.problem
         t_next = memory.t_start + memory.point * memory.comint
-        while True:
-            self._follow()
-            problem.suspect = problem.suspect if problem.stuck else -1
-            flag, t = solver.step(t_next)
-            problem.fresh += 1
-            if self._callbacks.failure is not None:
-                failure, self._callbacks.failure = self._callbacks.failure, None
-                raise failure
-            done = flag == TSTOP_RETURN or t >= t_next
-            t = t_next if done else t
-            flag = watch_noise(system, self.derivatives, memory, t, flag)
-            problem.stuck = problem.stuck + 1 if t == problem.t else 0
-            if problem.stuck > STUCK_MOST:
-                flag = STUCK_AT_EDGE_FLAG if problem.suspect >= 0 else STUCK_FLAG
-            if self._chatters(memory, t) and flag >= 0:
-                flag = CHATTER_FLAG
-            y = self._solution()
-            self._place(t, y)
-            system.last[:] = y
-            problem.t = t
+        self._synchronise()
+        ended: Ended | None = None
+        if self.switches is not None and problem.settled and problem.t == problem.t_step:
+            ended = self._take_up(self.switches.depart(), memory)
+        while ended is None:
+            if problem.t_step > t_next:
+                self._leave(t_next, self.system.interpolate(t_next))
+                memory.phase = Phase.AT_POINT
+                return None
+            if problem.t != problem.t_step:
+                self._leave(problem.t_step, self._solution())
+            if not problem.settled:
+                assert self.switches is not None
+                problem.settled = 1
+                ended = self._take_up(self.switches.settle(t_next), memory)
+                if ended is not None:
+                    break
+            if problem.t_step >= t_next:
+                memory.phase = Phase.AT_POINT
+                return None
+            if self._acts and problem.passed != problem.t_step:
+                problem.passed = problem.t_step
+                ended = self._inside(memory)
+                if ended is not None:
+                    break
+                memory.phase = Phase.IN_STEP
+                self._synchronise()
+                if self.switches is not None and problem.anew:
+                    ended = self._take_up(self.switches.depart(), memory)
+                    if ended is not None:
+                        break
+            flag = self._advance(memory, t_next)
             if flag < 0:
                 memory.which, memory.phase = flag, Phase.ENDED
                 return Ended.SOLVER
-            cells[DT] = solver.last_step
-            memory.dt_least = cells[DT] if memory.steps == 0 else min(memory.dt_least, cells[DT])
-            memory.dt_most = max(memory.dt_most, cells[DT])
-            memory.steps += 1
-            if done:
-                memory.phase = Phase.AT_POINT
-                return None
-            if self._acts or memory.stop:
-                return None
+            if memory.stop and problem.t_step < t_next:
+                return Ended.STOPPED
+        return ended
 
-    def _follow(self) -> None:
-        """Begin anew if t or a state is not what CVODE left."""
-        problem, x = self.system.problem, self._states()
-        t = self.cells[T]
-        self._solution()[:] = x
-        if problem.started and t == problem.t and np.array_equal(x, self.system.last):
+    def _advance(self, memory: RunMemory, t_next: float) -> int:
+        """Take a step, to `t_next` at most unless steps are free; return the flag."""
+        problem, solver, cells = self.system.problem, self.system.solver, self.cells
+        t_from = problem.t_step
+        stop = max(t_next, problem.t_end) if problem.is_free else t_next
+        if self.switches is not None:
+            stop = self.switches.limit(t_from, stop)
+        if stop - t_from <= TOO_NEAR * abs(stop):
+            problem.t_step = stop
+            self._leave(stop, self._solution())
+            problem.anew, problem.settled = 1, int(self.switches is None)
+            return 0
+        if problem.anew:
+            self._begin_anew(t_from)
+        problem.suspect = problem.suspect if problem.stuck else -1
+        flag, t = solver.step(stop)
+        problem.fresh += 1
+        if self._callbacks.failure is not None:
+            failure, self._callbacks.failure = self._callbacks.failure, None
+            raise failure
+        t = stop if flag == TSTOP_RETURN or t >= stop else t
+        flag = watch_noise(self.system, self.derivatives, memory, t, flag)
+        problem.stuck = problem.stuck + 1 if t == problem.t_step else 0
+        if problem.stuck > STUCK_MOST:
+            flag = STUCK_AT_EDGE_FLAG if problem.suspect >= 0 else STUCK_FLAG
+        if self._chatters(memory, t) and flag >= 0:
+            flag = CHATTER_FLAG
+        problem.t_step = t
+        self._leave(t, self._solution())
+        if flag < 0:
+            return int(flag)
+        cells[DT] = solver.last_step
+        memory.dt_least = cells[DT] if memory.steps == 0 else min(memory.dt_least, cells[DT])
+        memory.dt_most = max(memory.dt_most, cells[DT])
+        memory.steps += 1
+        if self.switches is not None:
+            problem.settled = 0
+            if self.switches.look(t_from, t):
+                self._solution()[:] = self._states()
+                problem.t_step, problem.anew = cells[T], 1
+            self._leave(problem.t_step, self._solution())
+        return 0
+
+    def _take_up(self, bits: int, memory: RunMemory) -> Ended | None:
+        """Go on from the t and states in the values, behind a switching."""
+        problem, t = self.system.problem, self.cells[T]
+        if not bits and t == problem.t:
+            return None
+        self._solution()[:] = self._states()
+        problem.t_step = t
+        self._leave(t, self._solution())
+        problem.anew = problem.anew or int(bits != 0)
+        if bits >= CHATTERS:
+            assert self.switches is not None
+            return chattering(self.switches, memory)
+        return None
+
+    def _leave(self, t: float, y: Array) -> None:
+        """Put t and states into the values, and remember them."""
+        self._place(t, y)
+        self.system.problem.t = t
+        self.system.last[:] = y
+
+    def _state_at(self, t: float) -> None:
+        """Put t and the states that the last step has there into the values."""
+        self._place(t, self.system.interpolate(t))
+
+    def _synchronise(self) -> None:
+        """Begin anew, at the next step, if t, a state or an input is not what it was left as."""
+        problem, x, t = self.system.problem, self._states(), self.cells[T]
+        inputs = self.data[self._inputs]
+        changed = not np.array_equal(inputs, self._inputs_kept)
+        self._inputs_kept = inputs
+        problem.passed = t
+        same = np.array_equal(x, self.system.last)
+        if problem.started and t == problem.t and same and not changed:
             return
-        size = problem.first_step
+        self._solution()[:] = x
+        self.system.last[:] = x
+        problem.anew = problem.settled = 1
+        problem.t = problem.t_step = t
+
+    def _begin_anew(self, t: float) -> None:
+        """Let the solver forget its history."""
+        problem = self.system.problem
         if problem.started:
             problem.failed += self.system.solver.counts().failed
             problem.restarts += 1
+        size = problem.first_step
+        if problem.started:
             size = 2.0 * self.system.solver.last_step if problem.fresh == 1 else 0.0
         self.system.solver.restart(t, size)
-        problem.started, problem.t, problem.fresh = 1, t, 0
+        problem.started, problem.anew, problem.fresh = 1, 0, 0
 
     def _states(self) -> Array:
         x = np.empty(self.order)

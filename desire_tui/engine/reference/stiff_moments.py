@@ -41,6 +41,8 @@ _SAME = 1e-10
 class StiffMomentModel(StiffReferenceModel):
     """A segment with events or delays under a multistep rule."""
 
+    sees_switches = False
+
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         super().__init__(segment, rule, values)
         self._stepper = stepper = Stepper(self._segment, EULER, values)
@@ -121,6 +123,12 @@ class StiffMomentModel(StiffReferenceModel):
         note_extremes(memory, cells[DT])
         memory.steps += 1
         return None
+
+    def _follow(self) -> None:
+        """Begin anew if t, a state or an input is not what the solver left."""
+        self._synchronise()
+        if self.system.problem.anew:
+            self._begin_anew(self.cells[T])
 
     def _locate(self, t0: float) -> bool:
         """Put t and the states to behind the first event of the step, if there is one in it."""

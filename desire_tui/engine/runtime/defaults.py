@@ -118,11 +118,12 @@ class Defaults:
             raise _error("time-unresolved", t=t0, dt=dt, gap=ulp(t0))
         step_rule = rule.kind == "variable"
         least = self._steps.least(dt) if step_rule else 0.0
+        longest = t_max if rule.kind == "multistep" else comint  # whose steps go beyond samples
         error_max = self._tolerance(rule)
         return RunPlan(
             rule=rule.number, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
-            dt_max=self._or_default("DTMAX", DTMAX, comint, counts=rule.controls_error),
-            dt_min=self._or_default("DTMIN", DTMIN, least / 16, counts=step_rule),
+            dt_max=self._or_default("DTMAX", DTMAX, longest, counts=rule.controls_error),
+            dt_min=self._or_default("DTMIN", DTMIN, least / 65536, counts=step_rule),
             error_max=error_max,
             error_min=self._or_default("ERMIN", ERMIN, error_max / 100, counts=step_rule),
             every=max(self._counted("MM", self._own(MM) or 1.0), 1),

@@ -63,6 +63,10 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
         return _placed("variable-step-deadlock", facts, segment, where)
     if ended is Ended.STALLED:
         return _placed("time-stalled", {"t": t, "dt": cells[DT]}, segment, defining(segment, DT))
+    if ended is Ended.CHATTERS:
+        assert memory.culprit is not None
+        name, where = memory.culprit
+        return _placed("switch-chatters", {"t": t, "name": name}, segment, where)
     if ended is Ended.SOLVER:
         name, where = state_name(segment, int(memory.suspect))
         facts = {"t": t, "dt": cells[DT], "rule": plan.rule, "state": name, "flag": which}

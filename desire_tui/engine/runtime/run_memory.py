@@ -10,6 +10,10 @@ from __future__ import annotations
 
 import ctypes
 from enum import IntEnum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from desire_tui.engine.lowered.statements import Where
 
 
 class Phase(IntEnum):
@@ -44,6 +48,8 @@ class Ended(IntEnum):
     """CVODE gave up: `which` is its flag."""
     STALLED = 7
     """A step of DT would not take t any further."""
+    CHATTERS = 8
+    """A switch went to and fro and held t up; the model puts what it is into the memory's `culprit`."""
     ZENO = 9
     """Event number `which` comes ever faster."""
     FULL = 10
@@ -102,3 +108,5 @@ class RunMemory(ctypes.Structure):
         ("begun", ctypes.c_int32),  # 1: what happens at the run's start has been done
         ("suspect", ctypes.c_int32),  # SOLVER: number of the state that it is about
     )
+    culprit: tuple[str, Where] | None = None
+    """CHATTERS: the switch's name and place."""

@@ -48,6 +48,10 @@ class WorkMemory(ctypes.Structure):
         ("vital_count", ctypes.c_int64),
         ("interval", ctypes.c_uint64),  # rules 9 … 16: `stiff.interval` and its structure
         ("problem", ctypes.c_uint64),
+        ("watch", ctypes.c_uint64),  # what switches, and the functions that see to it (`switching`)
+        ("limit", ctypes.c_uint64),
+        ("follow", ctypes.c_uint64),
+        ("depart", ctypes.c_uint64),
     )
 
 

@@ -47,6 +47,9 @@ class ArrayStorage:
     def leave(self) -> None:
         """Everything is in memory all the time."""
 
+    def refresh(self) -> None:
+        """Nothing to do: it is read when it is wanted."""
+
     def load(self, slot: int) -> str:
         """Read a scalar."""
         return self.text.op(f"load double, ptr {self._at(slot)}")
@@ -180,6 +183,9 @@ class ArrayStorage:
 
     def keep_first_stage(self) -> None:
         """k1 stays in its array."""
+
+    def keep_start(self) -> None:
+        """x0 stays in its array."""
 
     def recall_first_stage(self) -> None:
         """Nothing to do: it is there."""

@@ -19,25 +19,31 @@ if TYPE_CHECKING:
 
 
 @functools.cache
-def array_loop(rule: int, *, contiguous: bool) -> Piece:
-    """Write the loop over arrays: the same for all models of a rule."""
+def array_loop(rule: int, *, contiguous: bool, watched: bool = False) -> Piece:
+    """Write the loop over arrays: the same for all models of a rule; `watched`: those that switch."""
     text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
     storage = ArrayStorage(text, stages, machine().width, contiguous=contiguous)
-    Driver(text, storage, tableau).write()
+    Driver(text, storage, tableau, watched=watched).write()
     return named(text)
 
 
 def register_loop(
-    passes: dict[str, tuple[Action, ...]], rule: int, states: list[int], columns: list[int], vital: list[int]
+    passes: dict[str, tuple[Action, ...]],
+    rule: int,
+    states: list[int],
+    columns: list[int],
+    vital: list[int],
+    *,
+    watched: bool = False,
 ) -> Piece:
     """Write the loop of a small model, its passes in line; all are slots, `vital` some of the columns'."""
     text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
     storage = RegisterStorage(text, passes, states, columns, vital, stages)
-    Driver(text, storage, tableau).write()
+    Driver(text, storage, tableau, watched=watched).write()
     return named(text)
 
 

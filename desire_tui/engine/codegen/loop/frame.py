@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _VARIABLES = {
     "k": "i64", "steps": "i64", "calls": "i64", "t_base": "double", "dt_base": "double", "t_next": "double",
     "t_here": "double", "h": "double", "phase": "i32", "ended": "i32", "last": "i1", "reached": "i1", "stop":
-    "i1", "lands": "i1", "cut": "i1",
+    "i1", "lands": "i1", "cut": "i1", "t_stop": "double",
 }  # fmt: skip
 
 _KEPT = {
@@ -27,6 +27,9 @@ _KEPT = {
 
 class LoopFrame:
     """Variables of the loop (stack cells), fields of `RunMemory` and of the context, and the exit."""
+
+    watched = False
+    """Whether something may switch inside a step (rules 4, 7, 8)."""
 
     def __init__(self, text: IrText, storage: Storage) -> None:
         self.text = text

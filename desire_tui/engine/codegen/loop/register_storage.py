@@ -13,6 +13,8 @@ from desire_tui.engine.codegen.scalar.statements import ScalarStatements
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.integration.tableaus import Row
     from desire_tui.engine.lowered.statements import Action
@@ -56,6 +58,10 @@ class RegisterStorage:
         text = self.text
         text.do(f"%v = load ptr, ptr {self.memory.at('values')}")
         text.do(f"%random = load ptr, ptr {self.memory.at('random')}")
+        self.cells.fetch()
+
+    def refresh(self) -> None:
+        """Read every cell anew."""
         self.cells.fetch()
 
     def leave(self) -> None:
@@ -152,10 +158,17 @@ class RegisterStorage:
 
     def keep_first_stage(self) -> None:
         """Put k1 into the context's array."""
-        base = self.context.load("k1")
+        self._keep("k1", lambda number: self._k(1, number))
+
+    def keep_start(self) -> None:
+        """Put x0 into the context's array."""
+        self._keep("x0", self._x0)
+
+    def _keep(self, name: str, value: Callable[[int], str]) -> None:
+        base = self.context.load(name)
         for number in range(len(self.states)):
             at = self.text.op(f"getelementptr double, ptr {base}, i64 {number}")
-            self.text.do(f"store double {self._k(1, number)}, ptr {at}")
+            self.text.do(f"store double {value(number)}, ptr {at}")
 
     def recall_first_stage(self) -> None:
         """Get k1 from there."""

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE, FixedStep
 from desire_tui.engine.codegen.loop.frame import LoopFrame
+from desire_tui.engine.codegen.loop.switched_steps import SwitchedStep, write_departure
 from desire_tui.engine.codegen.loop.variable_steps import VariableStep
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
@@ -29,11 +30,17 @@ if TYPE_CHECKING:
 
 
 class Driver(LoopFrame):
-    """Writes the function `i32 @run(ptr memory, ptr context)`; `tableau` None: rule 0, no steps."""
+    """Writes the function `i32 @run(ptr memory, ptr context)`; `tableau` None: rule 0, no steps.
 
-    def __init__(self, text: IrText, storage: Storage, tableau: Tableau | None) -> None:
+    `watched`: something may switch inside a step (`loop.switched_steps`).
+    """
+
+    def __init__(
+        self, text: IrText, storage: Storage, tableau: Tableau | None, *, watched: bool = False
+    ) -> None:
         super().__init__(text, storage)
         self.tableau = tableau
+        self.watched = watched
 
     def write(self) -> None:
         """Write the whole body."""
@@ -52,7 +59,7 @@ class Driver(LoopFrame):
         self.leave(Ended.TMAX)
         text.begin("recall")
         self.storage.recall_first_stage()
-        text.jump("renew")
+        text.jump("depart" if self.watched else "renew")
         self._point()
         if self.tableau is None:
             text.begin("again")
@@ -108,7 +115,7 @@ class Driver(LoopFrame):
         text.begin("onward")
         if self.tableau is None:  # after the last sample t stays where it was taken
             self.storage.store(T, self.get("t_next"))
-        text.branch(self._rows_full(), "point.full", "renew")
+        text.branch(self._rows_full(), "point.full", "depart" if self.watched else "renew")
         text.begin("point.full")  # come back now: the caller sees the values as they were sampled
         self.storage.keep_first_stage()
         self.leave(Ended.RUNNING, Phase.AFTER_POINT)
@@ -175,8 +182,13 @@ class Driver(LoopFrame):
         self.text.jump("step")
 
     def _step(self, tableau: Tableau) -> None:
+        if self.watched:
+            write_departure(self)
         self.text.begin("step")
         self.storage.save()
+        if self.watched:
+            SwitchedStep(self, tableau).write()
+            return
         step = VariableStep if tableau.variable else FixedStep
         step(self, tableau).write()
 

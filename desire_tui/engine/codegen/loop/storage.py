@@ -14,6 +14,9 @@ class Storage(Protocol):
     def enter(self) -> None:
         """Begin the function."""
 
+    def refresh(self) -> None:
+        """Take scalars and states as others have set them in the values."""
+
     def leave(self) -> None:
         """Bring the values up to date before a return."""
 
@@ -58,6 +61,9 @@ class Storage(Protocol):
 
     def keep_first_stage(self) -> None:
         """Put k1 where the next call finds it."""
+
+    def keep_start(self) -> None:
+        """Put the states at the step's start where others find them."""
 
     def recall_first_stage(self) -> None:
         """Get it back."""

@@ -44,12 +44,16 @@ class VariableStep:
         lanes = self.lanes
         here, dt = self.storage.load(T), self.storage.load(DT)
         self.driver.put("t_here", here)
-        left = lanes.sub(self.driver.get("t_next"), here)
+        left = lanes.sub(self._stop(here), here)
         lands = lanes.compare("oge", dt, lanes.mul(left, lanes.const(1.0 - _TOLERANCE)))
         cut = lanes.compare("ogt", dt, lanes.mul(left, lanes.const(1.0 + _TOLERANCE)))
         self.driver.put("lands", lands)
         self.driver.put("cut", cut)
         self.driver.put("h", lanes.choose(lands, left, dt))
+
+    def _stop(self, here: str) -> str:  # noqa: ARG002 - others may have to stop earlier
+        """Return where the step must end at the latest."""
+        return self.driver.get("t_next")
 
     def _stages(self) -> None:
         lanes, driver, tableau = self.lanes, self.driver, self.tableau
@@ -58,8 +62,12 @@ class VariableStep:
             self.storage.advance(tableau.a[stage], dt, last=False)
             c = float(tableau.c[stage])
             part = dt if c == 1.0 else lanes.mul(lanes.const(c), dt)
-            self.storage.store(T, lanes.add(driver.get("t_here"), part))
+            self.storage.store(T, self._stage_time(c, lanes.add(driver.get("t_here"), part)))
             driver.run_pass("derivative", stage + 1)
+
+    def _stage_time(self, c: float, t: str) -> str:  # noqa: ARG002
+        """Return a stage's time, `t` but for rounding; `c`: its place in the step."""
+        return t
 
     def _judge(self) -> None:
         text, lanes, driver = self.text, self.lanes, self.driver
@@ -103,7 +111,7 @@ class VariableStep:
         text.begin("forward")
         storage.advance(self.tableau.b, dt, last=True)
         driver.count("steps")
-        storage.store(T, lanes.choose(lands, driver.get("t_next"), there))
+        storage.store(T, lanes.choose(lands, self._landing(), there))
         self._note_extremes(dt)
         small = lanes.compare("olt", difference, driver.memory.load("error_min"))
         whole = text.op(f"xor i1 {driver.get('cut')}, 1")
@@ -113,7 +121,15 @@ class VariableStep:
         most = driver.memory.load("dt_max")
         wider = lanes.choose(lanes.compare("olt", doubled, most), doubled, most)
         storage.store(DT, lanes.choose(grows, wider, now))
-        driver.arrived(lands, check_every=1)
+        self._end(lands)
+
+    def _landing(self) -> str:
+        """Return where a step ends that was made to fit."""
+        return self.driver.get("t_next")
+
+    def _end(self, lands: str) -> None:
+        """Go on behind the step."""
+        self.driver.arrived(lands, check_every=1)
 
     def _stall(self, lands: str, moves: str, dt: str) -> None:
         """End the run if DT is not above 0, or if t has stood still for too long; `k` counts such steps.

@@ -69,6 +69,19 @@ class Calls(Expressions):
     def _call_sqrt(self, node: ast.Call) -> Value:
         return self._intrinsic(node, "sqrt", self.as_real(self._single(node)))
 
+    def _call_floor(self, node: ast.Call) -> Value:
+        return self._intrinsic(node, "floor", self.as_real(self._single(node)))
+
+    def _call_of_mathematics(self, node: ast.Call) -> Value:
+        """Call the C library's function, under the name that compiled models use."""
+        assert isinstance(node.func, ast.Name)
+        function = f"desire.{node.func.id}.1"
+        self.text.declarations.add(f"declare double @{function}(double)")
+        argument = self.as_real(self._single(node))
+        return Value(self.text.op(f"call double @{function}(double {argument})"), REAL)
+
+    _call_sin = _call_cos = _call_exp = _call_log = _call_atan = _call_tanh = _call_of_mathematics
+
     def _call_abs(self, node: ast.Call) -> Value:
         value = self._single(node)
         if value.kind != REAL:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.codegen.plain_python import library
 from desire_tui.engine.codegen.plain_python.kinds import ANNOTATIONS, Kind
+from desire_tui.engine.integration.switching import mathematics
 
 if TYPE_CHECKING:
     import ast
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.plain_python.kinds import Signature
 
 BUILTINS = {
-    "range": range, "abs": abs, "min": min, "max": max, "sqrt": math.sqrt, "copy": library.copy
+    "range": range, "abs": abs, "min": min, "max": max, "sqrt": math.sqrt, "copy": library.copy,
+    "floor": mathematics.floor, "exp": mathematics.exp, "log": mathematics.log, "sin": mathematics.sin,
+    "cos": mathematics.cos, "atan": mathematics.atan, "tanh": mathematics.tanh,
 }  # fmt: skip
 
 

@@ -40,3 +40,8 @@ def failures(problem: SolverProblem) -> int:
     cvode.CVodeGetNumStepSolveFails(problem.solver, problem.count)
     corrections: int = problem.count[0]
     return tests + corrections
+
+
+def interpolate(problem: SolverProblem, t: float) -> None:
+    """Write the states inside the last step to `between`."""
+    cvode.CVodeGetDky(problem.solver, t, 0, problem.between_vector)

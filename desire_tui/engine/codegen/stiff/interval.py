@@ -4,9 +4,11 @@
 and comes back with `Ended.RUNNING` once t is `t_next`; with STOPPED where `stop` was set; TERM with the
 statement's number in `which`; SOLVER with CVODE's flag in `which`.
 
-The steps are those of `cvode_steps` or `own_steps`, whichever this text is compiled with. Solvers keep a
-history of the solution and begin anew where the states in the values are not what they left there: at a run's
-start, where difference-equation code changed one, where the user did.
+The steps are those of `cvode_steps` or `own_steps`, whichever this text is compiled with. Where the problem
+`is_free` they go on beyond communication points, whose states are interpolated: the solver is then ahead of
+the values. It keeps a history of the solution and begins anew where the states in the values are not what it
+left there (at a run's start, where difference-equation code changed one, where the user did), where an input
+has changed, and where a derivative jumps.
 """
 
 from __future__ import annotations
@@ -14,7 +16,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.plain_python.library import copy
-from desire_tui.engine.codegen.stiff.cvode_steps import begin, failures, last_size, take_step
+from desire_tui.engine.codegen.stiff.cvode_steps import (
+    begin,
+    failures,
+    interpolate,
+    last_size,
+    take_step,
+)
 from desire_tui.engine.codegen.stiff.model_calls import gather, scatter
 from desire_tui.engine.codegen.stiff.rounding import watch_noise
 from desire_tui.engine.integration.problem import (
@@ -24,72 +32,175 @@ from desire_tui.engine.integration.problem import (
     STUCK_AT_EDGE_FLAG,
     STUCK_FLAG,
     STUCK_MOST,
+    TOO_NEAR,
 )
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
+from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.integration.plain_types import Int32, Reals
+    from desire_tui.engine.integration.plain_types import Int32, Ints, Reals
     from desire_tui.engine.integration.problem import SolverProblem
     from desire_tui.engine.runtime.run_memory import RunMemory
 
 
 def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
     """Make the steps of an interval."""
-    values: Reals = problem.values
     states: Reals = problem.states
-    last: Reals = problem.last
+    between: Reals = problem.between
     synchronise(problem)
+    if problem.watch != 0 and problem.settled != 0 and problem.t == problem.t_step:
+        ended = take_up(problem, problem.depart(problem.watch))
+        if ended != 0:
+            return ended
     while True:
-        if problem.stuck == 0:
-            problem.suspect = -1
-        flag = take_step(problem, t_next)
-        problem.fresh += 1
-        t: float = problem.reached[0]
-        done = flag == TSTOP_RETURN or t >= t_next
-        if done:
-            t = t_next
-        flag = watch_noise(problem, memory, t, flag)
-        flag = watch_progress(problem, t, flag)
-        flag = watch_chatter(problem, memory, t, flag)
-        values[T] = t
-        problem.t = t
-        scatter(problem, states)
-        copy(last, 0, states, 0, problem.n)
-        if flag < 0:
-            memory.which = flag
-            return Ended.SOLVER
-        size = last_size(problem)
-        values[DT] = size
-        record_step(memory, size)
-        if done:
+        if problem.t_step > t_next:
+            interpolate(problem, t_next)
+            leave(problem, t_next, between)
             return Ended.RUNNING
-        if memory.stop != 0:
-            return Ended.STOPPED
-        if problem.step != 0:  # pass(-, STEP) at a step's start
+        if problem.t != problem.t_step:
+            leave(problem, problem.t_step, states)
+        if problem.settled == 0:
+            problem.settled = 1
+            ended = take_up(problem, problem.settle(problem.watch, t_next))
+            if ended != 0:
+                return ended
+        if problem.t_step >= t_next:
+            return Ended.RUNNING
+        if problem.step != 0 and problem.passed != problem.t_step:  # pass(-, STEP) at a step's start
+            problem.passed = problem.t_step
             fired: int = problem.step(memory, states)
             if fired != 0:
                 memory.which = fired - 1
                 return Ended.TERM
             synchronise(problem)
+            if problem.watch != 0 and problem.anew != 0:
+                ended = take_up(problem, problem.depart(problem.watch))
+                if ended != 0:
+                    return ended
+        flag = advance_to(problem, memory, t_next)
+        if flag < 0:
+            memory.which = flag
+            return Ended.SOLVER
+        if memory.stop != 0 and problem.t_step < t_next:
+            return Ended.STOPPED
+
+
+def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
+    """Take a step, to `t_next` at most unless the problem is free; return the flag."""
+    values: Reals = problem.values
+    states: Reals = problem.states
+    t_from: float = problem.t_step
+    stop = t_next
+    if problem.is_free != 0:
+        stop = max(stop, problem.t_end)
+    if problem.watch != 0:
+        stop = problem.limit(problem.watch, t_from, stop)
+    if stop - t_from <= TOO_NEAR * abs(stop):
+        problem.t_step = stop
+        leave(problem, stop, states)
+        problem.anew = 1
+        problem.settled = 0 if problem.watch != 0 else 1
+        return 0
+    if problem.anew != 0:
+        begin_anew(problem, t_from)
+    if problem.stuck == 0:
+        problem.suspect = -1
+    flag = take_step(problem, stop)
+    problem.fresh += 1
+    t: float = problem.reached[0]
+    if flag == TSTOP_RETURN or t >= stop:
+        t = stop
+    flag = watch_noise(problem, memory, t, flag)
+    flag = watch_progress(problem, t, flag)
+    flag = watch_chatter(problem, memory, t, flag)
+    problem.t_step = t
+    leave(problem, t, states)
+    if flag < 0:
+        return flag
+    size = last_size(problem)
+    values[DT] = size
+    record_step(memory, size)
+    if problem.watch != 0:
+        problem.settled = 0
+        if problem.look(problem.watch, t_from, t) != 0:
+            gather(problem)
+            problem.t_step = values[T]
+            problem.anew = 1
+            leave(problem, problem.t_step, states)
+        else:
+            leave(problem, t, states)
+    return 0
+
+
+def take_up(problem: SolverProblem, bits: int) -> Int32:
+    """Go on from the t and states in the values, behind a switching; return why the run ends, else 0."""
+    values: Reals = problem.values
+    states: Reals = problem.states
+    if bits == 0 and values[T] == problem.t:
+        return 0
+    gather(problem)
+    problem.t_step = values[T]
+    leave(problem, problem.t_step, states)
+    if bits != 0:
+        problem.anew = 1
+    return Ended.CHATTERS if bits >= CHATTERS else 0
+
+
+def leave(problem: SolverProblem, t: float, x: Reals) -> None:
+    """Put t and states into the values, and remember them."""
+    values: Reals = problem.values
+    last: Reals = problem.last
+    values[T] = t
+    problem.t = t
+    scatter(problem, x)
+    copy(last, 0, x, 0, problem.n)
+
+
+def state_at(problem: SolverProblem, t: float) -> int:
+    """Put t and the states that the last step has there into the values (`switching.memory.Place`)."""
+    values: Reals = problem.values
+    between: Reals = problem.between
+    values[T] = t
+    interpolate(problem, t)
+    scatter(problem, between)
+    return 0
 
 
 def synchronise(problem: SolverProblem) -> None:
-    """Begin anew if t or a state is not what the solver left."""
-    gather(problem)
+    """Begin anew, at the next step, if t, a state or an input is not what it was left as."""
     values: Reals = problem.values
-    states: Reals = problem.states
     last: Reals = problem.last
+    states: Reals = problem.states
+    ranges: Ints = problem.ranges
+    inputs: Ints = problem.inputs
+    kept: Reals = problem.inputs_kept
     t = values[T]
-    going = problem.started != 0
     differ = 0
-    for i in range(problem.n):
-        differ += states[i] != last[i]
-    if going and t == problem.t and differ == 0:
+    for k in range(problem.range_count):
+        slot = ranges[3 * k]
+        first = ranges[3 * k + 1]
+        for i in range(ranges[3 * k + 2]):
+            differ += values[slot + i] != last[first + i]
+    for i in range(problem.input_count):
+        differ += values[inputs[i]] != kept[i]
+        kept[i] = values[inputs[i]]
+    problem.passed = t
+    if problem.started != 0 and t == problem.t and differ == 0:
         return
+    gather(problem)
+    copy(last, 0, states, 0, problem.n)
+    problem.anew = 1
+    problem.settled = 1
+    problem.t = t
+    problem.t_step = t
+
+
+def begin_anew(problem: SolverProblem, t: float) -> None:
+    """Let the solver forget its history."""
     problem.failed += failures(problem)  # the solver starts to count at 0
-    if going:
+    if problem.started != 0:
         again = problem.fresh == 1  # a state is changed at each step: the step before is the best guess
         begin(problem, t, 2.0 * last_size(problem) if again else 0.0)
         problem.restarts += 1
@@ -97,12 +208,12 @@ def synchronise(problem: SolverProblem) -> None:
         begin(problem, t, problem.first_step)
     problem.fresh = 0
     problem.started = 1
-    problem.t = t
+    problem.anew = 0
 
 
 def watch_progress(problem: SolverProblem, t: float, flag: int) -> int:
     """Count steps that do not change t; too many of them make a failure of a success."""
-    if t == problem.t:
+    if t == problem.t_step:
         problem.stuck += 1
     else:
         problem.stuck = 0

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.bdf.start import restart
-from desire_tui.engine.integration.bdf.step import advance
+from desire_tui.engine.integration.bdf.step import advance, put_inside
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.bdf.memory import Bdf
+    from desire_tui.engine.integration.plain_types import Reals
     from desire_tui.engine.integration.problem import SolverProblem
 
 
@@ -38,3 +39,10 @@ def failures(problem: SolverProblem) -> int:
     solver: Bdf = problem.solver
     count: int = solver.failed_tests + solver.failed_corrections
     return count
+
+
+def interpolate(problem: SolverProblem, t: float) -> None:
+    """Write the states inside the last step to `between`."""
+    solver: Bdf = problem.solver
+    between: Reals = problem.between
+    put_inside(solver, t, between)

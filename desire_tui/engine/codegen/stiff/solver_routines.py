@@ -31,6 +31,7 @@ from desire_tui.engine.integration.problem import FUNCTIONS, SolverProblem
 from desire_tui.engine.integration.sundials import signatures
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import CVODE, address
+from desire_tui.engine.integration.switching import memory as switching
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.runtime import run_memory
 from desire_tui.engine.runtime.run_memory import RunMemory
@@ -42,13 +43,13 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.linker import MachineCode
 
 _CALLED = (
-    "CVode", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
+    "CVode", "CVodeGetDky", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
 )  # fmt: skip
 _MODEL = (model_calls, jacobian_fill, rounding, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
-_CONSTANTS = (memory, problem, run_memory, signatures)
+_CONSTANTS = (memory, problem, run_memory, signatures, switching)
 _ENGINE = files("desire_tui.engine")
 
 
@@ -79,12 +80,16 @@ LARGE = 200
 
 
 class StiffFunctions(NamedTuple):
-    """Addresses; `keep` owns the code. CVODE's callbacks are 0 where `integration.bdf` makes the steps."""
+    """Addresses (`state_at`: a `switching.memory.Place`); `keep` owns the code.
+
+    CVODE's callbacks are 0 where `integration.bdf` makes the steps.
+    """
 
     interval: int
     rhs: int
     weights: int
     jacobian: int
+    state_at: int
     keep: Any
 
 
@@ -173,7 +178,7 @@ def _cvode_text() -> str:
     called = {name: of_declaration(*CVODE[name], name) for name in _CALLED}
     structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory}
     outside = Outside(structures, _of_the_problem(), modules={"cvode": called})
-    public = frozenset(("interval", "rhs", "weights", "jacobian"))
+    public = frozenset(("interval", "rhs", "weights", "jacobian", "state_at"))
     return write_program(_modules(_CVODE), outside, "solver_", public)
 
 
@@ -195,4 +200,5 @@ def _found(code: MachineCode, *, own: bool) -> StiffFunctions:
     rhs, weights, jacobian = (
         0 if own else code.address(f"solver_{name}") for name in ("rhs", "weights", "jacobian")
     )
-    return StiffFunctions(code.address("solver_interval"), rhs, weights, jacobian, code)
+    interval, state_at = code.address("solver_interval"), code.address("solver_state_at")
+    return StiffFunctions(interval, rhs, weights, jacobian, state_at, code)

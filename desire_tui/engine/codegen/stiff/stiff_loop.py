@@ -25,7 +25,7 @@ class StiffDriver(Driver):
         call = f"call i32 {self.context.load('interval')}("
         ended = text.op(f"{call}ptr {self.context.load('problem')}, ptr %m, double {self.get('t_next')})")
         self.put("steps", self.memory.load("steps"))  # counted where they are made
-        others = (Ended.STOPPED, Ended.TERM, Ended.SOLVER)
+        others = (Ended.STOPPED, Ended.TERM, Ended.SOLVER, Ended.CHATTERS)
         cases = " ".join(f"i32 {int(e)}, label %interval.{e.name.lower()}" for e in others)
         text.do(f"switch i32 {ended}, label %interval.done [ {cases} ]")
         for name, reached, stop in (("done", 1, 0), ("stopped", 0, 1)):
@@ -38,6 +38,8 @@ class StiffDriver(Driver):
         text.jump("tail")
         text.begin("interval.solver")
         self.leave(Ended.SOLVER, Phase.ENDED)
+        text.begin("interval.chatters")
+        self.leave(Ended.CHATTERS, Phase.ENDED)
 
 
 def stiff_loop() -> Piece:

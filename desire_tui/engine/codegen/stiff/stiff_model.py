@@ -13,16 +13,20 @@ from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
+from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import is_own, plan
 from desire_tui.engine.integration.rules import rule_numbered
+from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
 from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
 from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
+from desire_tui.engine.passes.point_effects import changed_inputs, steps_are_free
 from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
+from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
@@ -64,6 +68,7 @@ class StiffModel:
         self._given = segment.jacobian and (segment.jacobian.slot, segment.order)
         self._vital = np.array(vital_columns(segment), dtype=np.int64)
         segment, self._numbers = without_assigned_states(segment, values.room)
+        segment, switching = switches(segment, values.room)
         self._segment = segment
         self._passes = passes = passes_of(segment)
         self._advised = False
@@ -74,9 +79,20 @@ class StiffModel:
         if acts_at_steps(segment):
             inner["step"] = passes["step"]
         own = frozenset({"step", "jacobian"})
+        if switching is not None:
+            inner["modes"] = switching.live_pass
         self._functions = functions = PassFunctions(code, values, segment.order, inner, own)
         addresses = {name: functions.address(name) for name in inner}
         addresses["derivatives"] = addresses.pop("derivative")
+        self._ranges = [(s.slot, s.first, s.count) for s in segment.states]
+        self._watcher: Watcher | None = None
+        if switching is not None:
+            self._watcher = Watcher(switching, values, self._ranges)
+            self._modes = addresses.pop("modes")
+            self._derivatives = addresses["derivatives"]
+        self._inputs = np.array(changed_inputs(segment), dtype=np.int64)
+        self._inputs_kept = np.full(max(self._inputs.size, 1), np.nan)
+        self._is_free = not self._inputs.size and steps_are_free(segment)
         way = _plan(segment, rule, extra)
         self._own = is_own(rule, segment.order, way)
         self._system = partial(
@@ -84,7 +100,7 @@ class StiffModel:
             rule,
             way,
             values.address,
-            [(s.slot, s.first, s.count) for s in segment.states],
+            self._ranges,
             ModelFunctions(**addresses),
             directions=directions,
             array=array,
@@ -105,6 +121,18 @@ class StiffModel:
         """Connect the solver's callbacks and the interval loop."""
         self._natives = natives  # owns the code
         self.system = self._system(Natives(natives.rhs, natives.weights, natives.jacobian, self._own))
+        problem = self.system.problem
+        problem.is_free = self._is_free
+        problem.inputs, problem.input_count = self._inputs.ctypes.data, self._inputs.size
+        problem.inputs_kept = self._inputs_kept.ctypes.data
+        if self._watcher is not None:
+            watching = watch_functions()
+            problem.watch = self._watcher.address
+            problem.limit, problem.look = watching.limit, watching.look
+            problem.settle, problem.depart = watching.settle, watching.depart
+            self._watcher.connect(
+                watching.begin, self._modes, self._derivatives, natives.state_at, ctypes.addressof(problem)
+            )
         self.context.interval = natives.interval
         self.context.problem = ctypes.addressof(self.system.problem)
 
@@ -167,6 +195,9 @@ class StiffModel:
                 self._use(better)
             self.system.begin(memory, self._values.cells[DT])
             self._clear_array()
+            self._inputs_kept[:] = np.nan
+            if self._watcher is not None:
+                self._watcher.begin(memory)
         system = self.system
         system.problem.memory = self.context.memory = ctypes.addressof(memory)
         ended = Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
@@ -175,6 +206,8 @@ class StiffModel:
         system.report(memory)
         if ended is Ended.SOLVER:
             memory.suspect = self._numbers[system.suspect()]
+        elif ended is Ended.CHATTERS and self._watcher is not None:
+            memory.culprit = self._watcher.culprit()
         elif ended is Ended.NOT_FINITE:
             which = first_not_finite(self._values.data, self._slots, self._columns, self._vital)
             memory.which = which if which < 0 else self._numbers[which]

@@ -89,13 +89,18 @@ MESSAGES: dict[str, Wording] = {
         "variable-step deadlock at t = {t:.6g}: state '{state}' differs by {difference:.3g} > ERMAX ="
         " {ermax:g} even with DT = {dt:.3g}",
         "make ERMAX larger or DTMIN smaller; a jump in the right-hand side belongs after `step`",
-        "Rules 4, 7 and 8 halve DT until the test difference is below ERMAX, but never below DTMIN (DT/16 if"
-        " it is not set). The difference that could not be reduced is in ERRMAX.",
+        "Rules 4, 7 and 8 halve DT until the test difference is below ERMAX, but never below DTMIN (DT/65536"
+        " if it is not set). The difference that could not be reduced is in ERRMAX.",
     ),
     "time-stalled": Wording(
         87,
         "t stays at {t:.6g}: a step of DT = {dt:.3g} does not go forward",
         "DT must stay above 0, and large enough to change t",
+    ),
+    "switch-chatters": Wording(
+        477,
+        "'{name}' switches to and fro at t = {t:.6g} and holds the run up",
+        "the solution slides along the switch, or events pile up: give it a dead zone or hysteresis",
     ),
     "noise-in-step": Wording(
         489,

@@ -24,9 +24,10 @@ class OwnSolver:
     reference back end, which runs the same text as Python.
     """
 
-    vector = 0
+    vector = between = 0
 
-    def __init__(self, n: int, states: int, problem: int) -> None:
+    def __init__(self, n: int, states: int, problem: int, between: int = 0) -> None:
+        self._between = ctypes.cast(between or states, ctypes.POINTER(ctypes.c_double))
         self._bdf = bdf = Bdf()
         self._arrays = Arrays(n)
         self._arrays.give(bdf, n)
@@ -51,6 +52,10 @@ class OwnSolver:
         """Take one step, never beyond `t_stop`; return the flag (< 0: failed) and the time reached."""
         flag = step.advance(self._bdf, t_stop)
         return flag, self._bdf.t
+
+    def interpolate(self, t: float) -> None:
+        """Write the states at a time inside the last step to `between`."""
+        step.put_inside(self._bdf, t, self._between)
 
     @property
     def last_step(self) -> float:

@@ -21,6 +21,7 @@ from desire_tui.engine.integration.bdf.start import start
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.bdf.memory import Bdf
+    from desire_tui.engine.integration.plain_types import Reals
 
 DONE, AT_STOP = 0, 1
 TRIES_MOST = 40
@@ -58,6 +59,16 @@ def advance(s: Bdf, t_stop: float) -> int:
     if near(s, t_stop):
         return AT_STOP
     return DONE
+
+
+def put_inside(s: Bdf, t: float, out: Reals) -> None:
+    """Write the solution inside the last step to `out` [CVodeGetDky]."""
+    part = (t - s.t) / s.h
+    for i in range(s.n):
+        x = s.z[s.order * s.n + i]
+        for down in range(s.order):
+            x = x * part + s.z[(s.order - 1 - down) * s.n + i]
+        out[i] = x
 
 
 def near(s: Bdf, t_stop: float) -> int:

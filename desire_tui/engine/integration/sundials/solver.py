@@ -55,11 +55,15 @@ class Counts:
 class Solver:
     """CVODE for `n` states at `states` (an address: the solution is written there, nothing is copied).
 
+    States inside the last step go to `between`.
+
     `rule` is a multistep one. Start it with `restart`, then call `step` again and again, or let
     native code call `CVode` with `memory` and `vector`.
     """
 
-    def __init__(self, rule: int, n: int, states: int, callbacks: Callbacks, linear: Linear) -> None:
+    def __init__(
+        self, rule: int, n: int, states: int, callbacks: Callbacks, linear: Linear, between: int = 0
+    ) -> None:
         is_adams = rule_numbered(rule).solver == "Adams"
         self.n = n
         self._library = library = libraries().cvode
@@ -68,8 +72,9 @@ class Solver:
         core.SUNContext_Create(0, ctypes.byref(context))
         core.SUNContext_ClearErrHandlers(context)  # they would write to the terminal; flags say enough
         self.vector: int = library.N_VMake_Serial(n, states, context)
+        self.between: int = library.N_VMake_Serial(n, between or states, context)
         self.memory: int = library.CVodeCreate(ADAMS if is_adams else BDF, context)
-        parts = _Parts(core, library, context, self.memory, self.vector)
+        parts = _Parts(core, library, context, self.memory, (self.vector, self.between))
         self._free = weakref.finalize(self, parts.free)
         self._set("CVodeInit", callbacks.rhs, 0.0, self.vector)
         self._set("CVodeSetUserData", callbacks.user)
@@ -106,6 +111,10 @@ class Solver:
         reached = self._reached
         flag = self._library.CVode(self.memory, t_stop, self.vector, ctypes.byref(reached), ONE_STEP)
         return flag, reached.value
+
+    def interpolate(self, t: float) -> None:
+        """Write the states at a time inside the last step to `between`."""
+        self._set("CVodeGetDky", t, 0, self.between)
 
     @property
     def last_step(self) -> float:
@@ -154,10 +163,15 @@ class _Parts:
     """What must be given back, in order; keeps no reference to the solver, which can thus be collected."""
 
     def __init__(
-        self, core: ctypes.CDLL, library: ctypes.CDLL, context: ctypes.c_void_p, memory: int, vector: int
+        self,
+        core: ctypes.CDLL,
+        library: ctypes.CDLL,
+        context: ctypes.c_void_p,
+        memory: int,
+        vectors: tuple[int, ...],
     ) -> None:
         self._core, self._library, self._context = core, library, context
-        self._memory, self._vector = memory, vector
+        self._memory, self._vectors = memory, vectors
         self.attached: Attached | None = None
 
     def free(self) -> None:
@@ -165,5 +179,6 @@ class _Parts:
         self._library.CVodeFree(ctypes.byref(memory))
         if self.attached is not None:
             self.attached.free()
-        self._library.N_VDestroy_Serial(self._vector)
+        for vector in self._vectors:
+            self._library.N_VDestroy_Serial(vector)
         self._core.SUNContext_Free(ctypes.byref(self._context))

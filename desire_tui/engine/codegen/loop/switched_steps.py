@@ -1,0 +1,68 @@
+"""Variable steps of a model that switches: they end where it does (`integration.switching`)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.loop.variable_steps import VariableStep
+from desire_tui.engine.integration.switching.memory import CHATTERS
+from desire_tui.engine.runtime.run_memory import Ended, Phase
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.loop.frame import LoopFrame
+
+
+def write_departure(driver: LoopFrame) -> None:
+    """Write what comes between a communication point and its first step: a switch of t may be just there."""
+    text = driver.text
+    text.begin("depart")
+    driver.storage.leave()
+    bits = text.op(f"call i32 {driver.context.load('depart')}(ptr {driver.context.load('watch')})")
+    driver.storage.refresh()
+    text.branch(text.op(f"icmp eq i32 {bits}, 0"), "renew", "departed")
+    text.begin("departed")
+    driver.run_pass("derivative", 1)
+    text.branch(text.op(f"icmp sge i32 {bits}, {CHATTERS}"), "chatters", "step")
+    text.begin("chatters")
+    driver.leave(Ended.CHATTERS, Phase.ENDED)
+
+
+class SwitchedStep(VariableStep):
+    """Writes a step that ends on the next switch of t, and is cut where a mode switches."""
+
+    def _stop(self, here: str) -> str:
+        context, text = self.driver.context, self.text
+        self.storage.leave()
+        t_next = self.driver.get("t_next")
+        arguments = f"ptr {context.load('watch')}, double {here}, double {t_next}"
+        self.driver.put("t_stop", text.op(f"call double {context.load('limit')}({arguments})"))
+        return self.driver.get("t_stop")
+
+    def _landing(self) -> str:
+        return self.driver.get("t_stop")
+
+    def _stage_time(self, c: float, t: str) -> str:
+        """No stage may see what is behind the switch."""
+        if c != 1.0:
+            return t
+        return self.lanes.choose(self.driver.get("lands"), self.driver.get("t_stop"), t)
+
+    def _end(self, lands: str) -> None:
+        text, driver, storage = self.text, self.driver, self.storage
+        context = driver.context
+        storage.leave()
+        storage.keep_start()
+        storage.keep_first_stage()
+        here, there, t_next = driver.get("t_here"), storage.load(T), driver.get("t_next")
+        arguments = f"ptr {context.load('watch')}, double {here}, double {there}, double {t_next}"
+        bits = text.op(f"call i32 {context.load('follow')}({arguments})")
+        at_point = text.op(f"and i1 {lands}, {self.lanes.compare('oeq', driver.get('t_stop'), t_next)}")
+        driver.put("lands", at_point)
+        text.branch(text.op(f"icmp slt i32 {bits}, 0"), "followed", "switched")
+        text.begin("switched")
+        storage.refresh()
+        driver.put("lands", self.lanes.compare("oge", storage.load(T), t_next))
+        text.branch(text.op(f"icmp sge i32 {bits}, {CHATTERS}"), "chatters", "followed")
+        text.begin("followed")
+        driver.arrived(driver.get("lands"), check_every=1)

@@ -1,0 +1,1 @@
+"""`integration.switching` as native code."""

@@ -1,0 +1,59 @@
+"""What watching a run's switches needs to know: one C structure, filled by `setup`."""
+
+from __future__ import annotations
+
+import ctypes
+
+_ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
+_REALS, _INTS = ctypes.POINTER(_REAL), ctypes.POINTER(_INT)
+
+Compute = ctypes.CFUNCTYPE(_INT, _ADDRESS, _ADDRESS)
+"""f(memory, derivatives): a pass over the values; its result is not looked at."""
+Place = ctypes.CFUNCTYPE(_INT, _ADDRESS, _REAL)
+"""f(owner, t): put t and the states that the step has there into the values."""
+
+JUMPED, CHATTERS = 1, 2
+"""What `settle` and `depart` report, as bits: derivatives or states jumped; the run must end."""
+
+
+class Watch(ctypes.Structure):
+    """A model's switches in a run.
+
+    Modes: numbers that are constant while a step lasts. `frozen` are those in force, `live` what `modes`
+    computes from t and the states in the values; both stand in a row there.
+
+    Switches of t: a program (see `program`) over registers `low` and `high`.
+    """
+
+    _fields_ = (
+        ("values", _REALS),  # slot 0
+        ("memory", _ADDRESS),  # the RunMemory, handed to the model's functions
+        ("modes", Compute),
+        ("derivative", Compute),
+        ("place", Place),
+        ("owner", _ADDRESS),  # what `place` is called with
+        ("count", _INT),  # of modes
+        ("frozen", _INT), ("live", _INT),  # first slots
+        ("rising", _INTS),  # of each mode: 1 where only 0 → 1 counts (`term`, `event`)
+        ("switched", _INT),  # the mode that switched last; -1 - k: switch of t number k
+        # states, and the step's polynomial for rules that have none of their own
+        ("n", _INT),
+        ("range_count", _INT), ("ranges", _INTS),  # (slot, first state, count)
+        ("x0", _REALS), ("f0", _REALS), ("x1", _REALS), ("f1", _REALS),
+        ("f1_address", _ADDRESS),
+        ("t0", _REAL), ("h", _REAL),
+        ("is_cubic", _INT),  # 0: f1 is not known yet
+        # switches of t
+        ("instructions", _INTS), ("instruction_count", _INT),
+        ("low", _REALS), ("high", _REALS),
+        ("tables", _INTS),  # (slot, number of breakpoints)
+        ("before", _REALS), ("behind", _REALS),  # what each instruction's switch is at two times
+        ("inputs", _INTS), ("input_registers", _INTS), ("input_count", _INT),  # slots → registers
+        ("clear_to", _REAL),  # nothing switches up to here
+        ("found", _INT),  # whether something switches between `last` and `next`, neighbouring numbers
+        ("last", _REAL), ("next", _REAL),
+        ("is_jump", _INT), ("culprit", _INT),  # the instruction
+        ("t_end", _REAL),
+        # chattering
+        ("switches", _INT), ("switches_since", _REAL), ("span", _REAL),
+    )  # fmt: skip

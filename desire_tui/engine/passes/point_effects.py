@@ -1,0 +1,64 @@
+"""What code at communication points and steps' starts does to what derivatives are computed from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered.effects import reads, role, writes
+from desire_tui.engine.lowered.statements import Terminate
+from desire_tui.engine.lowered.walk import simple_actions, walk_actions
+from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice
+from desire_tui.engine.passes.slot_set import SlotSet
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from desire_tui.engine.lowered.effects import Piece
+    from desire_tui.engine.lowered.segment import Segment
+
+_LONGEST = 64
+"""Longer arrays are not looked at for changes."""
+
+
+def changed_inputs(segment: Segment) -> list[int]:
+    """Return the slots of what points and steps set and derivative passes read: inputs that may jump.
+
+    States are not among them.
+    """
+    states = _states(segment)
+    found: dict[int, None] = {}
+    for slot, count in _set_outside(segment):
+        if count <= _LONGEST:
+            found |= dict.fromkeys(s for s in range(slot, slot + count) if not states.overlaps(s, 1))
+    return list(found)
+
+
+def steps_are_free(segment: Segment) -> bool:
+    """Whether steps need not end on communication points: nothing there moves what derivatives read.
+
+    `term` acts at steps too, but steps end where it fires.
+    """
+    for action in simple_actions(step_slice(segment)):
+        if role(action) == "effect" and (not isinstance(action, Terminate) or action.fault is not None):
+            return False
+    return not any(True for _ in _set_outside(segment))
+
+
+def _set_outside(segment: Segment) -> Iterator[Piece]:
+    """Yield what derivative passes read, and states, that only points and steps set."""
+    derivative = derivative_slice(segment)
+    own = {id(action) for action in simple_actions(derivative)}
+    read = _states(segment)
+    for action in walk_actions(derivative):
+        for piece in reads(action):
+            read.add(*piece)
+    for simple in simple_actions(full_pass(segment)):
+        if id(simple) not in own:
+            yield from (piece for piece in writes(simple) if read.overlaps(*piece))
+
+
+def _states(segment: Segment) -> SlotSet:
+    found = SlotSet()
+    for given in segment.states:
+        found.add(given.slot, given.count)
+    return found

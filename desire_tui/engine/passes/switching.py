@@ -1,0 +1,329 @@
+"""Where a segment's derivatives switch, for rules that control their steps.
+
+A jump whose argument depends on states becomes a *mode*: the derivative pass reads a number that stays what
+it is while a step lasts (the derivatives are smooth there), and a pass of its own computes what it would be
+now. A jump or kink whose argument depends on t alone is a *clock*: it stays as it is, and steps end where
+it switches. `term` is a mode that only has to be located. Kinks by states are left to error control.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered.effects import count_draws, expressions, role, writes
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2, Vec
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetMat, SetVec, Terminate
+from desire_tui.engine.lowered.switching import JUMPS, KINKS, Mode, Switching, has_bounds
+from desire_tui.engine.lowered.walk import simple_actions, walk_values
+from desire_tui.engine.passes.dead_code import without_dead_code
+from desire_tui.engine.passes.dependence import Dependence, Dependences
+from desire_tui.engine.passes.slices import derivative_slice
+from desire_tui.engine.passes.slot_set import SlotSet
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action, SimpleAction, Where
+
+_WORDS = (*sorted(JUMPS | KINKS), "func1", "term", "if", "<", ">")
+"""A program whose text holds none of these switches nowhere: long ones need not be searched further."""
+
+
+def switching(segment: Segment, allocate: Callable[[int], int]) -> tuple[Segment, Switching | None]:
+    """Return the segment that is integrated between switchings, and what switches; None: nothing does.
+
+    `allocate(count)` gives the first of `count` slots.
+    """
+    text = segment.source.text
+    if not any(word in text for word in _WORDS):
+        return segment, None
+    finder = _Finder(segment)
+    room = finder.room()
+    if room == 0 and not finder.clocks:
+        return segment, None
+    slots = allocate(2 * max(room, 1))
+    rewriter = _Rewriter(finder, slots, slots + room)
+    body = rewriter.body(segment.body)
+    return replace(segment, body=body), Switching(
+        tuple(rewriter.modes), slots, slots + room, rewriter.live_pass(), tuple(finder.clocks),
+        finder.dependences.definitions,
+    )  # fmt: skip
+
+
+class _Finder:
+    """What switches: jumps by states among the statements of derivative passes, `term`, clocks."""
+
+    def __init__(self, segment: Segment) -> None:
+        self.segment = segment
+        actions = derivative_slice(segment)
+        self.dependences = Dependences(actions, segment.states, has_bounds)
+        self.derivative = {id(action) for action in simple_actions(actions)}
+        self.clocks: list[tuple[Value, Where]] = []
+        self.states = SlotSet()
+        for given in segment.states:
+            self.states.add(given.slot, given.count)
+
+    def room(self) -> int:
+        """Count the modes, and collect the clocks."""
+        return self._room(self.segment.body, in_step=False)
+
+    def _room(self, actions: Iterable[Action], *, in_step: bool) -> int:
+        found = 0
+        for action in actions:
+            if isinstance(action, Guard):
+                if action.kind not in {"if", "step"}:
+                    continue
+                inner = in_step or action.kind == "step"
+                if self.is_watched(action, in_step=in_step):
+                    assert action.condition is not None
+                    found += self._condition(action.condition, action.where)
+                found += self._room(action.body, in_step=inner) + self._room(action.orelse, in_step=inner)
+            elif isinstance(action, Terminate):
+                if is_located(action):
+                    found += 1
+                    self._condition(excess(action), action.where)
+            elif id(action) in self.derivative and not in_step:
+                for node in walk_values(*expressions(action)):
+                    found += self._node(node, action)
+        return found
+
+    def is_watched(self, guard: Guard, *, in_step: bool) -> bool:
+        """Whether an `if` decides about what derivatives read."""
+        return (
+            guard.kind == "if"
+            and not in_step
+            and guard.condition is not None
+            and not count_draws(guard.condition)
+            and any(id(inner) in self.derivative for inner in simple_actions((guard,)))
+        )
+
+    def _condition(self, condition: Value, where: Where) -> int:
+        depends = self.dependences.of(condition)
+        if depends is Dependence.TIME:
+            self.clocks.append((Op("swtch", (condition,)), where))
+        return int(depends is Dependence.STATES)
+
+    def _node(self, node: Value, action: SimpleAction) -> int:
+        if isinstance(node, Table1):
+            if self.dependences.of(node.x) is Dependence.TIME:
+                self.clocks.append((node, action.where))
+            return 0
+        if not isinstance(node, Op):
+            return 0
+        if node.name in JUMPS and self.is_mode(node):
+            return extent(action, node)
+        if node.name in JUMPS | KINKS and self.dependences.of(*switched(node)) is Dependence.TIME:
+            self.clocks.append((node, action.where))
+        return 0
+
+    def is_mode(self, node: Op) -> bool:
+        """Whether a jump depends on states (and on nothing drawn)."""
+        argument = node.args[0]
+        return self.dependences.of(argument) is Dependence.STATES and not count_draws(argument)
+
+
+def switched(node: Op) -> tuple[Value, ...]:
+    """Return the arguments that decide."""
+    return node.args[:1] if node.name == "comp" else node.args
+
+
+def is_located(action: Terminate) -> bool:
+    """Whether the place where a `term` fires can be found."""
+    return action.fault is None and not count_draws(action.value)
+
+
+def excess(action: Terminate) -> Value:
+    """Return what is above 0 where a `term` ends the run."""
+    return action.value if action.level is None else Op("sub", (action.value, Load(action.level)))
+
+
+def extent(action: SimpleAction, node: Value) -> int:
+    """Return the number of elements of a node in a statement: 1 where nothing in it is an array."""
+    if all(isinstance(part, Const | Load | Op | Table1 | Table2) for part in walk_values(node)):
+        return 1
+    match action:
+        case SetVec() | DerivVec():
+            return action.count
+        case SetMat():
+            return action.rows * action.cols
+        case _:
+            return 1
+
+
+class _Rewriter:
+    """Writes the segment's body over frozen modes, and the pass that computes them."""
+
+    def __init__(self, finder: _Finder, frozen: int, live: int) -> None:
+        self._finder = finder
+        self._frozen, self._live = frozen, live
+        self._used = 0
+        self.modes: list[Mode] = []
+        self._pass: list[Action] = []
+        self._kept: set[int] = set()
+        self._known: dict[int, tuple[Value, Value, Value]] = {}
+
+    def live_pass(self) -> tuple[Action, ...]:
+        """Return what computes the modes as they are now."""
+        return without_dead_code(tuple(self._pass), frozenset(self._kept))
+
+    def body(self, actions: Iterable[Action]) -> tuple[Action, ...]:
+        """Rewrite a segment's statements."""
+        return self._actions(actions, self._pass, in_step=False)
+
+    def _actions(self, actions: Iterable[Action], live: list[Action], *, in_step: bool) -> tuple[Action, ...]:
+        made: list[Action] = []
+        for action in actions:
+            self._known.clear()  # an expression means something only within its statement
+            if isinstance(action, Guard):
+                made.append(self._guard(action, live, in_step=in_step))
+            elif isinstance(action, Terminate):
+                made.append(action)
+                if is_located(action):
+                    self._mode(Op("swtch", (self._value(excess(action), action, live)[1],)), 1, "term",
+                               action.where, live, rising=True)  # fmt: skip
+            elif id(action) in self._finder.derivative and not in_step:
+                made.append(self._statement(action, live))
+            else:
+                made.append(action)
+                if not in_step:
+                    self._define(action, live)
+        return tuple(made)
+
+    def _guard(self, guard: Guard, live: list[Action], *, in_step: bool) -> Guard:
+        if guard.kind not in {"if", "step"}:
+            return guard
+        inner = in_step or guard.kind == "step"
+        if guard.kind == "step":
+            body = self._actions(guard.body, live, in_step=True)
+            return Guard(guard.kind, body, guard.where, guard.condition, guard.orelse, guard.every)
+        assert guard.condition is not None
+        frozen, now = guard.condition, guard.condition
+        if self._finder.is_watched(guard, in_step=in_step):
+            frozen, now = self._value(guard.condition, None, live, guard.where)
+            if self._finder.dependences.of(guard.condition) is Dependence.STATES:
+                slot = self._mode(Op("swtch", (now,)), 1, "if", guard.where, live)
+                frozen, now = Load(self._frozen + slot), Load(self._live + slot)
+        then: list[Action] = []
+        other: list[Action] = []
+        body = self._actions(guard.body, then, in_step=inner)
+        orelse = self._actions(guard.orelse, other, in_step=inner)
+        live.append(Guard("if", tuple(then), guard.where, now, tuple(other), guard.every))
+        return Guard("if", body, guard.where, frozen, orelse, guard.every)
+
+    def _define(self, action: SimpleAction, live: list[Action]) -> None:
+        """Let the live pass compute a definition; states are not its to set."""
+        if role(action) == "definition" and not any(
+            self._finder.states.overlaps(*piece) for piece in writes(action)
+        ):
+            live.append(action)
+
+    def _mode(
+        self,
+        value: Value,
+        count: int,
+        name: str,
+        where: Where,
+        live: list[Action],
+        *,
+        rising: bool = False,
+        action: SimpleAction | None = None,
+    ) -> int:
+        """Add a mode; return its number."""
+        number, self._used = self._used, self._used + count
+        self.modes.append(Mode(number, count, name, where, rising))
+        slot = self._live + number
+        made: Action
+        if count == 1:
+            made = Set(slot, value, where)
+        elif isinstance(action, SetMat):
+            made = SetMat(slot, action.rows, action.cols, value, where)
+        else:
+            made = SetVec(slot, count, value, where)
+        live.append(made)
+        self._kept.add(id(made))
+        return number
+
+    def _statement(self, action: SimpleAction, live: list[Action]) -> SimpleAction:
+        def both(value: Value) -> tuple[Value, Value]:
+            return self._value(value, action, live)
+
+        if not any(
+            isinstance(node, Op) and node.name in JUMPS and self._finder.is_mode(node)
+            for node in walk_values(*expressions(action))
+        ):
+            self._define(action, live)
+            return action
+        match action:
+            case Set():
+                frozen, now = both(action.value)
+                self._define(Set(action.slot, now, action.where, action.persistent), live)
+                return Set(action.slot, frozen, action.where, action.persistent)
+            case Deriv():
+                return Deriv(action.state, both(action.value)[0], action.where)
+            case DerivVec():
+                return DerivVec(action.state, action.count, both(action.value)[0], action.where)
+            case SetVec():
+                frozen, now = both(action.value)
+                first, second = (
+                    SetVec(action.slot, action.count, value, action.where, action.mode, action.mask_slot,
+                           action.persistent)
+                    for value in (frozen, now)
+                )  # fmt: skip
+                self._define(second, live)
+                return first
+            case SetMat():
+                frozen, now = both(action.value)
+                first_matrix, second_matrix = (
+                    SetMat(action.slot, action.rows, action.cols, value, action.where, action.mode,
+                           action.lower, action.upper, action.mask_slot, action.persistent)
+                    for value in (frozen, now)
+                )  # fmt: skip
+                self._define(second_matrix, live)
+                return first_matrix
+            case _:
+                self._define(action, live)
+                return action
+
+    def _value(
+        self, value: Value, action: SimpleAction | None, live: list[Action], where: Where | None = None
+    ) -> tuple[Value, Value]:
+        """Return an expression over frozen and over live modes; its own modes are added."""
+        known = self._known.get(id(value))
+        if known is None:
+            place = where if where is not None else action.where if action is not None else None
+            assert place is not None
+            known = self._known[id(value)] = (value, *self._write(value, action, live, place))
+        return known[1:]
+
+    def _write(
+        self, value: Value, action: SimpleAction | None, live: list[Action], where: Where
+    ) -> tuple[Value, Value]:
+        if isinstance(value, Table1):
+            frozen, now = self._value(value.x, action, live, where)
+            if frozen is value.x:
+                return value, value
+            return Table1(frozen, value.slot, value.count), Table1(now, value.slot, value.count)
+        if not isinstance(value, Op):
+            return value, value
+        pairs = [self._value(argument, action, live, where) for argument in value.args]
+        frozen_args, live_args = (tuple(pair[i] for pair in pairs) for i in (0, 1))
+        same = all(pair[0] is argument for pair, argument in zip(pairs, value.args, strict=True))
+        if value.name not in JUMPS or not self._finder.is_mode(value):
+            return (value, value) if same else (Op(value.name, frozen_args), Op(value.name, live_args))
+        count = 1 if action is None else extent(action, value)
+        name = "swtch" if value.name == "comp" else value.name
+        number = self._mode(Op(name, live_args[:1]), count, value.name, where, live, action=action)
+        inside, outside = (
+            Load(base + number) if count == 1 else Vec(base + number, count)
+            for base in (self._frozen, self._live)
+        )
+        if value.name != "comp":
+            return inside, outside
+        half = Const(0.5)
+        return (
+            Op("comp", (Op("sub", (inside, half)), *frozen_args[1:])),
+            Op("comp", (Op("sub", (outside, half)), *live_args[1:])),
+        )

@@ -1,0 +1,111 @@
+"""Switches in the reference back end: `integration.switching` as Python, its passes as closures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from desire_tui.engine.integration.switching import watch as watching
+from desire_tui.engine.integration.switching.memory import Compute, Place
+from desire_tui.engine.integration.switching.setup import Watcher
+from desire_tui.engine.passes.slices import derivative_slice
+from desire_tui.engine.reference.statements import StatementClosures
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Where
+    from desire_tui.engine.lowered.switching import Switching
+    from desire_tui.engine.runtime.run_memory import RunMemory
+    from desire_tui.engine.values import Values
+
+
+class Switches:
+    """What the run loops ask; `state_at` puts t and the states inside a step into the values."""
+
+    def __init__(
+        self,
+        switching: Switching,
+        segment: Segment,
+        values: Values,
+        state_at: Callable[[float], None] | None = None,
+    ) -> None:
+        self._closures = closures = StatementClosures(values, segment.order)
+        modes, derivative = closures.compile(switching.live_pass), closures.compile(derivative_slice(segment))
+        ranges = [(s.slot, s.first, s.count) for s in segment.states]
+        self._watcher = watcher = Watcher(switching, values, ranges)
+        self._watch = watcher.watch
+        self._order = segment.order
+        self._failure: BaseException | None = None
+
+        def place(t: float) -> None:
+            if state_at is None:
+                watching.place_on_step(self._watch, t)
+            else:
+                state_at(t)
+
+        def slopes() -> None:
+            derivative()
+            self._numbers("f1")[:] = closures.derivatives
+
+        watcher.connect(
+            watching.begin,
+            Compute(lambda *_: self._do(modes)),
+            Compute(lambda *_: self._do(slopes)),
+            Place(lambda _, t: self._do(lambda: place(t))),
+            0,
+        )
+
+    def begin(self, memory: RunMemory) -> None:
+        """Prepare a run."""
+        self._closures.memory = memory
+        with np.errstate(all="ignore"):
+            self._watcher.begin(memory)
+        self._check()
+
+    def limit(self, t: float, wish: float) -> float:
+        """See `watch.limit`."""
+        return watching.limit(self._watch, t, wish)
+
+    def look(self, t0: float, t1: float) -> int:
+        """See `watch.look`."""
+        return self._checked(watching.look(self._watch, t0, t1))
+
+    def settle(self, t_next: float) -> int:
+        """See `watch.settle`."""
+        return self._checked(watching.settle(self._watch, t_next))
+
+    def depart(self) -> int:
+        """See `watch.depart`."""
+        return self._checked(watching.depart(self._watch))
+
+    def follow(self, t0: float, t1: float, t_next: float, x0: Any, f0: Any) -> int:
+        """See `watch.follow`; `x0` and `f0` are states and derivatives at the step's start."""
+        self._numbers("x0")[:] = x0
+        self._numbers("f0")[:] = f0
+        return self._checked(watching.follow(self._watch, t0, t1, t_next))
+
+    def culprit(self) -> tuple[str, Where]:
+        """Return the name and the place of what switched last."""
+        return self._watcher.culprit()
+
+    def _numbers(self, name: str) -> Any:
+        return np.ctypeslib.as_array(getattr(self._watch, name), (self._order,))
+
+    def _do(self, action: Callable[[], object]) -> int:
+        try:
+            action()
+        except BaseException as failure:  # noqa: BLE001 - ctypes would print it and go on
+            self._failure = failure
+        return 0
+
+    def _checked(self, result: int) -> int:
+        self._check()
+        return result
+
+    def _check(self) -> None:
+        if self._failure is not None:
+            failure, self._failure = self._failure, None
+            raise failure
