@@ -14,6 +14,9 @@ from tests.programs.runner import faults_of_program
 ROOT = Path(__file__).parents[2]
 PROGRAMS = sorted([*ROOT.glob("examples/**/*.src"), *ROOT.glob("tests/programs/**/*.src")])
 
+UNDERSTOOD = {"derivative-spelling"}
+"""What other tools write and programs may hold: a check says how the book writes it."""
+
 
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_program(path, tmp_path):
@@ -33,4 +36,5 @@ def test_program_that_works_has_no_problems(path):
     if path.parent.name == "unreached":
         assert Session().check(Source(text, path.name)), "what is not reached is reported all the same"
     elif read_expectations(text).error is None:
-        assert Session().check(Source(text, path.name)) == ()
+        found = Session().check(Source(text, path.name))
+        assert [problem for problem in found if problem.key not in UNDERSTOOD] == []
