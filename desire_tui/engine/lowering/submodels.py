@@ -63,6 +63,8 @@ def _invoke(
         key = "undefined-submodel"
         if name in context.functions or name in LIBRARY:
             key = "function-as-statement"
+        elif name in ("event", "every"):
+            key = "moment-without-blank"
         elif isinstance(node, Bare) and isinstance(node.value, Element):
             key = "expression-alone"
         context.report(key, node, name=name, close=closest(name, submodels))

@@ -109,6 +109,11 @@ MESSAGES: dict[str, Wording] = {
     "undefined-submodel": Wording(
         201, "there is no submodel '{name}'", "declare it in the script: SUBMODEL {name}(…) … end"
     ),
+    "moment-without-blank": Wording(
+        201,
+        "there is no submodel '{name}'",
+        "write a blank behind the word if you mean the statement: {name} (…)",
+    ),
     "submodel-arguments": Wording(
         56, "submodel '{name}' has {wanted} argument(s), not {given}", "give each dummy its argument"
     ),
