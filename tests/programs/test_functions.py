@@ -44,17 +44,37 @@ FORMULAS = {
     "SIGMOID": (lambda x: 1 - 1 / (1 + x * x) if x > 0 else 0.0, ANY),
     "round": (lambda x: math.copysign(math.floor(abs(x) + 0.5), x), (*ANY, 3.5, -3.5, 1e9 + 0.5)),
     "trnc": (lambda x: math.copysign(math.floor(abs(x)), x), (*ANY, 3.99, -3.99)),
+    "floor": (lambda x: x - x % 1.0, (*ANY, 3.99, -3.99)),
+    "ceil": (lambda x: x + (-x) % 1.0, (*ANY, 3.01, -3.01)),
+    "mod": (lambda x: x % -0.75, ANY),
+    "heav": (lambda x: float(x > 0), ANY),
     "recip": (lambda x: x**-1, POSITIVE),
     "atan2": (lambda y: cmath.phase(complex(-0.5, y)), ANY),
     "comp": (lambda x: 7.0 if x > 0 else 3.0, ANY),
     "max": (lambda x: (x + 0.5 + abs(x - 0.5)) / 2, ANY),
     "min": (lambda x: (x + 0.5 - abs(x - 0.5)) / 2, ANY),
 }
-CALLS = {"atan2": "atan2(x, -0.5)", "comp": "comp(x, 3, 7)", "max": "max(x, 0.5)", "min": "min(x, 0.5)"}
+CALLS = {
+    "mod": "mod(x, -0.75)", "atan2": "atan2(x, -0.5)", "comp": "comp(x, 3, 7)", "max": "max(x, 0.5)", "min": "min(x, 0.5)",
+}  # fmt: skip
 """How a function of more than one argument is called with the others fixed."""
 
-ELSEWHERE = {"ran", "gauss", "tim", "func1", "func2", "Re", "Im", "Cabs", "Arg", "Conjug", "expj"}
-"""Functions with programs of their own (random_order, table_forms, complex_arrays …)."""
+ELSEWHERE = {
+    "ran",
+    "gauss",
+    "white",
+    "delay",
+    "tim",
+    "func1",
+    "func2",
+    "Re",
+    "Im",
+    "Cabs",
+    "Arg",
+    "Conjug",
+    "expj",
+}
+"""Functions with programs of their own (random_order, white_noise, table_forms, complex_arrays …)."""
 
 PROGRAM = """
 n = {n}
