@@ -18,7 +18,7 @@ from desire_tui.actions.graph_actions import GraphActions
 from desire_tui.actions.help_actions import HelpActions
 from desire_tui.actions.run_actions import RunActions
 from desire_tui.actions.view_actions import ViewActions
-from desire_tui.common import config, paths, themes
+from desire_tui.common import config, paths, plain_characters
 from desire_tui.common.key_names import key_names
 from desire_tui.common.reach import Reach
 from desire_tui.desktop import alt_keys, visible_screen
@@ -85,12 +85,10 @@ class DesireApp(LastingApp):
 
     def __init__(self, files: Sequence[Path] = (), *, permissions: Permissions | None = None) -> None:
         alt_keys.teach()
-        visible_screen.teach()
         super().__init__(permissions)
+        visible_screen.teach(plain=self.settings.plain_characters or plain_characters.are_needed())
         self.files = [Path(file) for file in files]
-        for theme in themes.THEMES:
-            self.register_theme(theme)
-        self.theme = self.settings.theme if self.settings.theme in self.available_themes else "dark"
+        self.begin_with_theme(self.settings.theme)
         self.message_handlers = MessageHandlers(self)
         self.frame_pacing = FramePacing(self)
         self.command_line = CommandLine(self)

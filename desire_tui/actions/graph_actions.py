@@ -211,7 +211,7 @@ class GraphActions(Controller):
         except OSError as error:
             app.report_error(f"cannot write {path}: {error.strerror}", code=106)
             return
-        app.notify(f"Saved {path}", markup=False, timeout=3)
+        app.file_written(path)
 
     def chart(self, argument: str = "") -> None:
         """Plot a quantity: the named one, the one chosen among the quantities, or the editor's word."""

@@ -26,11 +26,14 @@ class HelpActions(Controller):
         app.open_side("help")
         app.help_pane.show_topic(argument)
 
-    def keys(self, argument: str = "") -> None:
-        """Show all keys."""
+    async def keys(self, argument: str = "") -> None:
+        """Show all keys on a sheet; carry out what is chosen there."""
         del argument
-        self.app.open_side("help")
-        self.app.help_pane.show_topic("keys")
+        from desire_tui.panes.key_sheet import KeySheet, entries, keys_of
+
+        rows = entries(self.app.settings.keys, keys_of(self.app.graph.BINDINGS))
+        if command_id := await self.app.push_screen_wait(KeySheet(rows)):
+            self.app.do(command_id)
 
     def tour(self, argument: str = "") -> None:
         """Begin the tour, or go to its next step."""

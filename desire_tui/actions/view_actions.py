@@ -9,9 +9,13 @@ from textual.widgets import Input, TextArea
 
 from desire_tui.actions import Controller
 from desire_tui.common import themes
+from desire_tui.panes.side_pane import NAMES as SIDE_PAGES
 
 if TYPE_CHECKING:
     from textual.widget import Widget
+
+COLUMNS_STEP = 2
+"""Columns that a pane gets at once."""
 
 
 class ViewActions(Controller):
@@ -61,6 +65,64 @@ class ViewActions(Controller):
         del argument
         self.app.toggle_maximized(None)
 
+    def _grow(self, columns: int, rows: int) -> None:
+        screen = self.app.main_screen
+        if not screen.splits.grow(screen.pane_of(self.app.focused), columns, rows):
+            self.app.notify("No other pane stands there.", timeout=2)
+
+    def wider(self, argument: str = "") -> None:
+        """Make the focused pane wider."""
+        del argument
+        self._grow(COLUMNS_STEP, 0)
+
+    def narrower(self, argument: str = "") -> None:
+        """Make the focused pane narrower."""
+        del argument
+        self._grow(-COLUMNS_STEP, 0)
+
+    def higher(self, argument: str = "") -> None:
+        """Make the focused pane higher."""
+        del argument
+        self._grow(0, 1)
+
+    def lower(self, argument: str = "") -> None:
+        """Make the focused pane lower."""
+        del argument
+        self._grow(0, -1)
+
+    def even(self, argument: str = "") -> None:
+        """Let the panes have the places they have by themselves."""
+        del argument
+        self.app.main_screen.splits.reset()
+
+    def graph(self, argument: str = "") -> None:
+        """Move the focus to the graph."""
+        del argument
+        self.app.move_focus(self.app.graph)
+
+    async def jump(self, argument: str = "") -> None:
+        """Label panes and tabs, and go where the next letter says."""
+        del argument
+        from desire_tui.actions.jump import JumpScreen, targets
+
+        target = await self.app.push_screen_wait(JumpScreen(list(targets(self.app))))
+        if target is not None:
+            self.app.do(target.command_id, target.argument)
+
+    def side(self, argument: str = "") -> None:
+        """Show a page of the side pane and move there."""
+        for name in SIDE_PAGES:
+            if name == argument:
+                self.app.open_side(name)
+                if name == "help":
+                    self.app.help_pane.show_topic("")
+
+    def tab(self, argument: str = "") -> None:
+        """Show the tab of a number, as the buffers are numbered."""
+        area = self.app.editor.find(int(argument)) if argument else None
+        if area is not None:
+            self.app.editor.show(area, focus=True)
+
     def quantities(self, argument: str = "") -> None:
         """Show the quantities; pressed again, hide them."""
         del argument
@@ -84,7 +146,7 @@ class ViewActions(Controller):
             return
         names = themes.NAMES
         at = names.index(app.theme) if app.theme in names else -1
-        app.theme = argument or names[(at + 1) % len(names)]
+        app.choose_theme(argument or names[(at + 1) % len(names)])
         app.notify(f"Theme: {app.theme}", timeout=1.5, markup=False)
 
     def search_output(self, argument: str = "") -> None:

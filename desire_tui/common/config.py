@@ -31,6 +31,8 @@ class Config:
     """Open the tabs of the last session when no file is named."""
     checkpoint_seconds: int = 1
     """How often unsaved work is written to the recovery file, 1 … 600."""
+    plain_characters: bool = False
+    """Whether blocks are drawn for braille, straight corners for round ones, as on the Linux console."""
     keys: dict[str, str] = field(default_factory=dict)
     """Action → keys."""
 
@@ -42,6 +44,7 @@ ABOUT = {
     "completion_after": "letters after which completions open by themselves; 0: on demand only",
     "restore_session": "open the tabs of the last session when no file is named",
     "checkpoint_seconds": "how often unsaved work goes to the recovery file",
+    "plain_characters": "blocks for braille, for fonts that lack it; the Linux console gets them anyway",
 }
 
 

@@ -6,7 +6,7 @@ _NAMES = {
     "ctrl": "Ctrl", "alt": "Alt", "shift": "Shift", "pagedown": "PgDn", "pageup": "PgUp", "backslash": "\\",
     "underscore": "_", "at": "@", "equals_sign": "=", "plus": "+", "minus": "-", "left": "←", "right": "→",
     "up": "↑", "down": "↓", "space": "Space", "escape": "Esc", "enter": "Enter", "tab": "Tab", "delete":
-    "Del", "slash": "/",
+    "Del", "slash": "/", "full_stop": ".", "comma": ",", "semicolon": ";", "apostrophe": "'",
 }  # fmt: skip
 
 

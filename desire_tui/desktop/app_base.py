@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from typing import IO, TYPE_CHECKING
 
 from textual import events
-from textual.app import App
 
 from desire_tui.common import config, paths
 from desire_tui.common.dialogs import Choice
 from desire_tui.common.reach import Reach
+from desire_tui.desktop import alt_keys
 from desire_tui.desktop.completer import Completer
 from desire_tui.desktop.engine_thread import EngineThread
 from desire_tui.desktop.key_ordering import KeyOrdering
 from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.screen_listener import ScreenListener
+from desire_tui.desktop.themed_app import ThemedApp
 from desire_tui.engine.session.status import State
 from desire_tui.engine.user_folders import make_private
 from desire_tui.engine.visible_text import visible_line
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
     from textual.widget import Widget
 
     from desire_tui.desktop.layout_rules import Pane
+    from desire_tui.desktop.served_driver import ServedWebDriver
     from desire_tui.editor.editor_pane import EditorPane
     from desire_tui.engine.session.permissions import Permissions
     from desire_tui.engine.session.session import Session
@@ -42,7 +45,7 @@ if TYPE_CHECKING:
     from desire_tui.panes.side_pane import Side
 
 
-class AppBase(App[None]):
+class AppBase(ThemedApp):
     """What actions and messages use of the app."""
 
     errors_reported = 0
@@ -88,6 +91,8 @@ class AppBase(App[None]):
             return
         if isinstance(event, events.Key) and event.key.startswith("alt+"):
             event.character = None
+            if event.key == "alt+f" and alt_keys.is_word_right(self.focused):
+                event = events.Key("ctrl+right", None)
         if isinstance(event, events.Key) and isinstance(self.screen, Choice) and not self.screen.takes(event):
             return
         if isinstance(event, events.Key) and not event.is_forwarded and not event.is_printable:
@@ -198,6 +203,8 @@ class AppBase(App[None]):
         """Bring the status bar up to date."""
         self.main_screen.status_bar.status = self.session.status
         self.show_hint()
+        if self.is_web:
+            self._served_driver.tell_unsaved(self.editor.has_unsaved_work)
 
     @property
     def clipboard_hint(self) -> str:
@@ -273,7 +280,23 @@ class AppBase(App[None]):
     def snapshot_written(self, path: Path) -> None:
         """Report where the picture is."""
         self.command.console.add(f"{path}", "notice")
-        self._show_toast(f"Saved {path}", "", "information", 3, markup=False)
+        self.file_written(path)
+
+    def file_written(self, path: Path) -> None:
+        """Say where a file is that was saved for the user; in a browser he gets a copy."""
+        copied = False
+        if self.is_web:
+            with suppress(OSError):  # it stands where it was saved
+                copied = self._served_driver.hand_over(path)
+        copy = " and sent to the browser" if copied else ""
+        self.notify(f"Saved {path}{copy}", timeout=3, markup=False)
+
+    @property
+    def _served_driver(self) -> ServedWebDriver:
+        from desire_tui.desktop.served_driver import ServedWebDriver
+
+        assert isinstance(self._driver, ServedWebDriver)
+        return self._driver
 
     def write_samples(self, file: IO[str], delimiter: str = ",") -> None:
         """Write the last run's samples as a table: t, then every variable that it recorded."""

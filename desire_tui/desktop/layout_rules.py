@@ -18,6 +18,8 @@ TALL_BELOW, TALL_FROM = 72, 30
 """Narrower than the one and at least as high as the other: graph below the editor, not beside it."""
 SIDE_FROM = (120, 40)
 """From this size on the side pane is shown without being asked for."""
+FRAMED_FROM = (100, 28)
+"""From this size on each pane has a frame of its own; below, lines between panes take no row from them."""
 EVERYTHING: frozenset[Pane] = frozenset(("editor", "command", "graph", "side"))
 
 
@@ -28,6 +30,15 @@ class Arrangement:
     panes: frozenset[Pane]
     order: Order = "columns"
     too_small: bool = False
+    framed: bool = False
+    """Whether each pane has a frame."""
+
+    @property
+    def column_split(self) -> Literal["columns", "rows"] | None:
+        """How the columns of editor and graph stand to each other; None where they are not both shown."""
+        if self.order == "one" or "editor" not in self.panes:
+            return None
+        return self.order
 
 
 def arrange(
@@ -51,4 +62,5 @@ def arrange(
     wanted = width >= SIDE_FROM[0] and height >= SIDE_FROM[1] if side is None else side
     panes = EVERYTHING if wanted else EVERYTHING - {"side"}
     tall = width < TALL_BELOW and height >= TALL_FROM
-    return Arrangement(panes, "rows" if tall else "columns")
+    framed = width >= FRAMED_FROM[0] and height >= FRAMED_FROM[1]
+    return Arrangement(panes, "rows" if tall else "columns", framed=framed)

@@ -15,9 +15,11 @@ from textual.message import Message
 from textual.widgets import Label
 
 from desire_tui.commands import BY_ID
+from desire_tui.common.frame_top import FrameTop
 from desire_tui.common.key_names import key_name
 from desire_tui.desktop.deferred_screen import DeferredScreen
 from desire_tui.desktop.layout_rules import SMALLEST, Arrangement, Pane, arrange
+from desire_tui.desktop.splits import Splits
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.graph_pane import GraphPane
@@ -25,8 +27,9 @@ from desire_tui.panes.side_pane import Side, SidePane
 from desire_tui.panes.status_bar import KeyHint, StatusBar
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
+    from textual import events
     from textual.app import ComposeResult
     from textual.widget import Widget
 
@@ -67,22 +70,32 @@ class MainScreen(DeferredScreen):
     MainScreen #left { width: 1fr; }
     MainScreen #right { width: 1fr; }
     MainScreen #editor { height: 2fr; }
-    MainScreen #command { height: 1fr; min-height: 4; border-top: solid $secondary;
+    MainScreen #command { height: 1fr; min-height: 4; border-top: solid $frame;
             border-title-color: $foreground; }
-    MainScreen #command:focus-within { border-top: solid $primary; border-title-color: $accent; }
-    MainScreen #graph { height: 2fr; border-left: solid $secondary; }
-    MainScreen #side { height: 1fr; min-height: 6; border-left: solid $secondary; }
+    MainScreen #command:focus-within { border-top: solid $primary; border-title-color: $accent;
+            border-title-style: bold; }
+    MainScreen #graph { height: 2fr; border-left: solid $frame; border-title-color: $foreground; }
+    MainScreen #graph:focus { border-title-color: $accent; border-title-style: bold; }
+    MainScreen #side { height: 1fr; min-height: 6; border-left: solid $frame; }
+    MainScreen #editor, MainScreen #command { background: $surface; }
     MainScreen.-low #side { height: 2fr; }
 
     MainScreen.-rows #desk { layout: vertical; }
     MainScreen.-rows #left, MainScreen.-rows #right { width: 100%; height: 1fr; }
-    MainScreen.-rows #graph { border-left: none; border-top: solid $secondary; }
+    MainScreen.-rows #graph { border-left: none; border-top: solid $frame; }
     MainScreen.-rows #graph:focus { border-top: solid $primary; }
     MainScreen.-rows #side { border-left: none; }
     MainScreen.-few #left { dock: bottom; height: 34%; min-height: 4; }
     MainScreen.-few #graph, MainScreen.-few #graph:focus { border-top: none; }
     MainScreen.-one #graph, MainScreen.-one #side { border-left: none; min-height: 1; }
     MainScreen.-one #command, MainScreen.-one #command:focus-within { border-top: none; min-height: 1; }
+
+    MainScreen.-framed #command, MainScreen.-framed #graph { border: round $frame; }
+    MainScreen.-framed #command:focus-within, MainScreen.-framed #graph:focus { border: round $primary; }
+    MainScreen.-framed #editor-body, MainScreen.-framed #side-body { border: round $frame; border-top: none; }
+    MainScreen.-framed #editor:focus-within #editor-body, MainScreen.-framed #side:focus-within #side-body {
+            border: round $primary; border-top: none; }
+    MainScreen.-framed #side { border-left: none; }
 
     MainScreen #too-small { layer: cover; width: 100%; height: 100%; display: none;
                       content-align: center middle;
@@ -103,6 +116,7 @@ class MainScreen(DeferredScreen):
         self.editor = EditorPane(completer)
         self.command = CommandPane(history, completer)
         self.graph = GraphPane(graphs)
+        self.graph.border_title = "Graph"
         self.side_pane = SidePane(keys)
         hints = [KeyHint(self._key(command), title, command) for command, title in SHOWN_KEYS.items()]
         self.status_bar = StatusBar(hints)
@@ -110,6 +124,7 @@ class MainScreen(DeferredScreen):
         self._side: bool | None = None
         self._focused_pane: Pane = "command"
         self._arrangement: Arrangement | None = None
+        self.splits = Splits(self)
 
     def compose(self) -> ComposeResult:
         """Lay out the panes."""
@@ -133,6 +148,11 @@ class MainScreen(DeferredScreen):
         self.update_layout()
         self.post_message(self.Ready())
 
+    def _forward_event(self, event: events.Event) -> None:
+        """Pass an event on to the widget it is for; lines between panes are dragged here."""
+        if not self.splits.takes(event):
+            super()._forward_event(event)
+
     # -------------------------------------------------------------------------------------- arrangement
 
     def on_resize(self) -> None:
@@ -142,6 +162,8 @@ class MainScreen(DeferredScreen):
     def on_descendant_focus(self) -> None:
         """Where there is room for one pane only, show the one that has the focus."""
         self._focused_pane = self.pane_of(self.focused)
+        for top in self._frame_tops():
+            top.lit = top in self.query_one(f"#{self._focused_pane}").children
         self.update_layout()
 
     def update_layout(self) -> None:
@@ -155,11 +177,18 @@ class MainScreen(DeferredScreen):
         self.set_class(now.too_small, "-small")
         self.set_class(now.order == "rows", "-rows")
         self.set_class(now.order == "one", "-one")
+        self.set_class(now.framed, "-framed")
+        for top in self._frame_tops():
+            top.framed = now.framed
         self.set_class(now.order == "rows" and "editor" not in now.panes, "-few")
         for name in PANES:
             self.query_one(f"#{name}").display = name in now.panes
         for column in ("#left", "#right"):
             self.query_one(column).display = any(pane.display for pane in self.query_one(column).children)
+        self.splits.lay(now.column_split)
+
+    def _frame_tops(self) -> Iterable[FrameTop]:
+        return self.query("TabStrip, SideTabs").results(FrameTop)
 
     @property
     def shown(self) -> frozenset[Pane]:

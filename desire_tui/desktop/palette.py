@@ -1,61 +1,24 @@
-"""What the command palette finds: titles first, then descriptions, words of the command line and synonyms."""
+"""What the command palette finds: titles first, then descriptions, words of the command line and synonyms.
+
+Themes are listed, too; the one that is marked is tried on the screen.
+"""
 
 from __future__ import annotations
 
-import re
+from typing import TYPE_CHECKING
 
 from textual.command import DiscoveryHit, Hit, Hits, Provider
 
-from desire_tui.commands import COMMANDS, Command
+from desire_tui.commands import COMMANDS
+from desire_tui.common.command_search import is_described
+from desire_tui.common.themes import ThemeChoice
+from desire_tui.desktop.themed_app import ThemedApp
 
-SYNONYMS = {
-    "run.start": "execute simulate go compute",
-    "run.accept": "compile check",
-    "run.pause": "stop interrupt break halt",
-    "run.end": "stop abort kill cancel terminate quit",
-    "run.trace": "debug debugger step",
-    "run.breakpoint": "debug debugger stop",
-    "run.live": "slider parameter knob interactive vary",
-    "run.live_write": "slider parameter save set apply",
-    "run.report": "statistics steps time info",
-    "file.open": "load read import recent",
-    "file.save": "write store keep",
-    "file.examples": "samples demo library models",
-    "file.quit": "exit leave close",
-    "edit.find": "search grep",
-    "edit.replace": "substitute rename",
-    "edit.fix": "quick fix spelling typo correct mend did you mean",
-    "edit.fold": "collapse expand hide expectations tests",
-    "edit.duplicate": "copy repeat",
-    "edit.goto": "jump",
-    "edit.complete": "autocomplete intellisense suggest",
-    "graph.fit": "autoscale auto scale autorange whole",
-    "graph.log": "logarithmic decades semilog loglog scale axis",
-    "graph.equal": "aspect ratio square orbit circle round",
-    "graph.reset": "autoscale home unzoom",
-    "graph.zoom_in": "magnify enlarge scale",
-    "graph.zoom_out": "shrink scale",
-    "graph.read": "cursor crosshair values measure coordinates",
-    "graph.legend": "legend names",
-    "graph.older": "history previous",
-    "graph.snapshot": "png svg pdf image picture export save figure print",
-    "graph.picture": "image kitty sixel",
-    "graph.export": "csv table data spreadsheet excel save",
-    "graph.chart": "plot draw array",
-    "graph.overlay": "compare superimpose",
-    "view.copy_graph": "csv data clipboard spreadsheet excel",
-    "view.copy_output": "clipboard console",
-    "view.quantities": "variables parameters states inspect watch values",
-    "view.problems": "errors warnings diagnostics",
-    "view.theme": "colours colors dark light appearance",
-    "view.maximize": "full screen zoom pane",
-    "help.keys": "shortcuts keyboard bindings cheat sheet",
-    "help.config": "settings preferences options",
-    "help.tour": "introduction tutorial welcome",
-}
-"""Words that people of other programs look for."""
-BY_DESCRIPTION = 0.1
-"""A hit in a description stands below all hits in titles."""
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+IN_TITLE, BY_DESCRIPTION = 2000.0, 1000.0
+"""A title that has the query in one piece comes first, then descriptions, then letters that lie scattered."""
 
 
 class Actions(Provider):
@@ -65,26 +28,29 @@ class Actions(Provider):
         """Offer all actions, in the order of the table."""
         for title, about, callback, _ in self.app.get_system_commands(self.screen):
             yield DiscoveryHit(title, callback, help=about)
+        for title, choice in self._themes():
+            yield DiscoveryHit(title, choice)
 
     async def search(self, query: str) -> Hits:
-        """Offer the actions in whose title the letters stand, or whose description has all words."""
+        """Offer actions in whose title the letters stand, or whose description has all words; themes."""
         matcher = self.matcher(query)
         listed = (command for command in COMMANDS if command.id != "view.palette")
         offered = self.app.get_system_commands(self.screen)
         for command, (title, about, callback, _) in zip(listed, offered, strict=True):
-            if is_described(command, query):
-                score = max(matcher.match(title), BY_DESCRIPTION)
-            else:
-                score = matcher.match(title)
+            score = matcher.match(title)
+            if query.casefold() in title.casefold():
+                score += IN_TITLE
+            elif is_described(command, query):
+                score += BY_DESCRIPTION
             if score > 0:
                 yield Hit(score, matcher.highlight(title), callback, help=about)
+        for title, choice in self._themes():
+            if (score := matcher.match(title)) > 0:
+                score += IN_TITLE * (query.casefold() in title.casefold())
+                yield Hit(score, matcher.highlight(title), choice)
 
-
-def is_described(command: Command, query: str) -> bool:
-    """Whether each word of a query begins a word of an action's description or synonyms."""
-    words = re.findall(
-        r"[\w+]+",
-        f"{command.title} {command.help} {' '.join(command.words)} {SYNONYMS.get(command.id, '')}".casefold(),
-    )
-    wanted = query.casefold().split()
-    return bool(wanted) and all(any(word.startswith(part) for word in words) for part in wanted)
+    def _themes(self) -> Iterator[tuple[str, ThemeChoice]]:
+        app = self.app
+        assert isinstance(app, ThemedApp)
+        for name in app.available_themes:
+            yield f"Theme: {name}", ThemeChoice(name, app.choose_theme)

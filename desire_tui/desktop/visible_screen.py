@@ -3,7 +3,7 @@
 Textual and Rich delete five control characters from text and let all others through to the terminal. Their
 functions for that are replaced by `visible`, which keeps every character's column; a text's width is then
 counted as it is drawn. What a widget draws without these two classes is made visible where it is turned into
-bytes: there is one such place.
+bytes: there is one such place. There, too, characters are replaced that a console's font lacks.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import textual.content
 from rich.segment import Segment
 from textual.strip import Strip
 
+from desire_tui.common.plain_characters import PLAIN
 from desire_tui.engine.visible_text import visible, visible_line
 
 if TYPE_CHECKING:
@@ -23,14 +24,22 @@ if TYPE_CHECKING:
 _render = Strip.render
 
 
-def teach() -> None:
-    """Let Textual draw visible text; a second call changes nothing."""
+def teach(*, plain: bool = False) -> None:
+    """Let Textual draw visible text; a second call changes nothing. `plain`: of characters every font has."""
     library: Any = textual.content
     library._strip_control_codes = visible  # noqa: SLF001 - no public way (Textual is pinned)
     library = rich.text
     library.strip_control_codes = visible
     drawing: Any = Strip
-    drawing.render = _render_visible
+    drawing.render = _render_plain if plain else _render_visible
+
+
+def _render_plain(strip: Strip, console: Console) -> str:
+    """Return a row as what is sent to a terminal with few characters."""
+    return _render_visible(
+        Strip([Segment(s.text if s.control else s.text.translate(PLAIN), s.style, s.control) for s in strip]),
+        console,
+    )
 
 
 def _render_visible(strip: Strip, console: Console) -> str:

@@ -35,7 +35,7 @@ class EditorPane(Vertical):
     """Any number of programs, one of them in front, perhaps another beside it."""
 
     DEFAULT_CSS = """
-    EditorPane #areas { height: 1fr; }
+    EditorPane #editor-body, EditorPane #areas { height: 1fr; }
     EditorPane #areas.-split CodeArea { border-right: solid $panel; }
     """
 
@@ -75,9 +75,10 @@ class EditorPane(Vertical):
     def compose(self) -> ComposeResult:
         """Tabs above, texts, find bar and message row below."""
         yield TabStrip()
-        yield Horizontal(id="areas")
-        yield FindBar()
-        yield self._status_row
+        with Vertical(id="editor-body"):
+            yield Horizontal(id="areas")
+            yield FindBar()
+            yield self._status_row
 
     # ------------------------------------------------------------------------------------------------- tabs
 
@@ -254,6 +255,11 @@ class EditorPane(Vertical):
         strip.tabs = tuple(
             TabLabel(a.buffer.number, a.buffer.name, a.is_dirty, a is self.active) for a in self.areas
         )
+
+    @property
+    def has_unsaved_work(self) -> bool:
+        """Whether a tab is marked so."""
+        return any(tab.dirty for tab in self.query_one(TabStrip).tabs)
 
     @on(TabStrip.Chosen)
     async def _tab_chosen(self, event: TabStrip.Chosen) -> None:

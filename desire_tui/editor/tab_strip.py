@@ -9,13 +9,16 @@ from rich.segment import Segment
 from rich.style import Style
 from textual.message import Message
 from textual.reactive import reactive
-from textual.strip import Strip
-from textual.widget import Widget
 
+from desire_tui.common import themes
+from desire_tui.common.frame_top import FrameTop
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from textual import events
+    from textual.strip import Strip
 
 NEW, LEFT, RIGHT = -1, -2, -3
 
@@ -31,11 +34,11 @@ class TabLabel:
     """Whether it holds the active program."""
 
 
-class TabStrip(Widget):
-    """One row: ` step.src ● │ torpedo.src │ + `. Scrolls so that the front tab is seen."""
+class TabStrip(FrameTop):
+    """One row: `─ step.src ● │ torpedo.src │ + ────`. Scrolls so that the front tab is seen."""
 
     DEFAULT_CSS = """
-    TabStrip { height: 1; width: 1fr; background: $panel; color: $text-muted; }
+    TabStrip { height: 1; width: 1fr; background: $surface; color: $frame; }
     """
     tabs: reactive[tuple[TabLabel, ...]] = reactive(())
     front: reactive[int] = reactive(0)
@@ -67,7 +70,7 @@ class TabStrip(Widget):
             (t.key, f" {'▸' if t.active else ''}{visible_line(t.name)}{' ●' if t.dirty else ''} ")
             for t in self.tabs
         ]
-        room = self.size.width - 5
+        room = self.room - len(" + ") - 2
         keys = [key for key, _ in texts]
         first = last = keys.index(self.front) if self.front in keys else 0
         if not texts:
@@ -92,25 +95,34 @@ class TabStrip(Widget):
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
         del y
-        base = self.rich_style
+        line = self.line
         theme = self.app.current_theme
-        front = Style(color=str(theme.foreground), bgcolor=str(theme.surface), bold=True)
-        second = Style(color=str(theme.foreground), bgcolor=str(theme.surface))
-        segments = []
+        front = line + Style(color=str(theme.accent), bold=True)
+        second = line + Style(color=str(theme.foreground), bold=True)
+        other = line + Style(color=themes.quiet(theme))
+        segments: list[Segment] = []
         for key, text in self._pieces():
-            style = front if key == self.front else second if key == self.second else base
-            segments += [Segment(text, style), Segment("│", base)]
-        width = sum(len(segment.text) for segment in segments)
-        return Strip(segments, width).adjust_cell_length(self.size.width, base)
+            style = front if key == self.front else second if key == self.second else other
+            segments += [Segment("│", line)] if segments else []
+            segments.append(Segment(text, style))
+        return self.row(segments)
 
     def _at(self, x: int) -> tuple[int, int, int] | None:
         """Return the tab (or sign) at a column, with the columns it begins and ends at."""
-        left = 0
-        for key, text in self._pieces():
-            if left <= x < left + len(text):
-                return key, left, left + len(text)
-            left += len(text) + 1
+        for key, left, right in self._columns():
+            if left <= x < right:
+                return key, left, right
         return None
+
+    def places(self) -> list[tuple[int, int]]:
+        """Return tabs (and the sign for a new one, below 0) with the column of each."""
+        return [(key, left) for key, left, _ in self._columns() if key >= 0 or key == NEW]
+
+    def _columns(self) -> Iterator[tuple[int, int, int]]:
+        left = self.begins
+        for key, text in self._pieces():
+            yield key, left, left + len(text)
+            left += len(text) + 1
 
     def on_click(self, event: events.Click) -> None:
         """Choose the tab under the mouse; the middle button closes it."""

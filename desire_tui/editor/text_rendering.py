@@ -137,8 +137,29 @@ class RenderedText(TextArea):
         looks = self._shown[y] = self._looks(row, self._common)
         strip = self._drawn.get(looks)
         if strip is None:
-            strip = self._drawn[looks] = self._signed(self._render_line(y), self._sign(row))
+            strip = self._signed(self._render_line(y), self._sign(row))
+            if row < self.wrapped_document.height:
+                strip = self._cut_marked(strip, row)
+            self._drawn[looks] = strip
         return strip
+
+    def _cut_marked(self, strip: Strip, row: int) -> Strip:
+        """Mark where the line goes on beyond the window, but not in the cursor's cell."""
+        left, width, scrolled = self.gutter_width, self.size.width, self.scroll_offset.x
+        line = self.document.get_line(row)
+        if not scrolled and len(line) <= width - left and line.isascii() and "\t" not in line:
+            return strip  # most lines: nothing is to be measured
+        here, column = self.cursor_location
+        cursor = left + self.get_column_width(row, column) - scrolled if here == row else -1
+        if scrolled and cursor != left and line[: self.cell_width_to_column_index(scrolled, row)].strip():
+            strip = Strip.join([strip.crop(0, left), self._cut_mark("‹"), strip.crop(left + 1)])
+        if self.get_column_width(row, len(line)) - scrolled > width - left and cursor != width - 1:
+            strip = Strip.join([strip.crop(0, width - 1), self._cut_mark("›")])
+        return strip
+
+    def _cut_mark(self, mark: str) -> Strip:
+        style = self.rich_style + Style(color=str(self.app.current_theme.primary), bold=True)
+        return Strip([Segment(mark, style)], 1)
 
     def _common_looks(self) -> tuple[object, ...]:
         """Return what the looks of all rows depend on."""

@@ -34,7 +34,7 @@ class CurveFit:
             return ""
         from desire_tui.engine.graph.fit import notice
 
-        return notice(self._extent, "Alt+F fits")
+        return notice(self._extent, "Shift+F7 fits")
 
     def window(self, paging: GraphPaging, window: Window) -> Window:
         """Return the window for what there is of the curves now; `window` if it is not to follow them."""

@@ -10,10 +10,9 @@ from textual import on
 from textual.containers import Vertical
 from textual.message import Message
 from textual.reactive import reactive
-from textual.strip import Strip
-from textual.widget import Widget
 from textual.widgets import ContentSwitcher
 
+from desire_tui.common.frame_top import FrameTop
 from desire_tui.panes.help_pane import HelpPane
 from desire_tui.panes.problems_pane import ProblemsPane
 from desire_tui.panes.quantities_pane import QuantitiesPane
@@ -23,17 +22,17 @@ if TYPE_CHECKING:
 
     from textual import events
     from textual.app import ComposeResult
+    from textual.strip import Strip
 
 Side = Literal["quantities", "problems", "help"]
 NAMES: tuple[Side, ...] = ("quantities", "problems", "help")
 
 
-class SideTabs(Widget):
+class SideTabs(FrameTop):
     """One row instead of a border: `─ Quantities │ Problems 2 │ Help ─────`. A click chooses."""
 
     DEFAULT_CSS = """
-    SideTabs { height: 1; width: 1fr; color: $secondary; }
-    SidePane:focus-within SideTabs { color: $primary; }
+    SideTabs { height: 1; width: 1fr; color: $frame; }
     """
     current: reactive[Side] = reactive[Side]("quantities")
     problems: reactive[int] = reactive(0)
@@ -53,30 +52,33 @@ class SideTabs(Widget):
     def render_line(self, y: int) -> Strip:
         """Draw the row."""
         del y
-        line = self.rich_style
+        line = self.line
         theme = self.app.current_theme
         chosen = line + Style(color=str(theme.accent), bold=True)
         other = line + Style(color=str(theme.foreground))
-        segments = [Segment("─", line)]
+        segments: list[Segment] = []
         for name, text in self._pieces():
-            if len(segments) > 1:
+            if segments:
                 segments.append(Segment("│", line))
             style = chosen if name == self.current else other
             if name == "problems" and self.problems:
                 style += Style(color=str(theme.error))
             segments.append(Segment(text, style))
-        used = sum(segment.cell_length for segment in segments)
-        segments.append(Segment("─" * max(self.size.width - used, 0), line))
-        return Strip(segments).crop(0, self.size.width)
+        return self.row(segments)
 
     def on_click(self, event: events.Click) -> None:
         """Choose the tab under the mouse."""
-        at = 1
-        for name, text in self._pieces():
-            if at <= event.x < at + len(text):
+        for name, left in self.places():
+            if left <= event.x < left + len(dict(self._pieces())[name]):
                 self.post_message(self.Chosen(name))
-                return
+
+    def places(self) -> list[tuple[Side, int]]:
+        """Return the tabs with the column of each."""
+        places, at = [], self.begins
+        for name, text in self._pieces():
+            places.append((name, at))
             at += len(text) + 1
+        return places
 
 
 class SidePane(Vertical):
@@ -104,7 +106,7 @@ class SidePane(Vertical):
     def compose(self) -> ComposeResult:
         """Tabs above the pages."""
         yield SideTabs()
-        with ContentSwitcher(initial="quantities"):
+        with ContentSwitcher(id="side-body", initial="quantities"):
             yield self.quantities
             yield self.problems
             yield self.help

@@ -1,14 +1,16 @@
 """Between a websocket of the terminal in the browser and the pipes of a desktop's process.
 
 The browser sends JSON: `["stdin", text]`, `["resize", {"width": …, "height": …}]`, `["focus"]`, `["blur"]`,
-`["ping", text]`. Packets in the pipes are a letter, the length in four bytes, the content: `D` for what a
-terminal would send or show, `M` for JSON (Textual's web driver).
+`["ping", text]`. It is told `["unsaved", true or false]` and `["file", {"name": …, "base64": …}]`, which the
+visitor gets as a download. Packets in the pipes are a letter, the length in four bytes, the content: `D` for
+what a terminal would send or show, `M` for JSON (Textual's web driver).
 """
 
 from __future__ import annotations
 
 import asyncio
 import json
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from aiohttp import WSMsgType
@@ -104,16 +106,23 @@ async def _to_browser(websocket: WebSocketResponse, process: Process) -> None:
             content = await process.stdout.readexactly(int.from_bytes(head[1:], "big"))
             if head[:1] == b"D":
                 await websocket.send_bytes(content)
-            elif head[:1] == b"M" and (url := _opened(content)) is not None:
-                await websocket.send_json(["open_url", url])
+            elif head[:1] == b"M" and (message := _told(content)) is not None:
+                await websocket.send_json(message)
     except (asyncio.IncompleteReadError, ConnectionError):
         return  # one of the two has gone
 
 
-def _opened(content: bytes) -> dict[str, Any] | None:
-    """Return what a page of the help leads to: nothing but a page of the web, in a window of its own."""
+def _told(content: bytes) -> list[Any] | None:
+    """Return what the page is told of what a desktop says; None if that is not for it.
+
+    A page of the help leads to nothing but a page of the web, in a window of its own.
+    """
     meta = json.loads(content)
-    url = meta.get("url")
-    if meta.get("type") != "open_url" or not str(url).startswith(("https://", "http://")):
-        return None
-    return {"url": url, "new_tab": True}
+    match meta.get("type"):
+        case "open_url" if str(url := meta.get("url")).startswith(("https://", "http://")):
+            return ["open_url", {"url": url, "new_tab": True}]
+        case "unsaved":
+            return ["unsaved", bool(meta.get("unsaved"))]
+        case "file":
+            return ["file", {"name": PurePath(str(meta.get("name"))).name, "base64": str(meta.get("base64"))}]
+    return None

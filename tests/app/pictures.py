@@ -54,4 +54,5 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as places:
         for kind in ("CONFIG", "STATE"):
             os.environ[f"XDG_{kind}_HOME"] = places
+        os.environ["COLORTERM"] = "truecolor"
         asyncio.run(main())

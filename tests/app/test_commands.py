@@ -68,7 +68,7 @@ async def test_keys_do_what_the_table_says(program):
         await desk.pilot.pause()
         for command in COMMANDS:
             for key in command.keys.split(","):
-                if key:
+                if key and key != "alt+f":  # inside a text a word to the right
                     done.clear()
                     await desk.press(key)
                     assert done == [command.id], key
@@ -91,6 +91,11 @@ def test_bindings_have_priority_and_ids():
         assert binding.id
 
 
+CHARACTERS = {
+    "backspace": "\x7f", "minus": "-", "plus": "+", "equals_sign": "=", "full_stop": ".", "comma": ",", "apostrophe": "'", "semicolon": ";",
+}  # fmt: skip
+
+
 def test_every_key_with_alt_arrives_from_terminals_without_kittys_protocol():
     """There Alt+0 is Escape and 0, which Textual took for `º`; some never arrived, Alt+Backspace closed the tab."""
     from textual._xterm_parser import XTermParser
@@ -99,8 +104,7 @@ def test_every_key_with_alt_arrives_from_terminals_without_kittys_protocol():
     keys = {key for command in COMMANDS for key in command.keys.split(",") if key.startswith("alt+")}
     for key in {key for key in keys if key.split("+")[-1] not in ARROWS} | {"alt+backspace"}:
         name = key.removeprefix("alt+")
-        character = {"backspace": "\x7f", "minus": "-", "plus": "+", "equals_sign": "="}.get(name, name)
-        assert [event.key for event in XTermParser().feed(f"\x1b{character}")] == [key]
+        assert [event.key for event in XTermParser().feed(f"\x1b{CHARACTERS.get(name, name)}")] == [key]
 
 
 def test_the_page_of_keys_is_up_to_date():

@@ -94,8 +94,12 @@ dispt x, v
 """
 
 
-@pytest.mark.parametrize("theme", themes.NAMES)
-async def test_every_text_on_the_screen_can_be_read(program, theme: str):
+@pytest.mark.parametrize("theme", [*themes.NAMES, "sixteen"])
+async def test_every_text_on_the_screen_can_be_read(program, monkeypatch, theme: str):
+    if theme == "sixteen":
+        monkeypatch.delenv("COLORTERM")
+        monkeypatch.setenv("TERM", "linux")
+        theme = "dark"
     found: dict[tuple[str, str], str] = {}
     async with desktop(program(PROGRAM), size=(120, 40)) as desk:
 
@@ -175,7 +179,9 @@ def test_every_colour_of_a_theme_can_be_read_on_its_grounds(theme):
             assert contrast(Color.parse(str(colour)), Color.parse(str(ground))) >= READABLE, (colour, ground)
 
 
-@pytest.mark.parametrize("theme", themes.THEMES, ids=lambda theme: theme.name)
+@pytest.mark.parametrize(
+    "theme", [*themes.THEMES, themes.SIXTEEN_DARK, themes.SIXTEEN_LIGHT], ids=lambda theme: theme.name
+)
 def test_every_colour_of_the_editor_can_be_read(theme):
     for ground in (theme.surface, theme.background):
         for name, style in themes.editor_theme(theme).syntax_styles.items():

@@ -117,7 +117,7 @@ def test_a_kitty_terminal_gets_the_png(terminal):
         assert is_the_ramp(np.asarray(image.convert("RGB")))
     # the keys work again after the question, and the picture goes
     screen.send("\x1b")
-    screen.until(lambda: "─Command─" in screen.text)
+    screen.until(lambda: "─ Command ─" in screen.text)
     screen.send("write 'still', 2*21\r")
     screen.until(lambda: "42" in screen.text)
 
@@ -139,7 +139,7 @@ def test_a_plain_terminal_gets_blocks_and_is_told_so(terminal):
     assert b"\x1b_Gi=31" in screen.raw
     assert screen.text.count("▀") == 29 * 100
     screen.send("q")
-    screen.until(lambda: "─Command─" in screen.text)
+    screen.until(lambda: "─ Command ─" in screen.text)
 
 
 @pytest.mark.parametrize(

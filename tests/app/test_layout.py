@@ -142,7 +142,7 @@ async def test_the_tabs_of_the_side_pane(program):
         tabs = desk.app.main_screen.query_one(SideTabs)
         await desk.until(lambda: tabs.problems == 1)
         text = tabs.render_line(0).text
-        assert text.startswith("─ Quantities │ Problems 1 │ Help ──")
+        assert text.startswith("╭─ Quantities │ Problems 1 │ Help ──")
         for name in ("Problems", "Help", "Quantities"):
             await desk.pilot.click(SideTabs, offset=(text.index(name) + 1, 0))
             await desk.pilot.pause()

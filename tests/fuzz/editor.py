@@ -12,12 +12,12 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from textual import events
-from textual.app import App
 from textual.geometry import Region
 from textual.widgets import Input
 from textual.widgets.text_area import Selection
 
 from desire_tui.common.themes import THEMES
+from desire_tui.desktop.themed_app import ThemedApp
 from desire_tui.editor import indent
 from desire_tui.editor.buffer import Buffer
 from desire_tui.editor.editor_pane import EditorPane
@@ -59,14 +59,13 @@ class NoCompletion:
     text_changed = focus_lost = offer = letter_typed
 
 
-class EditorApp(App[None]):
+class EditorApp(ThemedApp):
     """The editor pane alone."""
 
     def __init__(self) -> None:
         super().__init__()
         self.editor = EditorPane(NoCompletion())
         self.fault: Exception | None = None
-        self.register_theme(THEMES[0])
         self.theme = THEMES[0].name
 
     def _handle_exception(self, error: Exception) -> None:
@@ -295,6 +294,7 @@ async def run(seeds: range, seconds: float = float("inf")) -> int:
     """Run sequences until the time is over; returns how many."""
     app, stop, count = EditorApp(), monotonic() + seconds, 0
     async with app.run_test(size=(80, 20)) as pilot:
+        await pilot.pause()  # what the pane is made of comes after it
         await app.editor.add(Buffer())
         for seed in seeds:
             await one_sequence(app, pilot, seed)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 import re
 import signal
@@ -10,7 +11,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pyte
 from aiohttp import ClientSession, WSMsgType
@@ -72,6 +73,8 @@ class Browser:
 
     def __init__(self, websocket: ClientWebSocketResponse) -> None:
         self.websocket = websocket
+        self.told: list[list[Any]] = []
+        """What the page was told beside what it draws."""
         self._screen = pyte.Screen(100, 60)
         self._stream = pyte.Stream(self._screen)
 
@@ -89,6 +92,14 @@ class Browser:
         while text not in self.shown:
             await self._receive(end)
 
+    async def until_told(self, kind: str) -> Any:
+        """Wait until the page was told something; returns what."""
+        end = time.monotonic() + PATIENCE_S
+        while not any(message[0] == kind for message in self.told):
+            await self._receive(end)
+        at = next(n for n, message in enumerate(self.told) if message[0] == kind)
+        return self.told.pop(at)[1]
+
     async def _until_below(self, mark: str, text: str) -> None:
         """Wait until a text stands below another, and no part of the screen is still to come."""
         end = time.monotonic() + PATIENCE_S
@@ -105,7 +116,9 @@ class Browser:
         assert time.monotonic() < end, self.shown
         message = await asyncio.wait_for(self.websocket.receive(), max(0.1, end - time.monotonic()))
         assert message.type in (WSMsgType.BINARY, WSMsgType.TEXT), f"{message}\n{self.shown}"
-        if message.type == WSMsgType.BINARY:
+        if message.type == WSMsgType.TEXT:
+            self.told.append(json.loads(message.data))
+        else:
             self._stream.feed(message.data.decode(errors="replace"))
 
     @property

@@ -133,6 +133,17 @@ async def test_what_is_no_message_is_passed_over(served: Served):
         await browser.until("42")
 
 
+async def test_the_page_has_the_focus_asks_before_it_goes_and_keeps_files(served: Served):
+    async with ClientSession() as session, session.get(served.url + "static/page.js") as answer:
+        script = await answer.text()
+    assert '.xterm-helper-textarea")?.focus()' in script
+    assert 'addEventListener("beforeunload"' in script
+    assert "link.download = name" in script
+    for style in ("page.css", "xterm.css"):
+        async with ClientSession() as session, session.get(served.url + "static/" + style) as answer:
+            assert "http" not in (await answer.text()).replace("https://github.com", "").partition("*/")[2]
+
+
 async def test_no_log_holds_a_token(served: Served):
     await status(served.url)
     await asyncio.sleep(0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import os
 import time
 from typing import TYPE_CHECKING
@@ -98,6 +99,30 @@ async def test_the_desktop_saves_programs_in_the_folder_only(served: Served):
         await browser.command("keep 'other.src'")
         await browser.until("Saved")
     assert (served.folder / "other.src").read_text() == "own = 1\n"
+
+
+async def test_the_page_knows_unsaved_work_and_gets_pictures_and_data(served: Served):
+    """It asks before it goes, by `beforeunload`, as long as there is unsaved work; files are downloads."""
+    async with ClientSession() as session:
+        browser = await Browser.connect(session, served)
+        await browser.until("own.src")
+        await browser.command("x = 1 | TMAX = 1 | DT = 0.1 | NN = 5")
+        await browser.press("\x0e")  # a new tab
+        await browser.type("x = 1 | TMAX = 1 | DT = 0.1 | NN = 5\rdrun\rDYNAMIC\rd/dt x = -x\rdispt x\r")
+        assert await browser.until_told("unsaved") is True
+        await browser.press("\x1b[15~")  # F5
+        await browser.until("TMAX reached")
+        await browser.press("\x0c")  # the command line
+        await browser.type("export 'data/own.csv'\r")
+        file = await browser.until_told("file")
+        assert file["name"] == "own.csv"
+        assert base64.b64decode(file["base64"]) == (served.folder / "data" / "own.csv").read_bytes()
+        assert base64.b64decode(file["base64"]).startswith(b"t,x")
+        await browser.type("snapshot 'own.png'\r")
+        file = await browser.until_told("file")
+        assert base64.b64decode(file["base64"]).startswith(b"\x89PNG")
+        await browser.type("keep 'mine.src'\r")
+        assert await browser.until_told("unsaved") is False
 
 
 async def test_the_open_dialog_shows_the_folder_only(served: Served):
