@@ -13,6 +13,7 @@ from desire_tui.engine.graph.color_keys import short_names
 from desire_tui.engine.graph.colors import GHOST, PICKED, RAMP, curve_rgb
 from desire_tui.engine.outputs.csv_file import write_csv
 from desire_tui.engine.outputs.json_file import as_json
+from desire_tui.engine.outputs.matplotlib_figure import draw
 from desire_tui.engine.outputs.npz_file import write_npz
 from desire_tui.engine.outputs.text_plot import text_plot
 from desire_tui.engine.session.session import Session
@@ -151,3 +152,15 @@ def test_what_only_events_read_are_parameters_and_what_they_set_is_none():
     start = session.runs[-1].start
     assert start.parameters == {"keep": 0.8, "T": 7.0}
     assert start.initial == {"y": 50.0, "v": 0.0}
+
+
+def test_long_keys_and_titles_stay_within_the_picture():
+    session = study("for k = 1 to 4 | parameter_of_length = 1234567 + k | c = k^3 | x = sin(k)",
+                    source=STUDY.replace("-c*x", "-c*x + 0*parameter_of_length"))  # fmt: skip
+    figure = draw(session.graph)
+    figure.canvas.draw()
+    box = figure.legends[0].get_window_extent()
+    assert 0 <= box.x0 < box.x1 <= figure.bbox.width
+    title = figure.axes[0].title.get_text() or figure.axes[0]._left_title.get_text()
+    assert figure.axes[0]._left_title.get_window_extent().x1 <= figure.bbox.width, title
+    assert session.graph.title(room=20) == "study.src · runs 1–4"

@@ -126,11 +126,11 @@ class Graph:
     def title(self, *, fitted: bool = False, room: int | None = None) -> str:
         """Return the line above the graph: program, run, scale; of a long program's name what has room."""
         name = self.heading or self.program
-        parts = [
-            "" if self.heading else self.run_name,
-            "fitted" if fitted else f"scale = {self.frame.scale:g}",
-        ]
-        rest = " · ".join(filter(None, parts))
+        runs = "" if self.heading else self.run_name
+        scale = "fitted" if fitted else f"scale = {self.frame.scale:g}"
+        rest = " · ".join(filter(None, (runs, scale)))
+        if runs and room is not None and len(rest) > room:
+            rest = runs if len(runs) <= room else self.study.run_name
         if not name:
             return rest
         spare = len(name) if room is None else room - len(rest) - len(" · ")

@@ -32,6 +32,10 @@ if TYPE_CHECKING:
 _WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
 _DASHES: tuple[Any, ...] = ("solid", (0, (5, 2)), (0, (1, 1.2)), (0, (8, 1.5, 1, 1.5)))
 _MARKERS = "osD^"
+_CHARACTERS = 11
+"""So many of the font have room on an inch."""
+_KEY_CHARACTERS = 6
+"""Room that a key takes beside its name."""
 _NAME_MOST = 40  # characters; a longer name of the ordinate stands in the caption
 _FEW_WIDTH = 5.0  # points; of points that are few
 _SPINE = 2 * 72 / FOR_PAPER.dots_per_inch  # two dots: crisp
@@ -99,9 +103,9 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
     for curve in graph.curves:
         _draw_curve(axes, curve, graph, window)
     _draw_points(axes, graph)
-    axes.set_title(
-        graph.heading or graph.title(fitted=extent.is_fitted), loc="left", color=ink, fontsize=_FONT
-    )
+    room = round((inches[0] - 1) * _CHARACTERS)
+    title = graph.heading or graph.title(fitted=extent.is_fitted, room=room)
+    axes.set_title(title, loc="left", color=ink, fontsize=_FONT)
     names = graph.axis_names
     if names is None or len(names[1]) > _NAME_MOST or (graph.has_own_colors and not graph.texts):
         axes.set_xlabel(graph.label, color=ink, fontsize=_FONT)
@@ -206,6 +210,8 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
     from matplotlib.lines import Line2D
 
     keys = graph.keys
+    widest = max(len(key.name) for key in keys) + _KEY_CHARACTERS
+    columns = max(min(len(keys), 8, int(figure.get_figwidth() * _CHARACTERS / widest)), 1)
     handles: list[Any] = [  # several lines side by side are a tuple, which its types do not know
         tuple(
             Line2D(
@@ -220,7 +226,7 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
         for key in keys
     ]
     legend = figure.legend(
-        handles, [key.name for key in keys], loc="outside lower center", ncols=min(len(keys), 8),
+        handles, [key.name for key in keys], loc="outside lower center", ncols=columns,
         frameon=False, handler_map={tuple: HandlerTuple(ndivide=None, pad=0.0)},
     )  # fmt: skip
     for text in legend.get_texts():
