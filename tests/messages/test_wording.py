@@ -14,6 +14,12 @@ from tests.messages.test_messages import FILES, spoken
 
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {
+    "solver-corrector-part": (
+        "tests/session/test_fault_place.py::test_a_corrector_that_met_a_root_of_a_negative_number_says_so"
+    ),
+    "solver-derivative": (
+        "tests/session/test_fault_place.py::test_of_a_large_model_no_copy_is_kept_and_the_solver_speaks"
+    ),
     "no-help": "tests/messages/test_machine_messages.py::test_a_help_page_that_is_not_there",
     "line-too-long": "tests/syntax/test_limits.py::test_hostile_text_gets_a_message_at_once",
     "too-many-lines": "tests/messages/test_machine_messages.py::test_submodels_that_become_too_many_lines",

@@ -10,6 +10,7 @@ import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY
+from desire_tui.engine.runtime.block_start import BlockStart
 from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.runtime.event_times import delay_times, event_times
@@ -64,6 +65,8 @@ class Simulator:
         self._delays = Delays()
         self.memory: RunMemory | None = None
         """The run's memory while one goes on."""
+        self.block_start: BlockStart | None = None
+        """Where the last block began; its failure can be looked at again from there."""
         self.direction = 1.0
         """-1 while a run goes backward: t is then what the program calls -t (`passes.backward`)."""
         self._began = 0.0
@@ -168,6 +171,7 @@ class Simulator:
             if first >= len(record.rows):
                 _grow(record, memory)
             memory.row_limit = min(first + (1 if segment.pictures else int(block)), len(record.rows))
+            self.block_start = BlockStart.taken(memory, memory.keep[0], self._values)
             began = perf_counter()
             self._heartbeat.block()
             ended = Ended(model.advance(memory)) if self._control.clear_to_run(memory) else Ended.STOPPED

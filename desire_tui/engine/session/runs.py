@@ -17,6 +17,7 @@ from desire_tui.engine.runtime.simulator import Simulator
 from desire_tui.engine.runtime.start_values import StartQuantities
 from desire_tui.engine.runtime.stash import write_stash
 from desire_tui.engine.session.checkpoint import NUMBERS_MOST, Checkpoint
+from desire_tui.engine.session.fault_place import with_part
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -131,10 +132,12 @@ class Runs:
             self._listener.graph_changed(graph)
         try:
             finished = self.simulator.run(model, segment, plan, record, type_output)
-        except DesireError as error:
+        except DesireError as fault:
             record.ended = "failed"
-            record.message = record.message or error.diagnostics[0].message
-            raise error.placed(placed.span(), workspace.source_of(placed)) from None
+            explained = with_part(fault, self.simulator, segment, plan, model, self._values)
+            if explained is not fault or not record.message:
+                record.message = explained.diagnostics[0].message
+            raise explained.placed(placed.span(), workspace.source_of(placed)) from None
         except Exception as error:
             record.ended = "failed"
             record.message = internal_error("the run went on", error).message

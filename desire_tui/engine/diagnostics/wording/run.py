@@ -88,7 +88,7 @@ MESSAGES: dict[str, Wording] = {
         94,
         "variable-step deadlock at t = {t:.6g}: state '{state}' differs by {difference:.3g} > ERMAX ="
         " {ermax:g} even with DT = {dt:.3g}",
-        "make ERMAX larger or DTMIN smaller; a jump in the right-hand side belongs after `step`",
+        "make DTMIN smaller or ERMAX larger; end the run by `term` before a pole",
         "Rules 4, 7 and 8 halve DT until the test difference is below ERMAX, but never below DTMIN (DT/65536"
         " if it is not set). The difference that could not be reduced is in ERRMAX.",
     ),
@@ -129,6 +129,12 @@ MESSAGES: dict[str, Wording] = {
         3,
         "'{name}' became {what} at t = {t:.6g}",
         "the samples before are kept; a smaller DT or another rule may help",
+        _FAULT_PAGE,
+    ),
+    "not-finite-part": Wording(
+        3,
+        "'{part}' is {cause} at t = {t:.6g}: '{name}' became {what}",
+        "{advice}; the samples before are kept",
         _FAULT_PAGE,
     ),
     "sample-not-finite": Wording(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from desire_tui.engine.diagnostics.wording.entry import Wording
 
 _AT = "at t = {t:.6g} with DT = {dt:.3g}, state '{state}'"
-_DISCONTINUITY = "A jump in the right-hand side is the usual cause: put the switching statement after `step`"
 
 MESSAGES: dict[str, Wording] = {
     "solver-missing": Wording(
@@ -31,13 +30,24 @@ MESSAGES: dict[str, Wording] = {
     "solver-error-test": Wording(
         222,
         f"the error test of rule {{rule}} failed again and again {_AT}",
-        "a smaller first DT, or a look at jumps and poles of the right-hand side, usually helps",
-        f"{_DISCONTINUITY}, or stop the run with `term` before a solution that grows without bound.",
+        "look for a pole, which `term` can stop at, and for random numbers or a relay in the right-hand side",
+        "Stop the run with `term` before a solution that grows without bound. A relay that holds a"
+        " solution on its jump needs a dead zone; noise belongs behind `step` or `SAMPLE`.",
     ),
     "solver-corrector": Wording(
         223,
         f"the corrector of rule {{rule}} did not converge {_AT}",
         "rules 13 to 15 suit stiff problems; look at the JACOBIAN segment if there is one, try a smaller DT",
+    ),
+    "solver-corrector-part": Wording(
+        223,
+        "the corrector of rule {rule} did not converge: '{part}' is {cause} at t = {t:.6g}",
+        "{advice}; the samples before are kept",
+    ),
+    "solver-derivative-part": Wording(
+        226,
+        "a derivative is not a number: '{part}' is {cause} at t = {t:.6g}",
+        "{advice}; the samples before are kept",
     ),
     "solver-singular": Wording(
         224,

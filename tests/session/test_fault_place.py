@@ -1,0 +1,64 @@
+"""Runs that end by an inf or nan name the part of an expression that made it."""
+
+from __future__ import annotations
+
+import pytest
+
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.session.session import Session
+from desire_tui.engine.source import Source
+
+ROOT = (
+    "irule {rule}\nTMAX = 4 | NN = 5 | DT = 0.01 | ERMAX = 1e-6\nx = 1\n{more}\n"
+    "drun\nDYNAMIC\nd/dt x = -sqrt(x)\ndispt x\n"
+)
+
+
+def failure(text: str, backend: str = "native"):
+    session = Session(backend=backend)
+    with pytest.raises(DesireError) as caught:
+        session.erun(Source(text, "p"))
+    return caught.value.diagnostics[0], session
+
+
+@pytest.mark.parametrize("backend", ["native", "reference"])
+def test_a_corrector_that_met_a_root_of_a_negative_number_says_so(backend) -> None:
+    problem, session = failure(ROOT.format(rule=14, more=""), backend)
+    assert problem.key == "solver-corrector-part"
+    assert problem.message.startswith("the corrector of rule 14 did not converge: 'sqrt(x)' is the root of -")
+    text = problem.source.text
+    assert text[problem.span.start : problem.span.end] == "sqrt(x)"
+    assert session.runs[0].message == problem.message
+
+
+def test_of_a_large_model_no_copy_is_kept_and_the_solver_speaks() -> None:
+    problem, _ = failure(ROOT.format(rule=9, more="ARRAY A[30000]"))
+    assert problem.key == "solver-derivative"
+
+
+@pytest.mark.parametrize("rule", [1, 4])
+def test_what_the_run_left_is_not_touched_by_the_search(rule) -> None:
+    text = (
+        "irule {r}\nTMAX = 4 | NN = 41 | DT = 0.01\nx = 1 | n = 0\ndrun\nDYNAMIC\n"
+        "d/dt x = -x*sqrt(1.5 - t)\ndispt x\nOUT\nn = n + 1\nq = ran()\n"
+    )
+    problem, session = failure(text.format(r=rule))
+    assert problem.key == "not-finite-part"
+    assert problem.facts["part"] == "sqrt(1.5 - t)"
+    values = session.values
+    count = session.runs[0].count
+    assert count in {15, 16}
+    assert values.cells[values.find("n").slot] == count
+    assert session.runs[0].t[-1] == pytest.approx(0.1 * (count - 1))
+
+
+def test_a_part_of_a_defined_variable_and_of_vectors() -> None:
+    text = (
+        "TMAX = 4 | NN = 5 | DT = 0.1\nSTATE v[3]\nARRAY w[3]\ndata 1, 2, 3 | read v\ndrun\nDYNAMIC\n"
+        "g = 2 + 1/(t - t)\nVector w = v*(2 + recip(g - g))\nVectr d/dt v = w\n"
+    )
+    problem, _ = failure(text)
+    assert problem.facts["part"] == "1/(t - t)"
+    assert problem.facts["cause"] == "1 divided by 0"
+    problem, _ = failure(text.replace("1/(t - t)", "1"))
+    assert problem.facts["part"] == "recip(g - g)"
