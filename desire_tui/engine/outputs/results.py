@@ -120,8 +120,8 @@ class Result:
     timings: dict[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> float | complex | NDArray[Any]:
-        """Return the final value of a quantity; KeyError for one that has none."""
-        return self.quantities[name]
+        """Return the final value of a quantity, 0 for `t` before any run; KeyError for one that has none."""
+        return self.quantities.get("t", 0.0) if name == "t" else self.quantities[name]
 
 
 def problem_data(diagnostic: Diagnostic) -> ResultProblem:

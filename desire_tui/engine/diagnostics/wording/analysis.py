@@ -24,6 +24,14 @@ MESSAGES: dict[str, Wording] = {
         "the line which assigns it (after `OUT`, `SAMPLE`, `step` or `if`, perhaps) keeps its value from pass"
         " to pass and needs an initial one.",
     ),
+    "recursion-undeclared": Wording(
+        200,
+        "'{name}' is computed from itself, at each pass anew, and a derivative reads it",
+        "give it a first value in the script if a difference equation is meant, or put it behind `step`",
+        "A line such as `y = cos(y*x)` is not solved for y: each pass takes the y of the pass before, and"
+        " a rule makes several passes in a step. What comes out depends on the rule and on DT.",
+        warning=True,
+    ),
     "undefined-subscript": Wording(
         200,
         "undefined variable '{name}' in a number that must be known now",
