@@ -52,7 +52,7 @@ def test_an_element_of_a_vector_state():
 
 def test_variable_step_deadlock_tells_its_facts():
     session, problem = failed(
-        "TMAX = 2 | DT = 0.1 | NN = 21 | irule 4 | ERMAX = 1.0E-06\ndrun\nDYNAMIC\nd/dt x = 100*swtch(t - 1.03)\ndispt x\n"
+        "TMAX = 2 | DT = 0.1 | NN = 21 | irule 4 | ERMAX = 1.0E-06\ndrun\nDYNAMIC\nd/dt x = 100*sigmoid(1E+6*(t - 1.03))\ndispt x\n"
     )
     assert problem.code == 94
     assert "'x'" in problem.message
