@@ -81,7 +81,7 @@ def test_deadlock_is_error_94():
 
     with pytest.raises(DesireError) as caught:
         run(
-            "irule 4\nTMAX = 1 | NN = 3 | DT = 0.01 | ERMAX = 1e-9 | x = 1\ndrun\nDYNAMIC\nd/dt x = sgn(t - 0.30517)"
+            "irule 4\nTMAX = 1 | NN = 3 | DT = 0.01 | ERMAX = 1e-9 | x = 1\ndrun\nDYNAMIC\nd/dt x = 1E+4*sin(1E+6*t)"
         )
     assert caught.value.diagnostics[0].code == 94
 
