@@ -8,7 +8,7 @@ the culprit.
 
 from __future__ import annotations
 
-from time import perf_counter
+from itertools import count
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -39,8 +39,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
-SECONDS_MOST = 1.0
-"""The error is not kept waiting for longer."""
+PASSES_MOST = 20_000
+"""The error is not kept waiting for longer than these take: about a second."""
 _CHUNKS = 32
 
 
@@ -72,13 +72,13 @@ def find_culprit(
     start.put_back(values)
     memory = start.memory
     width = 1 + len(segment.columns)
-    count = rows - int(memory.row) + 3
-    scratch = np.empty(count * width)
+    samples = rows - int(memory.row) + 3
+    scratch = np.empty(samples * width)
     memory.row, memory.rows = 0, scratch.ctypes.data
     try:
         with np.errstate(all="ignore"):
-            for chunk in dict.fromkeys((max(count // _CHUNKS, 1), 1)):
-                _go_near(memory, counters, model, values, chunk, count - 1)
+            for chunk in dict.fromkeys((max(samples // _CHUNKS, 1), 1)):
+                _go_near(memory, counters, model, values, chunk, samples - 1)
             memory.row, memory.row_limit = 0, 1
             return _replayed(segment, rule, values, memory)
     finally:
@@ -113,12 +113,12 @@ def _replayed(segment: Segment, rule: int, values: Values, memory: RunMemory) ->
     _take_up(memory)
     model = ReferenceBackend().model(segment, rule, values)
     assert isinstance(model, ReferenceModel)
-    until = perf_counter() + SECONDS_MOST
+    passes = count()
     if isinstance(model, StiffReferenceModel):
-        _watch_stiff(model, until)
+        _watch_stiff(model, passes)
         model.system.begin(memory, values.cells[DT])
     else:
-        _watch(model, until)
+        _watch(model, passes)
     try:
         model.advance(memory)
     except _Found:
@@ -128,31 +128,33 @@ def _replayed(segment: Segment, rule: int, values: Values, memory: RunMemory) ->
     return None
 
 
-def _watched(run: Callable[[], None], derivatives: NDArray[np.float64], until: float) -> Callable[[], None]:
+def _watched(
+    run: Callable[[], None], derivatives: NDArray[np.float64], passes: Iterator[int]
+) -> Callable[[], None]:
     def watched() -> None:
         run()
         if not np.isfinite(derivatives).all():
             raise _Found
-        if perf_counter() > until:
+        if next(passes) > PASSES_MOST:
             raise _TooLong
 
     return watched
 
 
-def _watch(model: ReferenceModel, until: float) -> None:
+def _watch(model: ReferenceModel, passes: Iterator[int]) -> None:
     k = model.states.k
-    model.full, model.step = (_watched(run, k[0], until) for run in (model.full, model.step))
-    model.stages = [_watched(run, rate, until) for run, rate in zip(model.stages, k[1:], strict=True)]
+    model.full, model.step = (_watched(run, k[0], passes) for run in (model.full, model.step))
+    model.stages = [_watched(run, rate, passes) for run, rate in zip(model.stages, k[1:], strict=True)]
 
 
-def _watch_stiff(model: StiffReferenceModel, until: float) -> None:
+def _watch_stiff(model: StiffReferenceModel, passes: Iterator[int]) -> None:
     compute = model.derivatives
 
     def watched(t: float, y: Any, out: Any) -> None:
         compute(t, y, out)
         if not np.isfinite(out).all():
             raise _Found
-        if perf_counter() > until:
+        if next(passes) > PASSES_MOST:
             raise _TooLong
 
     model.derivatives = watched  # type: ignore[method-assign]
@@ -161,26 +163,26 @@ def _watch_stiff(model: StiffReferenceModel, until: float) -> None:
 def _culprit(segment: Segment, values: Values) -> Culprit | None:
     """Return the first operation of a pass that made something of numbers which is none."""
     for action in _executed(derivative_slice(segment), values):
-        count = action.count if isinstance(action, SetVec | DerivVec) else None
+        size = action.count if isinstance(action, SetVec | DerivVec) else None
         if isinstance(action, SetMat):
-            count = action.rows * action.cols
+            size = action.rows * action.cols
         for whole in expressions(action):
             part: Value = whole
-            if _is_finite(_value(part, count, values)):
+            if _is_finite(_value(part, size, values)):
                 continue
             while True:
                 inner = next(
-                    (one for one in operands(part) if not _is_finite(_value(one, count, values))), None
+                    (one for one in operands(part) if not _is_finite(_value(one, size, values))), None
                 )
                 if inner is None:
                     break
                 part = inner
             if not isinstance(part, Op):
                 return None
-            result = np.atleast_1d(_value(part, count, values))
+            result = np.atleast_1d(_value(part, size, values))
             at = int(np.argmin(np.isfinite(result)))
             numbers = tuple(
-                float(np.broadcast_to(_value(one, count, values), result.shape)[at]) for one in part.args
+                float(np.broadcast_to(_value(one, size, values), result.shape)[at]) for one in part.args
             )
             return Culprit(action, whole, part, numbers, values.cells[T])
     return None
