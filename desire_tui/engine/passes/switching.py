@@ -15,7 +15,7 @@ from desire_tui.engine.lowered.effects import count_draws, expressions, role, wr
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2, Vec
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetMat, SetVec, Terminate
 from desire_tui.engine.lowered.switching import JUMPS, KINKS, Mode, Switching, has_bounds
-from desire_tui.engine.lowered.walk import simple_actions, walk_values
+from desire_tui.engine.lowered.walk import simple_actions, walk_actions, walk_values
 from desire_tui.engine.passes.dead_code import without_dead_code
 from desire_tui.engine.passes.dependence import Dependence, Dependences
 from desire_tui.engine.passes.slices import derivative_slice
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Action, SimpleAction, Where
 
+_SWITCHES = JUMPS | KINKS
 _WORDS = (*sorted(JUMPS | KINKS), "func1", "term", "if", "<", ">")
 """A program whose text holds none of these switches nowhere: long ones need not be searched further."""
 
@@ -38,7 +39,7 @@ def switching(segment: Segment, allocate: Callable[[int], int]) -> tuple[Segment
     `allocate(count)` gives the first of `count` slots.
     """
     text = segment.source.text
-    if not any(word in text for word in _WORDS):
+    if not any(word in text for word in _WORDS) or not _may_switch(segment):
         return segment, None
     finder = _Finder(segment)
     room = finder.room()
@@ -51,6 +52,17 @@ def switching(segment: Segment, allocate: Callable[[int], int]) -> tuple[Segment
         tuple(rewriter.modes), slots, slots + room, rewriter.live_pass(), tuple(finder.clocks),
         finder.dependences.definitions,
     )  # fmt: skip
+
+
+def _may_switch(segment: Segment) -> bool:
+    """Whether there is any statement or operation that can: quicker than to find what does."""
+    for action in walk_actions(segment.body):
+        if isinstance(action, Guard | Terminate):
+            return True
+        for node in walk_values(*expressions(action)):
+            if isinstance(node, Table1) or (isinstance(node, Op) and node.name in _SWITCHES):
+                return True
+    return False
 
 
 class _Finder:
