@@ -171,7 +171,8 @@ class Simulator:
             if first >= len(record.rows):
                 _grow(record, memory)
             memory.row_limit = min(first + (1 if segment.pictures else int(block)), len(record.rows))
-            self.block_start = BlockStart.taken(memory, memory.keep[0], self._values)
+            if first == 0 or block > BLOCK_GROWTH:  # a short run is looked at again from its start
+                self.block_start = BlockStart.taken(memory, memory.keep[0], self._values)
             began = perf_counter()
             self._heartbeat.block()
             ended = Ended(model.advance(memory)) if self._control.clear_to_run(memory) else Ended.STOPPED
