@@ -78,6 +78,16 @@ class Dependences:
         if moving is not None:
             return moving
         found = self.of(*operands(value))
-        if found is Dependence.TIME and not self._is_known(value):
+        if found is Dependence.TIME and not self._is_all_known(value):
             return Dependence.STATES
         return found
+
+    def _is_all_known(self, value: Value) -> bool:
+        """Whether bounds can be found of all that a node is made of, parts that never change included."""
+        if isinstance(value, Load):
+            definition = self.definitions.get(value.slot)
+            return definition is None or self._is_part_known(definition)
+        return self._is_known(value) and all(map(self._is_part_known, operands(value)))
+
+    def _is_part_known(self, value: Value) -> bool:
+        return self._of(value) is Dependence.TIME or self._is_all_known(value)

@@ -128,7 +128,8 @@ class _Finder:
         if node.name in JUMPS and self.is_mode(node):
             return extent(action, node)
         if node.name in JUMPS | KINKS and self.dependences.of(*switched(node)) is Dependence.TIME:
-            self.clocks.append((node, action.where))
+            decides = Op("swtch", node.args[:1]) if node.name == "comp" else node
+            self.clocks.append((decides, action.where))
         return 0
 
     def is_mode(self, node: Op) -> bool:
