@@ -104,11 +104,13 @@ class Slider(Widget, can_focus=True):
         word = "log " if self.scale.is_log else ""
         segments = [
             Segment(f"{self.label[: name - 1]:<{name}}", base + Style(bold=self.has_focus)),
-            Segment(f"{self.scale.low:>{limit}.3g} ├", faint),
+            Segment(f"{self.scale.low:>{limit}.3g} ", base),
+            Segment("├", faint),
             Segment("".join(line[:at]), base + Style(color=str(theme.primary))),
             Segment("●", base + Style(color=str(theme.accent), bold=True)),
             Segment("".join(line[at + 1 :]), faint),
-            Segment(f"┤ {self.scale.high:<{limit}.3g}", faint),
+            Segment("┤", faint),
+            Segment(f" {self.scale.high:<{limit}.3g}", base),
             Segment(f"{word}{self.value:.5g}".rjust(value), base),
         ]
         return Strip(segments).adjust_cell_length(self.size.width, base)

@@ -51,8 +51,8 @@ async def test_the_picture_is_the_programs_own_graph(program):
         exact = 1.1 * (1 + (b * np.exp(a * t) - a * np.exp(b * t)) / (a - b)) - 1
         assert np.abs(x - exact).max() < 1e-3
         text = rows(picture(screen))
-        assert text[0].strip() == "step_response.src · runs 1–5 · scale = 1"
-        assert "■ X" in text[-1]
+        assert text[0].strip() == "step_response.src · runs 1–5 · r = 10 … 50 · scale = 1"
+        assert "■ r = 10 ■ r = 20" in text[-1]
         assert sum(map(dots, text)) > 200
 
 

@@ -191,7 +191,7 @@ async def test_a_paste_opens_no_list_and_arrives_as_it_is(program):
 async def test_alt_with_a_letter_that_means_nothing_types_nothing(program):
     async with desktop(program("x = 1\n")) as desk:
         desk.app.editor.front.focus()
-        desk.app.post_message(events.Key("alt+j", "j"))
+        desk.app.post_message(events.Key("alt+b", "b"))
         desk.app.post_message(events.Key("y", "y"))
         await desk.until(lambda: desk.app.editor.front.text == "yx = 1\n")
 

@@ -42,7 +42,7 @@ def test_elements_that_store_fills_are_the_scalars_that_are_read(storage):
 @pytest.mark.parametrize(("checked", "rejected"), [(1, 0), (2, 1), (3, 0)])
 def test_the_state_that_is_checked(checked, rejected, storage):
     """Only y jumps: from 0 to 1 between t = 0 and 1; rule 7 sees DT/2 = 0.5 there, and 0 up to half of the step."""
-    body = "d/dt x = 1\nd/dt y = swtch(t - 0.7)\nd/dt z = 1\ndispt y"
+    body = "d/dt x = 1\nd/dt y = 0.5 + 0.5*tanh(1000*(t - 0.7))\nd/dt z = 1\ndispt y"
     settings = {
         "t_max": 1.0, "dt": 1.0, "nn": 2, "checked": checked, "error_max": 0.4, "error_min": 0.0, "dt_min": 0.01
     }  # fmt: skip

@@ -15,7 +15,7 @@ TMAX = 4 | NN = 5 | DT = 1 | DTMIN = 0.3 | irule 4
 k = 1e9
 drun
 DYNAMIC
-d/dt x = 1 + k*swtch(t - 2.7)
+d/dt x = 1 + k*(1 + tanh(1000*(t - 2.7)))
 store X = x
 OUT
 points = points + 1

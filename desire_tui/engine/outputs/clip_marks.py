@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     Flags = NDArray[np.bool_]
 
 ABOVE, BELOW, LEFT, RIGHT = "▲▼◀▶"
+ROOM_FOR_TEXT = 0.8
+"""A text that takes more of the upper side than this part is shortened."""
 
 
 class ClipMarks:
@@ -59,6 +61,8 @@ class ClipMarks:
                 line[frame.left + place] = sign
                 lines[frame.top + row] = "".join(line)
         if text:
+            if len(text) > ROOM_FOR_TEXT * frame.columns:  # it would hide the marks that it speaks of
+                text = text.replace(" curves", "").replace(" curve", "")
             text = f" {text} "[: frame.columns]
             start = frame.left + (frame.columns - len(text)) // 2
             lines[first] = lines[first][:start] + text + lines[first][start + len(text) :]
