@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import tempfile
 
 import pytest
@@ -21,6 +22,8 @@ if "PYTEST_XDIST_WORKER" not in os.environ:  # parse tables and native code are 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Make the parse tables before there are processes that would all make them at the same time."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # started in the background: programs inherit that
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     if config.getoption("numprocesses", None) and "PYTEST_XDIST_WORKER" not in os.environ:
         from desire_tui.engine.source import Source
         from desire_tui.engine.syntax.parse import parse

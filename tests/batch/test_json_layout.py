@@ -188,7 +188,7 @@ def test_a_run_that_fails():
         "error",
         "<text>",
         5,
-        1,
+        10,  # x*x
     )
     assert (problem["end_line"], problem["end_column"]) == (5, 13)
     assert problem["code"] > 0

@@ -46,7 +46,8 @@ CASES = [
     ("y = x1 + 1", [(200, 1)]),
     ("y = later\nlater = 1", [(200, 1)]),
     ("y = x1\nz1 = x1", [(200, 1)]),
-    ("q = q + 1\nd/dt x = q", []),
+    ("q = q + 1\nd/dt x = q", [(200, 1)]),  # how fast it counts depends on the rule
+    ("q = sgn(q - x)\nd/dt x = q", []),
     ("y = q\nq = q + 1", [(200, 1)]),
     ("y = z", [(218, 1)]),
     ("y = Z[1]", [(218, 1)]),

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.lowered.effects import reads, writes
+from desire_tui.engine.lowered.expressions import Load, Op
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set
-from desire_tui.engine.lowered.walk import walk_actions
+from desire_tui.engine.lowered.switching import JUMPS
+from desire_tui.engine.lowered.walk import operands, walk_actions
 from desire_tui.engine.passes.slot_set import SlotSet
 
 if TYPE_CHECKING:
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
 
 def recursions(segment: Segment, scope: SegmentScope) -> list[Diagnostic]:
     """Return a warning for each of them that a derivative reads."""
-    found = [made for made in _in_every_pass(segment.body) if (made.slot, 1) in reads(made)]
+    found = [made for made in _in_every_pass(segment.body) if _moves(made)]
     if not found or not segment.order:
         return []
     read = _read_by_derivatives(segment.body)
@@ -37,6 +39,21 @@ def recursions(segment: Segment, scope: SegmentScope) -> list[Diagnostic]:
         facts = {"name": quantity.name}
         problems.append(Diagnostic("recursion-undeclared", made.where.span, facts, segment.source, "warning"))
     return problems
+
+
+def _moves(made: Set) -> bool:
+    """Whether it reads itself, and not as a relay does: `p = 2*sgn(p - x)` keeps its value."""
+    if (made.slot, 1) not in reads(made):
+        return False
+    rest, seen = [made.value], set[int]()
+    while rest:
+        node = rest.pop()
+        if isinstance(node, Load) and node.slot == made.slot:
+            return True
+        if id(node) not in seen and not (isinstance(node, Op) and node.name in JUMPS):
+            seen.add(id(node))
+            rest.extend(operands(node))
+    return False
 
 
 def _in_every_pass(actions: Iterable[Action]) -> Iterator[Set]:

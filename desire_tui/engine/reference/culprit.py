@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.lowered.effects import expressions
 from desire_tui.engine.lowered.expressions import Op
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetMat, SetVec
@@ -110,7 +111,10 @@ def _take_up(memory: RunMemory) -> None:
 
 
 def _replayed(segment: Segment, rule: int, values: Values, memory: RunMemory) -> Culprit | None:
-    _take_up(memory)
+    if segment.order and rule != DUMMY:
+        _take_up(memory)
+    else:
+        memory.phase = Phase.AT_POINT  # points alone, no steps between them
     model = ReferenceBackend().model(segment, rule, values)
     assert isinstance(model, ReferenceModel)
     passes = count()
