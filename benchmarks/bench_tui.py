@@ -138,8 +138,8 @@ class Reader:
 
     @property
     def prompt(self) -> str:
-        """The row of the command line."""
-        return self.screen.display[ROWS - 2]
+        """The rows at the bottom: the command line is one of them, framed or not."""
+        return "\n".join(self.screen.display[-4:])
 
     def until(self, text: str, patience: float = 60.0) -> float:
         """Read until the screen shows the text; returns the moment."""
