@@ -17,19 +17,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.long_run import LONG_RUN
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 ROOT = Path(__file__).parents[2]
-OSCILLATOR = """\
-TMAX = 2E6 | DT = 0.001 | NN = 200001
-irule 3 | x = 1
-drun
-DYNAMIC
-d/dt x = v
-d/dt v = -x
-dispt x, v
-"""
 EQUATIONS = 3000
 LARGE = "TMAX = 1 | DT = 0.001 | NN = 101\nirule 3\ndrun\nDYNAMIC\n" + "".join(
     f"d/dt y{k} = -{k + 1}*y{k} + sin(y{(k + 1) % EQUATIONS})\n" for k in range(EQUATIONS)
@@ -183,7 +176,7 @@ def start(tmp_path: Path):
         one.close()
 
 
-TEXTS = {editing: "x = 1\n", in_dialog: "x = 1\n", running: OSCILLATOR, compiling: LARGE}
+TEXTS = {editing: "x = 1\n", in_dialog: "x = 1\n", running: LONG_RUN, compiling: LARGE}
 
 
 @pytest.mark.parametrize(
@@ -201,7 +194,7 @@ def test_without_its_terminal_the_desktop_ends(
 
 
 def test_a_terminal_that_takes_nothing_holds_up_no_end(start: Callable[..., Desktop]):
-    desktop = start(OSCILLATOR)
+    desktop = start(LONG_RUN)
     desktop.type_something()
     running(desktop)
     time.sleep(1)  # frames fill the terminal's buffer
@@ -211,7 +204,7 @@ def test_a_terminal_that_takes_nothing_holds_up_no_end(start: Callable[..., Desk
 
 @pytest.mark.parametrize("side", ["reading", "writing"])
 def test_without_one_of_its_pipes_a_visitors_desktop_ends(start: Callable[..., Desktop], side: str):
-    desktop = start(OSCILLATOR, served=True)
+    desktop = start(LONG_RUN, served=True)
     desktop.type_something()
     running(desktop)
     stream = desktop.process.stdout if side == "reading" else desktop.process.stdin

@@ -16,19 +16,12 @@ import pexpect
 import pyte
 import pytest
 
+from tests.long_run import LONG_RUN
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 ROOT = Path(__file__).parents[2]
-PROGRAM = """\
-TMAX = 2E6 | DT = 0.001 | NN = 200001
-irule 3 | x = 1
-drun
-DYNAMIC
-d/dt x = v
-d/dt v = -x
-dispt x, v
-"""
 F5, F10 = "\x1b[15~", "\x1b[21~"
 CTRL_A, CTRL_L, CTRL_N, CTRL_Q, CTRL_S = "\x01", "\x0c", "\x0e", "\x11", "\x13"
 PATIENCE_S = 120
@@ -138,7 +131,7 @@ def test_a_session(terminal: Callable[..., Terminal], tmp_path: Path):
     screen.read(0.3)
 
     # type a program and run it, faster than the screen follows; the editor has the keys because the tab is empty
-    for line in PROGRAM.splitlines():
+    for line in LONG_RUN.splitlines():
         screen.send(line + "\x1b[D\x1b[C\r")  # left, right, return
     screen.send(F5)
 

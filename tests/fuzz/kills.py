@@ -24,19 +24,12 @@ from typing import TYPE_CHECKING, NoReturn
 from unittest.mock import patch
 from zlib import crc32
 
+from tests.long_run import LONG_RUN
+
 if TYPE_CHECKING:
     from collections.abc import Callable
     from random import Random
 
-OLD = """\
-TMAX = 2E6 | DT = 0.001 | NN = 200001
-irule 3 | x = 1
-drun
-DYNAMIC
-d/dt x = v
-d/dt v = -x
-dispt x, v
-"""
 BEAT_SECONDS = 0.05
 """So often the desktop notes what stands in its editor. It is late where the machine has much to do, as checkpoints are."""
 LOST_BEATS = 30
@@ -63,7 +56,7 @@ def check(actions: list[str]) -> None:
     folder = Path.cwd()
     shutil.rmtree(folder / "state", ignore_errors=True)
     file, beats = folder / "program.src", folder / "beats.log"
-    file.write_text(OLD, "utf-8")
+    file.write_text(LONG_RUN, "utf-8")
     beats.write_text("")
     desktop = _Desktop(folder, file.name, beats)
     try:
@@ -75,7 +68,7 @@ def check(actions: list[str]) -> None:
     _whole(file)
     recovered = _recovered(folder)
     for text in recovered:
-        assert text.endswith(OLD), "recovery has another text"
+        assert text.endswith(LONG_RUN), "recovery has another text"
     kept = max((_newest(text) for text in (file.read_text("utf-8"), *recovered)), default=-1)
     noted = [int(line) for line in beats.read_text().splitlines(keepends=True) if line.endswith("\n")]
     must = max(noted[:-LOST_BEATS], default=-1)
@@ -170,8 +163,8 @@ def _newest(text: str) -> int:
 
 def _whole(file: Path) -> None:
     text = file.read_text("utf-8")
-    assert text.endswith(OLD), "the file is cut"
-    assert _TYPED.match(text.removesuffix(OLD)), "the file is neither old nor typed"
+    assert text.endswith(LONG_RUN), "the file is cut"
+    assert _TYPED.match(text.removesuffix(LONG_RUN)), "the file is neither old nor typed"
 
 
 def _recovered(folder: Path) -> list[str]:
