@@ -6,14 +6,17 @@ kilobytes. They stand where the pane's size puts them, whatever the frame: a new
 
 from __future__ import annotations
 
+from itertools import groupby
 from typing import TYPE_CHECKING
 
+from textual.geometry import Region
 from textual.widget import Widget
 
 from desire_tui.panes.graph_sheet import TILE_COLUMNS
 
 if TYPE_CHECKING:
-    from textual.geometry import Region
+    from collections.abc import Iterable
+
     from textual.strip import Strip
 
     from desire_tui.panes.graph_sheet import GraphSheet
@@ -51,3 +54,32 @@ class SheetTile(Widget):
         if crop.column_span != (0, TILE_COLUMNS):
             strips = [strip.crop(*crop.column_span) for strip in strips]
         return strips
+
+
+class Tiles:
+    """All tiles of a sheet, from the left."""
+
+    def __init__(self, sheet: GraphSheet) -> None:
+        self._sheet = sheet
+        self._tiles: list[SheetTile] = []
+
+    def grow(self, columns: int) -> list[SheetTile]:
+        """Make what is missing for so many columns; return the new ones."""
+        wanted = -(-columns // TILE_COLUMNS)
+        new = [SheetTile(self._sheet, number) for number in range(len(self._tiles), wanted)]
+        self._tiles += new
+        return new
+
+    def refresh(self, cells: Iterable[tuple[int, int]]) -> None:
+        """Have those cells (row, tile) sent that look different from before."""
+        changed = sorted((tile, row) for row, tile in self._sheet.changed(cells))
+        for number, of_tile in groupby(changed, key=lambda cell: cell[0]):
+            if number >= len(self._tiles):
+                continue
+            rows = [row for _, row in of_tile]
+            regions, first = [], rows[0]
+            for row, following in zip(rows, [*rows[1:], -1], strict=True):
+                if following != row + 1:
+                    regions.append(Region(0, first, TILE_COLUMNS, row - first + 1))
+                    first = following
+            self._tiles[number].refresh(*regions)

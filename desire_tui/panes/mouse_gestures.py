@@ -4,43 +4,25 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from textual.containers import Container
 from textual.geometry import Region
 from textual.message import Message
+
+from desire_tui.panes.drawn_graph import DrawnGraph
 
 if TYPE_CHECKING:
     from textual import events
 
-    from desire_tui.engine.outputs.braille_canvas import Canvas
-    from desire_tui.engine.outputs.text_frame import TextFrame
-    from desire_tui.panes.zoom_window import Window
-
 DRAG_CELLS_MIN = 2
 
 
-class MouseGestures(Container):
-    """The part of a graph pane that handles the mouse; `rubber` is the rectangle being marked."""
+class MouseGestures(DrawnGraph):
+    """The part of a graph pane that handles the mouse."""
 
-    canvas: Canvas | None
-    frame: TextFrame | None
-    view: Window
-    """The part of the graph that is drawn."""
+    _drag: tuple[int, int] | None = None
+    """Cell where the rectangle being marked begins."""
 
     class PauseRequested(Message):
         """The graph was clicked twice."""
-
-    def __init__(self, *, id: str) -> None:  # noqa: A002 - Textual's name
-        super().__init__(id=id)
-        self.rubber: Region | None = None
-        self._drag: tuple[int, int] | None = None
-
-    def look_at(self, window: Window) -> None:
-        """Show another part of the page."""
-        raise NotImplementedError
-
-    def mark_cells(self) -> None:
-        """Have the rectangle and the cursor line drawn."""
-        raise NotImplementedError
 
     def set_cursor(self, x: float) -> None:
         """Move the cursor line, if it is shown, to x (part of the window)."""
