@@ -9,6 +9,7 @@ import numpy as np
 
 from desire_tui.engine.integration.bdf.memory import Bdf
 from desire_tui.engine.integration.bdf.solver import OwnSolver
+from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.integration.problem import STUCK_AT_EDGE_FLAG, STUCK_FLAG, STUCK_MOST
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
@@ -144,7 +145,8 @@ class StiffMomentModel(StiffReferenceModel):
             left = right
         else:
             return False
-        while left < (middle := left + 0.5 * (right - left)) < right:
+        least = RESOLUTION * max(abs(t0), abs(t1))
+        while right - left > least and left < (middle := left + 0.5 * (right - left)) < right:
             self._place(middle, self._between(middle))
             if any_rises(m):
                 right = middle

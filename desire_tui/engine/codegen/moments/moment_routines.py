@@ -13,7 +13,7 @@ from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code
 from desire_tui.engine.codegen.plain_python.kinds import of_function
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
-from desire_tui.engine.integration import tableaus
+from desire_tui.engine.integration import halving, tableaus
 from desire_tui.engine.runtime import run_memory
 from desire_tui.engine.runtime.moments import blocks, histories, locate, memory, stages, steps
 from desire_tui.engine.runtime.moments.memory import Compute, Moments
@@ -33,7 +33,7 @@ def _source(name: str) -> bytes:
 
 _TEXTS = {module: _source(module.__name__) for module in _MODULES}
 """Read now, when the modules are: files may change under a process that lives for days."""
-_OTHERS = b"".join(_source(module.__name__) for module in (memory, run_memory, tableaus))
+_OTHERS = b"".join(_source(module.__name__) for module in (memory, run_memory, tableaus, halving))
 _PUBLIC = ("begin", "step", "look_up")
 _making = Lock()
 _made: list[MomentFunctions] = []

@@ -14,6 +14,7 @@ from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code
 from desire_tui.engine.codegen.plain_python.kinds import of_function
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
+from desire_tui.engine.integration import halving
 from desire_tui.engine.integration.switching import ahead, bounds, memory, operations, watch
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
 from desire_tui.engine.values import T
@@ -30,7 +31,7 @@ def _source(name: str) -> bytes:
 
 
 _TEXTS = {module: _source(module.__name__) for module in _MODULES}
-_OTHERS = _source(memory.__name__) + _source(operations.__name__)
+_OTHERS = b"".join(_source(module.__name__) for module in (memory, operations, halving))
 _PUBLIC = ("begin", "limit", "look", "look_at_step", "place_on_step", "settle", "depart", "follow")
 _BEGIN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_double)
 _making = Lock()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.switching.bounds import at, over
+from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.integration.switching.operations import Operation
 
 if TYPE_CHECKING:
@@ -42,7 +43,8 @@ def look_ahead(w: Watch, t: float, wish: float) -> None:
     left = max(t, w.clear_to)
     width = (wish - left) if wish > left else 0.0
     undecided = 0
-    wide = 0.0
+    least = RESOLUTION * max(abs(left), abs(wish))
+    wide = least
     glances = 0
     while left < wish or (left < w.t_end and glances < _GLANCES):
         if left >= wish:
@@ -58,7 +60,7 @@ def look_ahead(w: Watch, t: float, wish: float) -> None:
             left = right
             width = 2.0 * width
             undecided = 0
-            wide = 0.0
+            wide = least
             continue
         middle = left + 0.5 * (right - left)
         if middle > left and middle < right and right - left > wide:
@@ -92,10 +94,11 @@ def differs(w: Watch, left: float, right: float) -> int:
 
 
 def refine(w: Watch, left: float, right: float) -> None:
-    """Halve until the two are neighbouring numbers."""
+    """Halve until the two are neighbouring numbers, or as near as these are to each other elsewhere."""
     last = left
     following = right
-    while True:
+    least = RESOLUTION * max(abs(left), abs(right))
+    while following - last > least:
         middle = last + 0.5 * (following - last)
         if not (middle > last and middle < following):
             break

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.integration.switching.ahead import begin_ahead, inputs_changed, look_ahead
 from desire_tui.engine.integration.switching.memory import CHATTERS, JUMPED
 from desire_tui.engine.values import T
@@ -69,7 +70,8 @@ def look(w: Watch, t0: float, t1: float) -> Int32:
         w.place(w.owner, t1)
         if has_switched(w) == 0:
             return 0
-    while True:
+    least = RESOLUTION * max(abs(t0), abs(t1))
+    while right - left > least:
         middle = left + 0.5 * (right - left)
         if not (middle > left and middle < right):
             break

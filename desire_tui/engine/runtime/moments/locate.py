@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.runtime.moments.blocks import any_rises, rises
 from desire_tui.engine.runtime.moments.stages import make_step
 from desire_tui.engine.values import T
@@ -24,7 +25,8 @@ def locate(m: Moments, here: float, end: float) -> float:
         m.at_left[i] = m.before[i]
     turn = 0
     stayed = 0
-    while True:
+    least = RESOLUTION * max(abs(here), abs(end))
+    while right - left > least:
         middle = left + 0.5 * (right - left)
         if not (middle > left and middle < right):
             break
