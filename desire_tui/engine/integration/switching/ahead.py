@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.integration.switching.bounds import at, over
 from desire_tui.engine.integration.halving import RESOLUTION
+from desire_tui.engine.integration.switching.bounds import at, over
 from desire_tui.engine.integration.switching.operations import Operation
 
 if TYPE_CHECKING:
