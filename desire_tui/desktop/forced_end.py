@@ -8,7 +8,6 @@ from __future__ import annotations
 import faulthandler
 import os
 import threading
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.session.process_groups import end_all
@@ -38,8 +37,11 @@ def is_begun() -> bool:
 
 
 def _end(keep_work: Callable[[], object]) -> None:
-    with suppress(Exception):  # the main thread may be at the same text; it keeps it then
+    try:
         keep_work()
+    except Exception:  # noqa: BLE001 - the main thread may be at the same text: it keeps it, and gets the time for it
+        end_all()
+        return
     end_all()
     _exit_in(ORDERLY_S)
 

@@ -7,9 +7,11 @@ import shlex
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from select import POLLHUP, poll
 from typing import TYPE_CHECKING
 
 from textual.app import App, SuspendNotSupported
@@ -20,6 +22,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from desire_tui.editor.code_area import CodeArea
+
+
+_LOOK_S = 1.0
+"""So often it is looked whether the terminal is still there."""
+_END_S = 2.0
+"""So long an editor without a terminal may take to end."""
 
 
 class _Refused(Exception):  # noqa: N818 - a statement to the user
@@ -67,7 +75,8 @@ def _edited(app: App[None], words: list[str], area: CodeArea) -> str:
             copy.write_text(area.text, encoding="utf-8", errors="surrogatepass")
             with app.suspend(), _interrupts_left_to_the_editor():
                 try:
-                    status = subprocess.run([*words, str(copy)], check=False).returncode  # noqa: S603 - the user's own choice
+                    editor = subprocess.Popen([*words, str(copy)])  # noqa: S603 - the user's own choice
+                    status = _waited_for(editor, sys.__stdin__.fileno() if sys.__stdin__ else 0)
                 except OSError as error:  # leaving `suspend` by an exception would leave the screen stopped
                     fault = error
             text = copy.read_text(encoding="utf-8", errors="replace")
@@ -81,6 +90,25 @@ def _edited(app: App[None], words: list[str], area: CodeArea) -> str:
             end = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
             raise _Refused(f"{words[0]} {end}")
         return text
+
+
+def _waited_for(editor: subprocess.Popen[bytes], terminal: int) -> int:
+    """Wait for the editor, and end it if its terminal has gone; return its status.
+
+    Most editors end by themselves then; one that does not would keep the desktop waiting for ever.
+    """
+    watched = poll()
+    watched.register(terminal, 0)
+    while True:
+        with suppress(subprocess.TimeoutExpired):
+            return editor.wait(_LOOK_S)
+        if any(happened & POLLHUP for _, happened in watched.poll(0)):
+            break
+    editor.send_signal(signal.SIGHUP)  # vi keeps its work at this one
+    with suppress(subprocess.TimeoutExpired):
+        return editor.wait(_END_S)
+    editor.kill()
+    return editor.wait()
 
 
 @contextmanager

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import pty
+import signal
+import subprocess
 from typing import TYPE_CHECKING
 
 import pytest
+
+from desire_tui.editor import external_editor
 
 from .conftest import desktop
 from .test_terminal import CTRL_L, CTRL_S, Terminal
@@ -32,6 +38,16 @@ async def test_a_terminal_that_cannot_be_handed_over_is_told(program, monkeypatc
     async with desktop(program("x = 1\n")) as desk:
         await desk.line("external")
         await notified(desk, "cannot be handed")
+
+
+def test_an_editor_whose_terminal_has_gone_is_ended(monkeypatch):
+    monkeypatch.setattr(external_editor, "_LOOK_S", 0.01)
+    monkeypatch.setattr(external_editor, "_END_S", 0.01)
+    screen, terminal = pty.openpty()
+    editor = subprocess.Popen(["sh", "-c", "trap '' HUP; sleep 100"])
+    os.close(screen)
+    assert external_editor._waited_for(editor, terminal) in {-signal.SIGHUP, -signal.SIGKILL}
+    os.close(terminal)
 
 
 # ------------------------------------------------------------------------------------------ the real terminal

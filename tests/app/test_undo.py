@@ -16,6 +16,10 @@ async def test_sequences_of_edits(first: int):
     assert await run(range(first, first + 4)) == 4
 
 
+async def test_going_to_the_last_row_of_a_text_just_opened_shows_no_rows_behind_it():
+    assert await run(range(343012674, 343012675)) == 1
+
+
 @pytest.mark.parametrize("rows", [1, 3, 30])
 async def test_a_paste_taller_than_the_pane_is_undone(rows: int):
     async with desktop(size=(100, rows + 20)) as desk:

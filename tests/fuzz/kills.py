@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
 BEAT_SECONDS = 0.05
 """So often the desktop notes what stands in its editor. It is late where the machine has much to do, as checkpoints are."""
-LOST_BEATS = 30
-"""A second of typing may be lost; the thread that writes takes its time."""
+LOST_SECONDS = 1.0
+"""So much typing may be lost, by the desktop's own clock."""
 ACTIONS_EACH_BEAT = 3
 RESTORED_EVERY = 8
 """After one kill in so many somebody starts again and restores the work."""
@@ -70,8 +70,9 @@ def check(actions: list[str]) -> None:
     for text in recovered:
         assert text.endswith(LONG_RUN), "recovery has another text"
     kept = max((_newest(text) for text in (file.read_text("utf-8"), *recovered)), default=-1)
-    noted = [int(line) for line in beats.read_text().splitlines(keepends=True) if line.endswith("\n")]
-    must = max(noted[:-LOST_BEATS], default=-1)
+    noted = [line.split() for line in beats.read_text().splitlines(keepends=True) if line.endswith("\n")]
+    last = float(noted[-1][0]) - LOST_SECONDS - BEAT_SECONDS  # it is being written for some of it
+    must = max((int(newest) for t, newest in noted if float(t) < last), default=-1)
     assert kept >= must, f"word {must} was there long before the signal, {kept} is kept"
     if recovered and crc32(repr(actions).encode()) % RESTORED_EVERY == 0:
         _restored(folder, file.name, _newest(recovered[0]))
@@ -133,7 +134,9 @@ def _open_desktop(folder: Path, name: str, beats: Path) -> NoReturn:
 
     def shown(app):
         show(app)
-        app.main_screen.set_interval(BEAT_SECONDS, lambda: noted.write(f"{_newest(app.editor.front.text)}\n"))
+        app.main_screen.set_interval(
+            BEAT_SECONDS, lambda: noted.write(f"{time.monotonic()} {_newest(app.editor.front.text)}\n")
+        )
 
     try:
         with patch.object(DesireApp, "_show", shown):
