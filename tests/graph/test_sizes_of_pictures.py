@@ -36,6 +36,20 @@ def test_the_area_of_a_square_is_the_magnitude_in_the_terminal():
     assert area[3] == 0
 
 
+def test_a_curve_on_the_same_graph_is_drawn_over_each_new_picture():
+    session = session_for(
+        "TMAX = 1 | DT = 0.1 | NN = 11 | ARRAY A[2]\ndrun\nDYNAMIC\nd/dt x = 1\nA[1] = t\nSHOW A\ndispt x\n"
+    )
+    graph = session.graphs.current
+    assert graph.curves
+    assert graph.shown
+    both, alone = Canvas(40, 10), Canvas(40, 10)
+    Painter(both, graph).update()
+    graph.shown[:] = []
+    Painter(alone, graph).update()
+    assert lit(alone) <= lit(both)
+
+
 def test_the_sign_is_the_colour_and_a_value_above_scale_is_a_full_square():
     canvas, dots = dots_of(shown([7.0, -7.0], 2), 20, 5)
     assert {canvas.colors[10 // 4, 5], canvas.colors[10 // 4, 15]} == {14, 9}

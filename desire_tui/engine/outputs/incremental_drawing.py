@@ -45,23 +45,23 @@ class Painter:
         """Draw what is new; returns whether there may be more at once (a long curve seen first)."""
         if self.graph.erased != self._erased:
             self._erased = self.graph.erased
-            self._drawn.clear()
-            self._along.clear()
-            self._points = self._pictures = 0
             self.clipped = ClipMarks(self.canvas.columns, self.canvas.rows)
-            self.canvas.clear()
+            self._begin_anew()
         if self._few != self.graph.has_few_points:
             self._few = self.graph.has_few_points
-            self._drawn.clear()
-            self._along.clear()
-            self._points = self._pictures = 0
-            self.canvas.clear()
+            self._begin_anew()
+        self._picture()
         more = False
         for curve in list(self.graph.curves):
             more |= self._curve(curve)
         self._plot_points()
-        self._picture()
         return more
+
+    def _begin_anew(self) -> None:
+        self._drawn.clear()
+        self._along.clear()
+        self._points = self._pictures = 0
+        self.canvas.clear()
 
     def _curve(self, curve: Curve) -> bool:
         count = curve.count
@@ -107,8 +107,8 @@ class Painter:
         state = sum(len(s.record.pictures) if s.record is not None else 1 for s in shown)
         if not shown or state == self._pictures:
             return
+        self._begin_anew()  # curves are drawn over it, again with each new picture
         self._pictures = state
-        self.canvas.clear()
         for number, array in enumerate(shown):
             values = array.latest()
             if values is None:

@@ -127,8 +127,8 @@ class _Finder:
             return 0
         if node.name in JUMPS and self.is_mode(node):
             return extent(action, node)
-        if node.name in JUMPS | KINKS and self.dependences.of(*switched(node)) is Dependence.TIME:
-            decides = Op("swtch", node.args[:1]) if node.name == "comp" else node
+        decides = Op("swtch", node.args[:1]) if node.name == "comp" else node
+        if node.name in JUMPS | KINKS and self.dependences.of(decides) is Dependence.TIME:
             self.clocks.append((decides, action.where))
         return 0
 
@@ -136,11 +136,6 @@ class _Finder:
         """Whether a jump depends on states (and on nothing drawn)."""
         argument = node.args[0]
         return self.dependences.of(argument) is Dependence.STATES and not count_draws(argument)
-
-
-def switched(node: Op) -> tuple[Value, ...]:
-    """Return the arguments that decide."""
-    return node.args[:1] if node.name == "comp" else node.args
 
 
 def is_located(action: Terminate) -> bool:
