@@ -5,12 +5,15 @@ Short runs: rounding grows from step to step, and after some 150 of them a step 
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from desire_tui.engine.codegen.stiff import stiff_model
 from desire_tui.engine.reference import stiff
 from tests.integration.stiff_programs import run
 from tests.integration.test_bdf import Problem, cvodes, ours
+from tests.programs.execution import execute
 
 VAN_DER_POL = """
 TMAX = 2 | NN = 21 | DT = 1e-4 | DTMAX = 0.1 | ERMAX = 1e-5 | irule {rule}
@@ -78,3 +81,26 @@ def test_several_failed_tests_in_one_step():
     its_flag, _, its_solver, _ = cvodes(problem, [0.1])
     assert flag == its_flag
     assert solver.counts() == its_solver.counts()
+
+
+SMOOTH = """
+TMAX = 0.9 | NN = 5 | DT = 0.1 | ERMAX = 1e-6 | irule {rule}
+z = 0
+drun
+reset | drun
+DYNAMIC
+c = c + 1
+d/dt z = 3/(1.5 + t^4) - 0.5*z
+dispt z
+"""
+"""With failed tries: those of the first run have nothing to say about rounding in the second."""
+
+
+@pytest.mark.parametrize("rule", [10, 14])
+def test_a_run_made_again_calls_as_often(rule):
+    counts = {
+        record.derivative_calls
+        for backend in ("native", "reference")
+        for record in execute("c = 0\n" + SMOOTH.format(rule=rule), backend, Path.cwd()).runs
+    }
+    assert len(counts) == 1

@@ -148,9 +148,14 @@ def excess(action: Terminate) -> Value:
     return action.value if action.level is None else Op("sub", (action.value, Load(action.level)))
 
 
+def is_scalar(node: Value) -> bool:
+    """Whether nothing in an expression is an array."""
+    return all(isinstance(part, Const | Load | Op | Table1 | Table2) for part in walk_values(node))
+
+
 def extent(action: SimpleAction, node: Value) -> int:
     """Return the number of elements of a node in a statement: 1 where nothing in it is an array."""
-    if all(isinstance(part, Const | Load | Op | Table1 | Table2) for part in walk_values(node)):
+    if is_scalar(node):
         return 1
     match action:
         case SetVec() | DerivVec():
@@ -244,7 +249,7 @@ class _Rewriter:
         self.modes.append(Mode(number, count, name, where, rising))
         slot = self._live + number
         made: Action
-        if count == 1:
+        if is_scalar(value):  # an array of one element is an array
             made = Set(slot, value, where)
         elif isinstance(action, SetMat):
             made = SetMat(slot, action.rows, action.cols, value, where)

@@ -199,8 +199,8 @@ def synchronise(problem: SolverProblem) -> None:
 
 def begin_anew(problem: SolverProblem, t: float) -> None:
     """Let the solver forget its history."""
-    problem.failed += failures(problem)  # the solver starts to count at 0
     if problem.started != 0:
+        problem.failed += failures(problem)  # the solver starts to count at 0
         again = problem.fresh == 1  # a state is changed at each step: the step before is the best guess
         begin(problem, t, 2.0 * last_size(problem) if again else 0.0)
         problem.restarts += 1
