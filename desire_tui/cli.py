@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from desire_tui.engine.outputs.formats import FORMATS, DataFormat
+from desire_tui.engine.outputs.formats import FORMATS, DataFormat, OutputFormat
 from desire_tui.engine.outputs.picture_options import DPI_LEAST, DPI_MOST, INCHES_MOST, PictureOptions, inches
 from desire_tui.engine.user_folders import ignored_variables
 from desire_tui.engine.visible_text import visible
@@ -150,6 +150,8 @@ def _run(file: str, **options: Any) -> int:
     if sum(name == STANDARD_OUTPUT for name in files.values()) > 1:
         raise click.UsageError("only one file can go to standard output")
     for known in FORMATS:
+        if known.name in files:
+            _check_library(known)
         is_text = isinstance(known, DataFormat) and known.is_text
         if files.get(known.name) == STANDARD_OUTPUT and not is_text and sys.stdout.isatty():
             raise click.UsageError(
@@ -164,6 +166,16 @@ def _run(file: str, **options: Any) -> int:
     return run_file(
         file, run_options, outputs, options["answers"], quiet=options["quiet"], raw=options["raw"]
     )
+
+
+def _check_library(known: OutputFormat) -> None:
+    """Say before the program runs that a format's library is missing, not after an hour of it."""
+    from importlib.util import find_spec
+
+    if isinstance(known, DataFormat) and known.needs is not None and find_spec(known.needs) is None:
+        raise click.UsageError(
+            f"--{known.name} needs the library {known.needs}: pip install 'desire-tui[data]'"
+        )
 
 
 @main.command()

@@ -95,9 +95,11 @@ def run_file(
         report(runner.problems)
         status = _EXIT[runner.status]
         known = len(runner.problems)
-        outputs.write(runner.session, runner.result)
-        report(runner.problems[known:])
+        problems = outputs.write(runner.session, runner.result)
+        report([*runner.problems[known:], *problems])
         status = _EXIT[runner.status]
+        if status == DONE and any(problem.severity == "error" for problem in problems):
+            status = FAILED
     except DesireError as error:
         report(error.diagnostics)
         status = FAILED

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, Any
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.diagnostics import DesireError, Diagnostic, internal_error
 from desire_tui.engine.files import write_bytes, write_file
 from desire_tui.engine.outputs.formats import DATA, PICTURES
 from desire_tui.engine.outputs.picture_files import write_pictures
@@ -16,7 +17,7 @@ from desire_tui.engine.outputs.picture_options import FOR_PAPER
 from desire_tui.engine.visible_text import visible
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.formats import DataFormat, PictureFormat
@@ -42,20 +43,44 @@ class OutputFiles:
         """Whether standard output belongs to a file, so that console text has to go elsewhere."""
         return STANDARD_OUTPUT in self.files.values()
 
-    def write(self, session: Session, result: Callable[[], Result]) -> None:
-        """Write everything.
+    def write(self, session: Session, result: Callable[[], Result]) -> tuple[Diagnostic, ...]:
+        """Write everything, data first; return what kept files from being written, each on its own.
 
-        DesireError 106: something cannot be written; 471: no graph for a picture; 40: too much for a file.
+        Errors 106: a file cannot be written; 40: too much for it. Warning 471: there is no graph.
         """
-        for picture in PICTURES:
-            if picture.name in self.files:
-                _write_pictures(session, self.files[picture.name], picture, self.picture)
+        problems: list[Diagnostic] = []
         for data in DATA:
             if data.name in self.files:
-                _check_memory(session, data)
-                _write_data(result(), self.files[data.name], data)
+                with _noting(problems):
+                    _check_memory(session, data)
+                    _write_data(result(), self.files[data.name], data)
+        pictures = [picture for picture in PICTURES if picture.name in self.files]
+        graphs = [page for page in session.graphs if not page.is_empty]
+        if (pictures or self.plot) and not graphs:
+            wanted = [f"--{picture.name}" for picture in pictures] + (["--plot"] if self.plot else [])
+            facts = {"files": ", ".join(wanted)}
+            problems.append(Diagnostic("graph-missing", facts=facts, severity="warning"))
+            return tuple(problems)
+        for picture in pictures:
+            with _noting(problems):
+                _write_pictures(graphs, self.files[picture.name], picture, self.picture)
         if self.plot:
-            _print_plot(session)
+            with _noting(problems):
+                _print_plot(graphs[-1])
+        return tuple(problems)
+
+
+@contextmanager
+def _noting(problems: list[Diagnostic]) -> Iterator[None]:
+    """Keep what is wrong with one output from the others. Lost standard output is nobody's to be told of."""
+    try:
+        yield
+    except DesireError as error:
+        problems.extend(error.diagnostics)
+    except OSError:
+        raise
+    except Exception as error:  # noqa: BLE001 - a fault of ours is a message too
+        problems.append(internal_error("results were written", error))
 
 
 def _check_memory(session: Session, data: DataFormat) -> None:
@@ -66,22 +91,35 @@ def _check_memory(session: Session, data: DataFormat) -> None:
 
 
 def _write_data(result: Result, name: str, data: DataFormat) -> None:
+    """Write the samples; points of `plot` into the same file, one of their own, or the only one."""
+    only_points = data.write_points is not None and bool(result.plots) and not result.runs
+    _write_one(result, name, data, data.write_points if only_points and data.write_points else data.write)
+    if data.write_points is not None and result.plots and result.runs and name != STANDARD_OUTPUT:
+        path = Path(name)
+        points = path.with_name(f"{path.stem}-points{path.suffix}")
+        _write_one(result, str(points), data, data.write_points)
+
+
+def _write_one(
+    result: Result, name: str, data: DataFormat, write: Callable[[Result, IO[Any]], object]
+) -> None:
     if name == STANDARD_OUTPUT:
         if data.is_text and sys.stdout.isatty():
             text = StringIO()
-            data.write(result, text)
+            write(result, text)
             sys.stdout.write(visible(text.getvalue()))
         else:
-            data.write(result, sys.stdout if data.is_text else sys.stdout.buffer)
+            write(result, sys.stdout if data.is_text else sys.stdout.buffer)
         sys.stdout.flush()
         return
-    write = write_file if data.is_text else write_bytes
-    write(Path(name), lambda file: data.write(result, file))
+    into_file = write_file if data.is_text else write_bytes
+    into_file(Path(name), lambda file: write(result, file))
 
 
-def _write_pictures(session: Session, name: str, picture: PictureFormat, options: PictureOptions) -> None:
+def _write_pictures(
+    graphs: Sequence[Graph], name: str, picture: PictureFormat, options: PictureOptions
+) -> None:
     """One graph: NAME; several: NAME-1, NAME-2 …; on standard output: the last one."""
-    graphs = _graphs(session)
     if name == STANDARD_OUTPUT:
         sys.stdout.buffer.write(picture.content(graphs[-1], options))
         sys.stdout.flush()
@@ -92,19 +130,12 @@ def _write_pictures(session: Session, name: str, picture: PictureFormat, options
     write_pictures(graphs, path, options)
 
 
-def _print_plot(session: Session) -> None:
+def _print_plot(graph: Graph) -> None:
     import shutil
 
     from desire_tui.engine.outputs.text_plot import text_plot
 
     columns, rows = shutil.get_terminal_size((80, _PLOT_ROWS + 2))
     rows = max(min(rows - 2, columns // 3), 12)
-    sys.stdout.write(text_plot(_graphs(session)[-1], columns, rows, colored=sys.stdout.isatty()))
+    sys.stdout.write(text_plot(graph, columns, rows, colored=sys.stdout.isatty()))
     sys.stdout.flush()
-
-
-def _graphs(session: Session) -> list[Graph]:
-    graphs = [page for page in session.graphs if not page.is_empty]
-    if not graphs:
-        raise DesireError(Diagnostic("no-graph"))
-    return graphs

@@ -42,14 +42,14 @@ def text_of(runs, **options):
 
 
 def test_a_name_with_a_comma_is_one_column(runs):
-    assert text_of(runs).split("\n")[0] == 'run,t,"A[1,2]",v[2],y'
+    assert text_of(runs).split("\n")[0] == 'run,t,"A[1,2]",v[2],y,segment'
     assert text_of(runs[:1], numbered=False).split("\n")[0] == 't,"A[1,2]",v[2]'
     assert text_of(runs[:1], numbered=False, delimiter="\t").split("\n")[0] == "t\tA[1,2]\tv[2]"
 
 
 def test_read_back_by_the_csv_module_every_bit_is_there(runs):
     head, *rows = csv.reader(StringIO(text_of(runs), newline=""))
-    assert head == ["run", "t", "A[1,2]", "v[2]", "y"]
+    assert head == ["run", "t", "A[1,2]", "v[2]", "y", "segment"]
     assert len(rows) == 10
     for number, run in enumerate(runs, 1):
         own = [row for row in rows if row[0] == str(number)]
@@ -57,7 +57,9 @@ def test_read_back_by_the_csv_module_every_bit_is_there(runs):
         recorded = {curve.name: curve.values.tolist() for curve in run.curves}
         for place, name in enumerate(head[2:], 2):
             column = [row[place] for row in own]
-            if name in recorded:
+            if name == "segment":
+                assert column == [run.segment or ""] * 5
+            elif name in recorded:
                 assert [float(cell) for cell in column] == recorded[name]
             else:
                 assert column == [""] * 5

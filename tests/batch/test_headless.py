@@ -62,7 +62,8 @@ def test_each_csv_column_stands_once():
     text = "NN = 2\ndrun\ndrun b\nDYNAMIC\ny = 2*t\ndispxy t, y, y\nlabel b\nz = 3*t\nDISPXY z, t, y, z\n"
     file = StringIO()
     write_csv(desire_tui.run(text).runs, file)
-    assert file.getvalue().split("\n")[:3] == ["run,t,y,z", "1,1.0,2.0,", "1,2.0,4.0,"]
+    rows = file.getvalue().split("\n")
+    assert rows[:4] == ["run,t,y,z,segment", "1,1.0,2.0,,", "1,2.0,4.0,,", "2,2.0,4.0,6.0,b"]
 
 
 def test_all_files_at_once(decay, tmp_path):
@@ -171,12 +172,26 @@ def test_several_graphs_are_numbered(tmp_path):
     assert sorted(p.name for p in tmp_path.glob("*.svg")) == ["g-1.svg", "g-2.svg"]
 
 
-def test_picture_without_a_graph(tmp_path):
+def test_without_a_graph_data_are_written_and_pictures_are_a_warning(tmp_path):
     path = tmp_path / "none.src"
     path.write_text("x = 1\n")
-    status, _, err = desire("run", path, "--png", tmp_path / "g.png")
+    files = {kind: tmp_path / f"g.{kind}" for kind in ("png", "svg", "json", "csv")}
+    status, _, err = desire("run", path, *(word for kind, f in files.items() for word in (f"--{kind}", f)))
+    assert status == 0
+    assert "warning 471: there is no graph for --png, --svg" in err
+    assert json.loads(files["json"].read_text())["quantities"]["x"] == 1.0
+    assert [kind for kind, f in files.items() if f.exists()] == ["json", "csv"]
+
+
+def test_an_output_that_fails_keeps_none_of_the_others_back(decay, tmp_path):
+    status, _, err = desire(
+        "run", decay, "--csv", tmp_path / "nowhere" / "x.csv", "--json", tmp_path / "x.json",
+        "--png", tmp_path / "x.png",
+    )  # fmt: skip
     assert status == 1
-    assert "error 471" in err
+    assert "error 106" in err
+    assert (tmp_path / "x.json").exists()
+    assert (tmp_path / "x.png").exists()
 
 
 def test_plot_is_text_with_frame_and_caption(decay):

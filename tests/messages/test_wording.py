@@ -14,6 +14,9 @@ from tests.messages.test_messages import FILES, spoken
 
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {
+    "graph-missing": (
+        "tests/batch/test_headless.py::test_without_a_graph_data_are_written_and_pictures_are_a_warning"
+    ),
     "solver-corrector-part": (
         "tests/session/test_fault_place.py::test_a_corrector_that_met_a_root_of_a_negative_number_says_so"
     ),

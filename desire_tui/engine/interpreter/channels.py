@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.interpreter.data_table import DataTable, begins_with_number, column_names, separator_of
 from desire_tui.engine.program_files import open_for_program
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
     from desire_tui.engine.interpreter.host import Host
 
 MOST_CHANNELS = 10
 _APPENDING = {0, 1}
 _DEFAULT_ENDING = ".dat"
+_TABLE_ENDINGS = {".csv", ".tsv"}
+_BYTE_ORDER_MARK = "\ufeff"
+_COMMENT = "#"
 
 
 @dataclass(slots=True)
@@ -24,6 +32,46 @@ class Channel:
     path: Path
     mode: Literal["input", "output"]
     file: IO[str]
+    line: int = 0
+    """Number of the line read last."""
+    table: DataTable | None = None
+    waiting: list[tuple[int, str]] = field(default_factory=list)
+    """Lines that were looked at and hold values, with their numbers, the next one last."""
+
+    def next_line(self) -> str | None:
+        """Return the next line without its end and without comments (`#`); None at the end of the file."""
+        if self.waiting:
+            self.line, text = self.waiting.pop()
+            return text
+        while line := self.file.readline():
+            self.line += 1
+            if self.line == 1:
+                line = line.removeprefix(_BYTE_ORDER_MARK)
+            text, comment, _ = line.rstrip("\r\n").partition(_COMMENT)
+            if text.strip() or not comment:
+                return text
+        return None
+
+    def lines(self) -> Iterator[tuple[int, str]]:
+        """Yield the lines that hold anything, with their numbers."""
+        while (line := self.next_line()) is not None:
+            if line.strip():
+                yield self.line, line
+
+    def look_for_names(self, is_value: Callable[[str], bool]) -> None:
+        """If nothing was read yet, see whether the first line that holds anything names columns."""
+        if self.line or self.waiting:
+            return
+        is_table = self.path.suffix.lower() in _TABLE_ENDINGS
+        looked_at = list(islice(self.lines(), 1 if is_table else 2))
+        self.waiting = looked_at[::-1]
+        if not looked_at or not (is_table or begins_with_number(looked_at[-1][1])):
+            return
+        first = looked_at[0][1]
+        names = column_names(first, None if is_table else is_value)
+        if names is not None:
+            self.table = DataTable(names, separator_of(first))
+            self.waiting.pop()
 
 
 class Channels:
@@ -99,13 +147,42 @@ class Channels:
     def read_line(self, number: int) -> str:
         """Return the next line of an input channel without its end; error 18 at the end of the file."""
         channel = self._channel(number, "input")
-        try:
-            line = channel.file.readline()
-        except OSError as error:
-            raise _problem("cannot-read", file=channel.path, reason=error.strerror) from None
-        if not line:
+        with _reading(channel):
+            line = channel.next_line()
+        if line is None:
             raise _problem("file-ended", file=channel.path.name, channel=number)
-        return line.rstrip("\r\n")
+        return line
+
+    def table(self, number: int, is_value: Callable[[str], bool]) -> DataTable | None:
+        """Return the names of an input channel's columns; None for a file of values alone.
+
+        `is_value`: whether a name has a value, so that a line of such names is one of values.
+        """
+        channel = self._channel(number, "input")
+        with _reading(channel):
+            channel.look_for_names(is_value)
+        return channel.table
+
+    def name_of(self, number: int) -> str:
+        """Return the name of an input channel's file."""
+        return self._channel(number, "input").path.name
+
+    def columns(
+        self, number: int, wanted: Sequence[int], rows: int, check: Callable[[], object]
+    ) -> list[list[float]]:
+        """Return some columns of a table's next rows, calling `check` now and then.
+
+        Error 18: there are fewer rows, or no number.
+        """
+        channel = self._channel(number, "input")
+        table, name = channel.table, channel.path.name
+        assert table is not None
+        with _reading(channel):
+            columns = table.columns(islice(channel.lines(), rows), wanted, name, check)
+        if (left := len(columns[0])) < rows:
+            key = "rows-missing" if left or rows > 1 else "file-ended"
+            raise _problem(key, file=name, channel=number, rows=left, needed=rows)
+        return columns
 
     def _channel(self, number: int, mode: Literal["input", "output"]) -> Channel:
         _check_number(number)
@@ -115,6 +192,14 @@ class Channels:
         if channel.mode != mode:
             raise _problem("channel-wrong-way", channel=number, mode=channel.mode, wanted=mode)
         return channel
+
+
+@contextmanager
+def _reading(channel: Channel) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise _problem("cannot-read", file=channel.path, reason=error.strerror) from None
 
 
 def _check_number(number: int) -> None:

@@ -10,6 +10,7 @@ from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.entries import Entries
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.statement_context import StatementContext
+from desire_tui.engine.interpreter.table_input import table_input
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.values import Kind, Quantity
 from desire_tui.engine.whole_numbers import WHOLE_MOST
@@ -101,6 +102,10 @@ def get_input(context: StatementContext, node: Input) -> Operation:
 
         def from_file() -> None:
             channel = number()
+            table = channels.table(channel, partial(_has_value, context))
+            if table is not None:
+                table_input(context, node, channel, table, fillers)
+                return
             entries = Entries(context, lambda: channels.read_line(channel), f"channel {channel}")
             for fill in fillers:
                 fill(entries.next)
@@ -119,6 +124,11 @@ def get_input(context: StatementContext, node: Input) -> Operation:
             fill(entries.next)
 
     return context.then(from_console)
+
+
+def _has_value(context: StatementContext, name: str) -> bool:
+    meaning = context.scope.find(name)
+    return meaning is not None and not (isinstance(meaning, Quantity) and meaning.shape)
 
 
 def _misfit(name: str, kind: Kind, value: complex) -> Diagnostic | None:

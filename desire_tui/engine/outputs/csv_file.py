@@ -9,34 +9,56 @@ from typing import IO, TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from desire_tui.engine.outputs.results import RunData
+    from desire_tui.engine.outputs.results import PlotPoint, RunData
 
 _ROWS = 10_000  # turned into text at a time
+SEGMENT = "segment"
+"""The column of labels."""
 
 
 def write_csv(runs: Sequence[RunData], file: IO[str], *, numbered: bool = True, delimiter: str = ",") -> None:
     """Write one row for each sample: `run, t, names…`, without `run` unless `numbered`.
 
-    Behind them stand parameters that the script changed between the runs, and starts of states as `x(0)`. A
-    variable that a run did not record is empty there. Numbers read back as the same floats.
+    Behind them stands what differs between the runs: parameters that the script changed, starts of states as
+    `x(0)`, and the label of the segment. A variable that a run did not record is empty there. Numbers read
+    back as the same floats.
     """
-    shown = dict.fromkeys(curve.name for run in runs for curve in run.curves)
-    names = [name for name in shown if name != "t"]  # it has its column
-    starts = [run.parameters for run in runs]
-    if not all(run.continues for run in runs[1:]):
-        starts = [run.parameters | {f"{name}(0)": x for name, x in run.initial.items()} for run in runs]
-    varied = [name for name in _varied(starts) if name not in shown]
+    names, varied = columns_of(runs)
     header = csv.writer(file, delimiter=delimiter, lineterminator="\n")
     header.writerow([*(["run"] if numbered else []), "t", *names, *varied])
-    for number, (run, start) in enumerate(zip(runs, starts, strict=True), 1):
+    for number, run in enumerate(runs, 1):
         first = [repeat(str(number))] if numbered else []
-        last = [repeat(repr(start[name]) if name in start else "") for name in varied]
+        last = [repeat(_text(values[number - 1])) for values in varied.values()]
         for columns in _texts(run, names):
             # numbers need no quotes: `csv` would look for something to quote, in a third more time
             rows = map(
                 delimiter.join, zip(*first, *columns, *last, strict=False)
             )  # what is repeated has no end
             file.writelines(f"{row}\n" for row in rows)
+
+
+def write_points(points: Iterable[PlotPoint], file: IO[str]) -> None:
+    """Write the points of `plot`, one row each: `x, y, color`."""
+    file.write("x,y,color\n")
+    file.writelines(f"{point.x!r},{point.y!r},{point.color}\n" for point in points)
+
+
+def columns_of(runs: Sequence[RunData]) -> tuple[list[str], dict[str, list[float | str | None]]]:
+    """Return the names of the samples' columns, and of those behind them each run's value.
+
+    The latter hold what differs: parameters, starts of states, segments. None: the run has none.
+    """
+    shown = dict.fromkeys(curve.name for run in runs for curve in run.curves)
+    names = [name for name in shown if name != "t"]  # it has its column
+    starts: list[dict[str, float]] = [run.parameters for run in runs]
+    if not all(run.continues for run in runs[1:]):
+        starts = [run.parameters | {f"{name}(0)": x for name, x in run.initial.items()} for run in runs]
+    varied: dict[str, list[float | str | None]] = {
+        name: [start.get(name) for start in starts] for name in _varied(starts) if name not in shown
+    }
+    if len({run.segment for run in runs}) > 1 and SEGMENT not in {*names, *varied}:
+        varied[SEGMENT] = [run.segment for run in runs]
+    return names, varied
 
 
 def _varied(starts: Sequence[dict[str, float]]) -> Iterator[str]:
@@ -46,6 +68,10 @@ def _varied(starts: Sequence[dict[str, float]]) -> Iterator[str]:
         for name, value in start.items():
             values.setdefault(name, set()).add(repr(value))
     return (name for name, found in values.items() if len(found) > 1)
+
+
+def _text(value: float | str | None) -> str:
+    return value if isinstance(value, str) else "" if value is None else repr(value)
 
 
 def _texts(run: RunData, names: Sequence[str]) -> Iterator[list[Iterable[str]]]:

@@ -17,15 +17,11 @@ if TYPE_CHECKING:
 
 
 class OutputFormat:
-    """A file format. `name` is its option of `desire run` and the ending of its files."""
+    """A file format. `name` is its option of `desire run`, `ending` of its files' names, with the dot."""
 
-    def __init__(self, name: str, title: str, about: str) -> None:
+    def __init__(self, name: str, title: str, about: str, ending: str | None = None) -> None:
         self.name, self.title, self.about = name, title, about
-
-    @property
-    def ending(self) -> str:
-        """Ending of a file's name, with its dot."""
-        return f".{self.name}"
+        self.ending = f".{name}" if ending is None else ending
 
 
 class PictureFormat(OutputFormat):
@@ -41,8 +37,9 @@ class PictureFormat(OutputFormat):
 class DataFormat(OutputFormat):
     """A format for everything that a program produced.
 
-    `write` gets a text file if `is_text`, else a binary one. `memory`: how many numbers' worth of memory a
-    number takes on its way into the file.
+    `write` gets a text file if `is_text`, else a binary one. `write_points` writes the points of `plot`
+    where a file holds one table, so that they need one of their own. `memory`: how many numbers' worth of
+    memory a number takes on its way into the file. `needs`: a module that comes with the extra `data`.
     """
 
     def __init__(
@@ -52,11 +49,15 @@ class DataFormat(OutputFormat):
         about: str,
         write: Callable[[Result, IO[Any]], object],
         *,
-        is_text: bool,
+        is_text: bool = False,
         memory: int,
+        write_points: Callable[[Result, IO[Any]], object] | None = None,
+        ending: str | None = None,
+        needs: str | None = None,
     ) -> None:
-        super().__init__(name, title, about)
-        self.write, self.is_text, self.memory = write, is_text, memory
+        super().__init__(name, title, about, ending)
+        self.write, self.write_points, self.is_text, self.memory = write, write_points, is_text, memory
+        self.needs = needs
 
 
 def _picture(kind: str) -> Callable[[Graph, PictureOptions], bytes]:
@@ -74,6 +75,12 @@ def _csv(result: Result, file: IO[str]) -> None:
     write_csv(result.runs, file)
 
 
+def _csv_points(result: Result, file: IO[str]) -> None:
+    from desire_tui.engine.outputs.csv_file import write_points
+
+    write_points(result.plots, file)
+
+
 def _json(result: Result, file: IO[str]) -> None:
     from desire_tui.engine.outputs.json_file import as_json
 
@@ -86,12 +93,31 @@ def _npz(result: Result, file: IO[bytes]) -> None:
     write_npz(result, file)
 
 
+def _parquet(result: Result, file: IO[bytes]) -> None:
+    from desire_tui.engine.outputs.parquet_file import write_parquet
+
+    write_parquet(result, file)
+
+
+def _parquet_points(result: Result, file: IO[bytes]) -> None:
+    from desire_tui.engine.outputs.parquet_file import write_points
+
+    write_points(result, file)
+
+
+def _netcdf(result: Result, file: IO[bytes]) -> None:
+    from desire_tui.engine.outputs.netcdf_file import write_netcdf
+
+    write_netcdf(result, file)
+
+
 PNG = PictureFormat(
     "png", "PNG", "Write the graph as PNG; several graphs: F-1.png, F-2.png …", _picture("png")
 )
 CSV = DataFormat(
-    "csv", "CSV", "Write all samples: one row each, columns run, t, names ….", _csv, is_text=True, memory=1
-)
+    "csv", "CSV", "Write all samples: one row each, columns run, t, names ….", _csv, is_text=True, memory=1,
+    write_points=_csv_points,
+)  # fmt: skip
 
 PICTURES = (
     PNG,
@@ -104,7 +130,15 @@ DATA = (
     DataFormat("json", "JSON", "Write everything the program produced.", _json, is_text=True, memory=16),
     DataFormat(
         "npz", "NPZ", "Write samples (1/t, 1/x … of run 1) and final values for numpy.load.", _npz,
-        is_text=False, memory=1,
+        memory=1,
+    ),
+    DataFormat(
+        "parquet", "Parquet", "Write the table of --csv for pandas, Polars, DuckDB ….", _parquet, memory=4,
+        write_points=_parquet_points, needs="pyarrow",
+    ),
+    DataFormat(
+        "netcdf", "NetCDF", "Write samples, parameters and points for xarray, MATLAB ….", _netcdf, memory=4,
+        ending=".nc", needs="scipy",
     ),
 )  # fmt: skip
 FORMATS: tuple[OutputFormat, ...] = (*PICTURES, *DATA)

@@ -181,6 +181,28 @@ MESSAGES: dict[str, Wording] = {
     "data-file-not-found": Wording(38, "there is no file '{file}'", "names without an ending get .dat"),
     "file-name-missing": Wording(34, "a file name in quotes is needed", "connect 'name' as input 3"),
     "file-ended": Wording(18, "'{file}' has no more values", "count its values, or read fewer"),
+    "rows-missing": Wording(
+        18,
+        "'{file}' has {rows} row(s) of values left, {needed} are wanted",
+        "an array takes as many rows as it has elements: declare arrays of that size",
+    ),
+    "column-missing": Wording(
+        18,
+        "'{file}' has no column '{name}': its columns are {columns}",
+        "give the quantities the names of the columns, or name as many as there are columns",
+        "Where the first line of a file names its columns, `input #n, t, x` takes the columns `t` and `x`, a "
+        "row into scalars, whole columns into arrays. A unit behind a name is left out: `T [K]` is `T`.",
+    ),
+    "columns-unequal": Wording(
+        18,
+        "'{name}' takes {size} row(s) and '{first}' {have}",
+        "columns are read together: scalars alone, or arrays of one size",
+    ),
+    "cell-not-a-number": Wording(
+        18,
+        "line {line} of '{file}' has no number in column '{column}': '{entry}'",
+        "correct the line, or begin it with # to leave it out",
+    ),
     "cannot-read": Wording(18, "cannot read '{file}': {reason}", "check the file"),
     "cannot-write": Wording(106, "cannot write '{file}': {reason}", "is the disk full?"),
     "bad-entry": Wording(

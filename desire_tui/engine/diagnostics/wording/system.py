@@ -57,6 +57,12 @@ MESSAGES: dict[str, Wording] = {
     ),
     "picture-kind": Wording(34, "cannot draw {path}", "end the name with .png, .svg or .pdf"),
     "no-graph": Wording(471, "there is no graph yet", "run a program with dispt, dispxy or DISPXY first"),
+    "graph-missing": Wording(
+        471,
+        "there is no graph for {files}",
+        "a graph is made by dispt, dispxy, DISPXY, plot or SHOW",
+        warning=True,
+    ),
     "no-run": Wording(472, "there is no run yet", "start one with zz or drun"),
     "command-elsewhere": Wording(
         402, "'{word}' works in the desktop only", "start the desktop with `desire`"
