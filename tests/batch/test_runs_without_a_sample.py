@@ -16,7 +16,7 @@ FAILING = {
     "room": "TMAX = 1 | DT = 1E-12 | NN = 1E10\ndrun\nDYNAMIC\nd/dt x = 1\ndispt x\n",
     "table": "ARRAY F[4] | NN = 3 | F[1] = 1\ndrun\nDYNAMIC\ny = func1(t; F)\ndispxy y, t\n",
 }
-OUTPUTS = ["csv", "json", "npz", "png", "svg", "pdf"]
+OUTPUTS = ["csv", "json", "npz", "parquet", "netcdf", "png", "svg", "pdf"]
 
 
 @pytest.mark.parametrize("text", FAILING.values(), ids=FAILING)

@@ -16,6 +16,7 @@ from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.batch.runner import Runner, RunOptions
 from desire_tui.engine.diagnostics import DesireError, render_all
 from desire_tui.engine.outputs.formats import DATA, PICTURES
+from desire_tui.engine.outputs.picture_options import FOR_PAPER
 from desire_tui.engine.outputs.text_plot import text_plot
 from desire_tui.engine.source import Source
 from tests.fuzz.corpus import texts
@@ -35,7 +36,7 @@ def generate(rng: Random) -> str:
 
 
 def check(text: str) -> None:
-    """Run it, write CSV, JSON and NPZ, now and then a picture."""
+    """Run it, write every format of data, now and then a picture."""
     chance = crc32(text.encode("utf-8", "surrogatepass"))
     listener = HeadlessListener(lambda _: None, iter(["1", "x", "", "2.5"]), lambda _: None)
     options = RunOptions(
@@ -62,7 +63,7 @@ def check(text: str) -> None:
         if chance % _PICTURE_EVERY == 0:
             picture = PICTURES[chance // _PICTURE_EVERY % len(PICTURES)]
             with suppress(DesireError):  # a graph may be too large to draw
-                assert picture.content(runner.session.graph)
+                assert picture.content(runner.session.graph, FOR_PAPER)
 
 
 def _read_csv(file: io.StringIO) -> None:
@@ -84,4 +85,19 @@ def _read_npz(file: io.BytesIO) -> None:
             assert arrays[name].dtype != object
 
 
-_READ = {"csv": _read_csv, "json": _read_json, "npz": _read_npz}
+def _read_parquet(file: io.BytesIO) -> None:
+    from pyarrow import parquet
+
+    parquet.read_table(file)
+
+
+def _read_netcdf(file: io.BytesIO) -> None:
+    from scipy.io import netcdf_file
+
+    with netcdf_file(file, mmap=False) as data:
+        assert all(variable[:].shape == variable.shape for variable in data.variables.values())
+
+
+_READ = {
+    "csv": _read_csv, "json": _read_json, "npz": _read_npz, "parquet": _read_parquet, "netcdf": _read_netcdf,
+}  # fmt: skip
