@@ -87,7 +87,8 @@ def column_names(line: str, is_value: Callable[[str], bool] | None) -> list[str]
 
 def begins_with_number(line: str) -> bool:
     """Whether a line begins with a number, as those below the names of columns do."""
-    return _number(_cells(line, separator_of(line))[0]) is not None
+    cells = _cells(line, separator_of(line))
+    return bool(cells) and _number(cells[0]) is not None
 
 
 def _is_label(text: str) -> bool:
@@ -100,7 +101,10 @@ def _is_label(text: str) -> bool:
 def _cells(line: str, separator: str | None) -> list[str]:
     if separator is None:
         return line.replace('"', "").split()
-    return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+    try:
+        return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+    except csv.Error:  # a cell longer than the library takes
+        return line.split(separator)
 
 
 def _plain(name: str) -> str:
