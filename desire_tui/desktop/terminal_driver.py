@@ -14,9 +14,12 @@ from typing import IO, TYPE_CHECKING, Any
 
 from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
+from textual.events import Key
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from textual.message import Message
 
 _TICK_S = 0.1
 """A lone Escape is told from the beginning of a sequence by the time that passes behind it."""
@@ -53,6 +56,12 @@ class TerminalDriver(LinuxDriver):
                 self.process_message(event)
             if is_last:
                 return
+
+    def process_message(self, message: Message) -> None:
+        """Pass a message on; a line feed is Enter: text that a script types ends its lines so."""
+        if isinstance(message, Key) and message.key == "ctrl+j":
+            message = Key("enter", "\r")
+        super().process_message(message)
 
     def _lost(self) -> None:
         if not self._is_lost:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.compiler_state import shared_state
 from tests.programs.checking import check, disagreements
 from tests.programs.execution import execute
 from tests.programs.expectations import read_expectations
@@ -29,8 +28,7 @@ def faults_of_program(text: str, folder: Path) -> list[str]:
     faults += _faults(expected, native)
     if expected.reference not in native:
         native[expected.reference] = execute(text, "native", folder, settings=expected.reference, **how)
-    with shared_state().improver.held():  # the native run is over: its fast code would be for nobody
-        reference = execute(text, "reference", folder, settings=expected.reference, **how)
+    reference = execute(text, "reference", folder, settings=expected.reference, **how)
     faults += [
         f"back ends: {fault}" for fault in disagreements(native[expected.reference], reference, expected)
     ]

@@ -49,6 +49,11 @@ NOISE_ROOM = 1000.0
 ULP = 2.220446049250313e-16
 
 
+SLIDE_TURNS, SLIDE_STEPS, SLIDE_PARTS = 200, 3, 4000
+"""A relay slides (`integration.sliding`) if so many times in a row an input returns to what it was before,
+within so many steps each time; steps may then grow to the run's length divided by the last number."""
+
+
 FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "derivatives": (_INT, (_ADDRESS, _ADDRESS)),
     "tangent": (_INT, (_ADDRESS, _ADDRESS)),
@@ -147,7 +152,12 @@ class SolverProblem(ctypes.Structure):
         ("between_vector", _ADDRESS),  # … and CVODE's N_Vector over them
         ("inputs", _ADDRESS),  # int64 slots of what code at points and steps sets and derivatives read …
         ("inputs_kept", _ADDRESS),  # … and the numbers there when the last step began
+        ("inputs_before", _ADDRESS),  # … and those that stood there before they changed to these
         ("input_count", _INT),
+        ("returned", _INT),  # 1: all inputs that changed last changed back
+        ("turns", _INT),  # so often in a row
+        ("relief", _REAL),  # 1, or what `tolerance` and `absolute` are multiplied by while a relay slides …
+        ("slide_size", _REAL),  # … until steps are so large
         ("watch", _ADDRESS),  # `switching.memory.Watch`, 0: nothing switches
         ("limit", _ADDRESS),  # functions of `switching.watch`
         ("look", _ADDRESS),

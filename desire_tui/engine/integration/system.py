@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass, replace
+from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from desire_tui.engine.integration.bdf.solver import OwnSolver
-from desire_tui.engine.integration.problem import ERROR_SHARE, NOISE_WAIT, Matrix, SolverProblem
+from desire_tui.engine.integration.problem import ERROR_SHARE, NOISE_WAIT, SLIDE_PARTS, Matrix, SolverProblem
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Solver
@@ -32,6 +33,7 @@ class SolverCounters(Protocol):
     dt_max: float
     t_start: float
     t_max: float
+    comint: float
     derivative_calls: int
     jacobian_calls: int
     rejected: int
@@ -138,6 +140,10 @@ class StiffSystem:
         problem.suspect = -1
         problem.absolute = memory.error_absolute * ERROR_SHARE
         problem.noise_seen, problem.noise_wait = 0, NOISE_WAIT
+        problem.turns = problem.returned = 0
+        problem.relief = 1.0
+        longest = [size / 2 for size in (memory.dt_max, abs(memory.comint)) if size > 0.0]
+        problem.slide_size = min(abs(memory.t_max) / SLIDE_PARTS, *longest, inf)
         self.noise[:] = 0.0
         self.largest[:] = problem.floor = 0.0
         self.solver.limit(memory.dt_max)

@@ -17,12 +17,14 @@ from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
     CHATTER_PART,
     CHATTER_STEPS,
+    SLIDE_STEPS,
     STUCK_AT_EDGE_FLAG,
     STUCK_FLAG,
     STUCK_MOST,
     TOO_NEAR,
 )
 from desire_tui.engine.integration.rules import rule_numbered
+from desire_tui.engine.integration.sliding import end_slide, follow_slide
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
@@ -74,6 +76,7 @@ class StiffReferenceModel(ReferenceModel):
         inputs = changed_inputs(segment)
         self._inputs = np.array(inputs, dtype=np.int64)
         self._inputs_kept: Array = np.full(len(inputs), np.nan)
+        self._inputs_before = self._inputs_kept
         self.values, self.data, self.order = values, values.data, segment.order
         self.ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._segment = segment
@@ -168,6 +171,7 @@ class StiffReferenceModel(ReferenceModel):
         self._others.memory = memory
         if memory.phase == Phase.AT_POINT and memory.point == 0:
             system.begin(memory, self.cells[DT])
+            self._inputs_kept = self._inputs_before = np.full(len(self._inputs), np.nan)
             if self._array:
                 self.data[self._array : self._array + self.order**2] = 0.0
         ended = super().advance(memory)
@@ -255,6 +259,8 @@ class StiffReferenceModel(ReferenceModel):
         problem.suspect = problem.suspect if problem.stuck else -1
         flag, t = solver.step(stop)
         problem.fresh += 1
+        if problem.turns and problem.fresh > SLIDE_STEPS:
+            end_slide(problem)
         if self._callbacks.failure is not None:
             failure, self._callbacks.failure = self._callbacks.failure, None
             raise failure
@@ -309,11 +315,14 @@ class StiffReferenceModel(ReferenceModel):
         """Begin anew, at the next step, if t, a state or an input is not what it was left as."""
         problem, x, t = self.system.problem, self._states(), self.cells[T]
         inputs = self.data[self._inputs]
-        changed = not np.array_equal(inputs, self._inputs_kept)
-        self._inputs_kept = inputs
+        changed = inputs != self._inputs_kept
+        if changed.any():
+            problem.returned = int(np.array_equal(inputs[changed], self._inputs_before[changed]))
+            self._inputs_before = np.where(changed, self._inputs_kept, self._inputs_before)
+            self._inputs_kept = inputs
         problem.passed = t
         same = np.array_equal(x, self.system.last)
-        if problem.started and t == problem.t and same and not changed:
+        if problem.started and t == problem.t and same and not changed.any():
             return
         self._solution()[:] = x
         self.system.last[:] = x
@@ -326,6 +335,7 @@ class StiffReferenceModel(ReferenceModel):
         if problem.started:
             problem.failed += self.system.solver.counts().failed
             problem.restarts += 1
+            follow_slide(problem, self.system.solver.last_step)
         size = problem.first_step
         if problem.started:
             size = 2.0 * self.system.solver.last_step if problem.fresh == 1 else 0.0

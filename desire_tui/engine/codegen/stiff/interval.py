@@ -29,11 +29,13 @@ from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
     CHATTER_PART,
     CHATTER_STEPS,
+    SLIDE_STEPS,
     STUCK_AT_EDGE_FLAG,
     STUCK_FLAG,
     STUCK_MOST,
     TOO_NEAR,
 )
+from desire_tui.engine.integration.sliding import end_slide, follow_slide
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.runtime.run_memory import Ended
@@ -109,6 +111,8 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
         problem.suspect = -1
     flag = take_step(problem, stop)
     problem.fresh += 1
+    if problem.turns != 0 and problem.fresh > SLIDE_STEPS:
+        end_slide(problem)
     t: float = problem.reached[0]
     if flag == TSTOP_RETURN or t >= stop:
         t = stop
@@ -176,6 +180,7 @@ def synchronise(problem: SolverProblem) -> None:
     ranges: Ints = problem.ranges
     inputs: Ints = problem.inputs
     kept: Reals = problem.inputs_kept
+    before: Reals = problem.inputs_before
     t = values[T]
     differ = 0
     for k in range(problem.range_count):
@@ -183,9 +188,18 @@ def synchronise(problem: SolverProblem) -> None:
         first = ranges[3 * k + 1]
         for i in range(ranges[3 * k + 2]):
             differ += values[slot + i] != last[first + i]
+    changed = 0
+    returned = 0
     for i in range(problem.input_count):
-        differ += values[inputs[i]] != kept[i]
-        kept[i] = values[inputs[i]]
+        now: float = values[inputs[i]]
+        if now != kept[i]:
+            changed += 1
+            returned += now == before[i]
+            before[i] = kept[i]
+            kept[i] = now
+    if changed != 0:
+        differ += 1
+        problem.returned = 1 if returned == changed else 0
     problem.passed = t
     if problem.started != 0 and t == problem.t and differ == 0:
         return
@@ -201,6 +215,7 @@ def begin_anew(problem: SolverProblem, t: float) -> None:
     """Let the solver forget its history."""
     if problem.started != 0:
         problem.failed += failures(problem)  # the solver starts to count at 0
+        follow_slide(problem, last_size(problem))
         again = problem.fresh == 1  # a state is changed at each step: the step before is the best guess
         begin(problem, t, 2.0 * last_size(problem) if again else 0.0)
         problem.restarts += 1

@@ -24,7 +24,7 @@ from desire_tui.engine.codegen.stiff import (
     own_steps,
     rounding,
 )
-from desire_tui.engine.integration import problem
+from desire_tui.engine.integration import problem, sliding
 from desire_tui.engine.integration.bdf import choice, coefficients, memory, newton, start, step
 from desire_tui.engine.integration.bdf.memory import Bdf, Evaluate, Fill, Weigh
 from desire_tui.engine.integration.problem import FUNCTIONS, SolverProblem
@@ -46,7 +46,7 @@ _CALLED = (
     "CVode", "CVodeGetDky", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
 )  # fmt: skip
-_MODEL = (model_calls, jacobian_fill, rounding, interval)
+_MODEL = (model_calls, jacobian_fill, rounding, sliding, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
 _CONSTANTS = (memory, problem, run_memory, signatures, switching)

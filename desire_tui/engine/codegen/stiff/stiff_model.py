@@ -91,7 +91,7 @@ class StiffModel:
             self._modes = addresses.pop("modes")
             self._derivatives = addresses["derivatives"]
         self._inputs = np.array(changed_inputs(segment), dtype=np.int64)
-        self._inputs_kept = np.full(max(self._inputs.size, 1), np.nan)
+        self._inputs_kept, self._inputs_before = np.full((2, max(self._inputs.size, 1)), np.nan)
         self._is_free = not self._inputs.size and steps_are_free(segment)
         way = _plan(segment, rule, extra)
         self._own = is_own(rule, segment.order, way)
@@ -125,6 +125,7 @@ class StiffModel:
         problem.is_free = self._is_free
         problem.inputs, problem.input_count = self._inputs.ctypes.data, self._inputs.size
         problem.inputs_kept = self._inputs_kept.ctypes.data
+        problem.inputs_before = self._inputs_before.ctypes.data
         if self._watcher is not None:
             watching = watch_functions()
             problem.watch = self._watcher.address
@@ -195,7 +196,7 @@ class StiffModel:
                 self._use(better)
             self.system.begin(memory, self._values.cells[DT])
             self._clear_array()
-            self._inputs_kept[:] = np.nan
+            self._inputs_kept[:] = self._inputs_before[:] = np.nan
             if self._watcher is not None:
                 self._watcher.begin(memory)
         system = self.system
