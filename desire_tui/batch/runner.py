@@ -72,6 +72,8 @@ class Runner:
         self.status: StatusWord = "done"
         self._crash: BaseException | None = None
         self._interrupted = threading.Event()
+        self.interrupted = False
+        """Ctrl-C ended the program."""
         self.abandoned = False
         """The program did not end when asked to; its thread still runs."""
 
@@ -87,6 +89,7 @@ class Runner:
                 if watch is not None:
                     watch()
                 if self._interrupted.is_set():
+                    self.interrupted = True
                     self._end(thread, "stopped-by-user")
                     break
                 if monotonic() > limit and thread.is_alive():
@@ -169,6 +172,9 @@ class Runner:
         if problems:
             raise DesireError(*problems)
 
+    def _errors(self) -> list[Diagnostic]:
+        return [problem for problem in self.problems if problem.severity == "error"]
+
     def result(self) -> Result:
         """Return everything the program produced so far; without the data if they cannot be gathered."""
         from desire_tui.engine.outputs import results
@@ -191,4 +197,5 @@ class Runner:
             desire=__version__, program=self._source.name, status=self.status,
             problems=tuple(results.problem_data(p) for p in [*self._listener.warnings, *self.problems]),
             console=self._listener.console, **produced,
+            error=DesireError(*errors) if (errors := self._errors()) else None,
         )  # fmt: skip

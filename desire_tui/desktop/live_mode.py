@@ -57,7 +57,7 @@ class LiveMode:
             return []
         from desire_tui.engine.session.parameters import parameters
 
-        return parameters(session.program, session.values, session.runs[-1])
+        return parameters(session.program, session.values, session.runs[-1].start)
 
     async def choose(self, name: str) -> None:
         """Give the named parameter a slider, or those chosen from a list."""

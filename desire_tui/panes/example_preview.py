@@ -16,6 +16,7 @@ from desire_tui.engine.session.listener import Listener
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from desire_tui.engine.diagnostics import DesireError
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.session.session import Session
     from desire_tui.panes.example_catalogue import Example
@@ -130,10 +131,17 @@ class Previewer:
             try:
                 _perform(session, example)
             except (DesireError, Interrupted, OSError) as error:
-                problem = "" if isinstance(error, Interrupted) else str(error)
+                problem = "" if isinstance(error, Interrupted) else _sentence(error)
             finally:
                 alarm.cancel()
             return Preview(example, session.graph, listener.printed.rstrip(), problem)
+
+
+def _sentence(error: DesireError | OSError) -> str:
+    """Return why a program ended, in one line."""
+    from desire_tui.engine.diagnostics import DesireError
+
+    return error.message if isinstance(error, DesireError) else str(error)
 
 
 def _perform(session: Session, example: Example) -> None:

@@ -14,6 +14,8 @@ from tests.messages.test_messages import FILES, spoken
 
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {
+    "initial-unknown": "tests/api/test_model.py::test_states_and_quantities_that_are_not_there_are_named",
+    "record-unknown": "tests/api/test_model.py::test_states_and_quantities_that_are_not_there_are_named",
     "graph-missing": (
         "tests/batch/test_headless.py::test_without_a_graph_data_are_written_and_pictures_are_a_warning"
     ),

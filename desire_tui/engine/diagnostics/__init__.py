@@ -6,7 +6,8 @@ own error number; `render` draws the line with carets under the span.
 
 from __future__ import annotations
 
-from desire_tui.engine.diagnostics.diagnostic import DesireError, Diagnostic, Severity, internal_error
+from desire_tui.engine.diagnostics.desire_error import DesireError
+from desire_tui.engine.diagnostics.diagnostic import Diagnostic, Severity, internal_error
 from desire_tui.engine.diagnostics.render import render, render_all
 from desire_tui.engine.diagnostics.spelling import closest
 

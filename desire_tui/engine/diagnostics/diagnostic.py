@@ -37,6 +37,27 @@ class Diagnostic:
         return wording_of(self.key).code
 
     @property
+    def file(self) -> str | None:
+        """Name of the program's file; None: it is about no program."""
+        return self.source.name if self.source is not None else None
+
+    @property
+    def line(self) -> int | None:
+        """Line in it, from 1; None: it has no place there."""
+        return self._position[0]
+
+    @property
+    def column(self) -> int | None:
+        """Column in the line, from 1."""
+        return self._position[1]
+
+    @property
+    def _position(self) -> tuple[int, int] | tuple[None, None]:
+        if self.source is None or self.span is None:
+            return None, None
+        return self.source.position(self.span.start)
+
+    @property
     def message(self) -> str:
         """What is wrong, in plain words, one sentence without a full stop."""
         return _visible(_counted(wording_of(self.key).message.format_map(_Facts(self.facts))))
@@ -53,28 +74,6 @@ class Diagnostic:
     def within(self, source: Source) -> Diagnostic:
         """Return the same problem, placed in `source` if it has no source yet."""
         return self if self.source is not None else replace(self, source=source)
-
-
-class DesireError(Exception):
-    """A user's mistake, on its way to the one place that shows it. Holds at least one diagnostic."""
-
-    def __init__(self, *diagnostics: Diagnostic) -> None:
-        super().__init__(*(d.key for d in diagnostics))
-        self.diagnostics = diagnostics
-
-    def placed(self, span: Span, source: Source | None) -> DesireError:
-        """Return the error with problems that have no place of their own placed here."""
-        if all(d.span is not None for d in self.diagnostics):
-            return self
-        return DesireError(
-            *(
-                d if d.span is not None else replace(d, span=span, source=d.source or source)
-                for d in self.diagnostics
-            )
-        )
-
-    def __str__(self) -> str:
-        return "; ".join(f"error {d.code}: {d.message}" for d in self.diagnostics)
 
 
 def internal_error(what: str, error: BaseException) -> Diagnostic:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from desire_tui.engine.diagnostics import DesireError
@@ -15,7 +16,7 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import Structure, script_structure
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from desire_tui.engine.interpreter.host import Host
     from desire_tui.engine.nodes.program import Placed, Program
@@ -114,6 +115,13 @@ class Interpreter:
                 machine.stopped is None or machine.stopped is stopped
             ):  # else a PROCEDURE stopped, and comes back here
                 machine.code_table.unlink(code)
+
+    def repeated(self, statements: Sequence[Placed]) -> Callable[[], None]:
+        """Return what carries out some of the script's statements, which hold no jumps, again and again."""
+        structure = script_structure(statements, self.program.source)
+        text = StatementList(tuple(statements), structure, self.program.source)
+        code = self._machine.link(text, self._machine.scope, 0, len(statements), is_command=True)
+        return partial(self._run, code.base)
 
     def _run(self, address: int) -> None:
         try:

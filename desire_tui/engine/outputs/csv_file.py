@@ -9,14 +9,15 @@ from typing import IO, TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from desire_tui.engine.outputs.results import PlotPoint, RunData
+    from desire_tui.engine.outputs.results import PlotPoint
+    from desire_tui.engine.outputs.run import Run
 
 _ROWS = 10_000  # turned into text at a time
 SEGMENT = "segment"
 """The column of labels."""
 
 
-def write_csv(runs: Sequence[RunData], file: IO[str], *, numbered: bool = True, delimiter: str = ",") -> None:
+def write_csv(runs: Sequence[Run], file: IO[str], *, numbered: bool = True, delimiter: str = ",") -> None:
     """Write one row for each sample: `run, t, names…`, without `run` unless `numbered`.
 
     Behind them stands what differs between the runs: parameters that the script changed, starts of states as
@@ -43,7 +44,7 @@ def write_points(points: Iterable[PlotPoint], file: IO[str]) -> None:
     file.writelines(f"{point.x!r},{point.y!r},{point.color}\n" for point in points)
 
 
-def columns_of(runs: Sequence[RunData]) -> tuple[list[str], dict[str, list[float | str | None]]]:
+def columns_of(runs: Sequence[Run]) -> tuple[list[str], dict[str, list[float | str | None]]]:
     """Return the names of the samples' columns, and of those behind them each run's value.
 
     The latter hold what differs: parameters, starts of states, segments. None: the run has none.
@@ -74,7 +75,7 @@ def _text(value: float | str | None) -> str:
     return value if isinstance(value, str) else "" if value is None else repr(value)
 
 
-def _texts(run: RunData, names: Sequence[str]) -> Iterator[list[Iterable[str]]]:
+def _texts(run: Run, names: Sequence[str]) -> Iterator[list[Iterable[str]]]:
     """Return the columns of a run as texts, t first, some rows at a time."""
     recorded = {curve.name: curve.values for curve in run.curves}
     columns = [run.t, *(recorded.get(name) for name in names)]

@@ -10,7 +10,8 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.outputs.results import Floats, PlotPoint, Result, RunData
+    from desire_tui.engine.outputs.results import PlotPoint, Result
+    from desire_tui.engine.outputs.run import Floats, Run
 
 _CLASSIC_64_BIT = 2
 
@@ -34,7 +35,7 @@ def write_netcdf(result: Result, file: IO[bytes]) -> None:
     file.write(made.getbuffer())
 
 
-def _add_runs(data: Any, runs: Sequence[RunData]) -> None:
+def _add_runs(data: Any, runs: Sequence[Run]) -> None:
     data.createDimension("run", len(runs))
     longest = max(runs, key=lambda run: len(run.t)).t
     same = all(np.array_equal(run.t, longest) for run in runs)

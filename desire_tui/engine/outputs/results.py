@@ -5,24 +5,29 @@ The layout is public (docs: headless runs); programs rely on it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.outputs.run import IN_MEMORY, Run
+from desire_tui.engine.outputs.sampled_run import CurveData
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
+    import pandas as pd
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.values import Values
 
-    Floats = NDArray[np.float64]
+    Value = float | complex | NDArray[Any]
 
 StatusWord = Literal["done", "failed", "stopped", "limit"]
 
@@ -42,60 +47,6 @@ class ResultProblem:
     hint: str | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CurveData:
-    """All samples of one variable, as computed (not clipped); `x` names the abscissa, None for t."""
-
-    name: str
-    x: str | None
-    values: Floats
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class RunData:
-    """One run. `curves` holds every variable of the display and type requests."""
-
-    segment: str | None
-    line: int
-    request: str
-    overlay: bool
-    rule: int
-    scale: float
-    t0: float
-    tmax: float
-    nn: int
-    dt: float
-    t: Floats
-    curves: tuple[CurveData, ...]
-    ended: str
-    end_time: float
-    steps: int
-    rejected: int
-    derivative_calls: int
-    jacobian_calls: int
-    dt_least: float
-    """Smallest and largest step taken; 0 where there was none."""
-    dt_most: float
-    order: int
-    """Of the last step under a rule 9 … 16; otherwise 0."""
-    seconds: float
-    parameters: dict[str, float] = field(default_factory=dict)
-    """What the segment reads and does not change, as it was when the run began."""
-    initial: dict[str, float] = field(default_factory=dict)
-    """Values of the states then; here as there, elements of small arrays too."""
-    continues: bool = False
-    """Whether the states were where the run before had left them."""
-
-    def __getitem__(self, name: str) -> Floats:
-        """Return the samples of a variable, or of `t`; KeyError for one that was not requested."""
-        if name == "t":
-            return self.t
-        for curve in self.curves:
-            if curve.name == name:
-                return curve.values
-        raise KeyError(name)
-
-
 @dataclass(frozen=True, slots=True)
 class PlotPoint:
     """A point of an interpreter plot."""
@@ -105,23 +56,65 @@ class PlotPoint:
     color: int
 
 
-@dataclass(eq=False)
-class Result:
-    """What a program produced. `quantities` are the final values, arrays in their shape."""
+@dataclass(eq=False, repr=False)
+class Result(Mapping[str, "Value"]):
+    """What a program produced: a mapping from names to final values, arrays in their shape."""
 
     desire: str
     program: str
     status: StatusWord = "done"
     problems: tuple[ResultProblem, ...] = ()
     console: str = ""
-    runs: tuple[RunData, ...] = ()
+    runs: tuple[Run, ...] = ()
     plots: tuple[PlotPoint, ...] = ()
-    quantities: dict[str, float | complex | NDArray[Any]] = field(default_factory=dict)
+    quantities: dict[str, Value] = field(default_factory=dict)
     timings: dict[str, float] = field(default_factory=dict)
+    error: DesireError | None = field(default=None, metadata=IN_MEMORY)
+    """What ended the program early."""
 
-    def __getitem__(self, name: str) -> float | complex | NDArray[Any]:
+    def __getitem__(self, name: str) -> Value:
         """Return the final value of a quantity, 0 for `t` before any run; KeyError for one that has none."""
         return self.quantities.get("t", 0.0) if name == "t" else self.quantities[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.quantities)
+
+    def __len__(self) -> int:
+        return len(self.quantities)
+
+    def __repr__(self) -> str:
+        runs = f"{len(self.runs)} run{'s' * (len(self.runs) != 1)}"
+        last = f", the last: {self.runs[-1].summary}" if self.runs else ""
+        reason = f": {self.error.message}" if self.error is not None else ""
+        return f"<Result of {self.program}: {self.status}, {runs}{last}{reason}>"
+
+    def check(self) -> Result:
+        """Return the result. DesireError: what ended the program early."""
+        if self.error is not None:
+            raise self.error
+        return self
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return the samples of all runs as a pandas table over run (from 1) and `t`."""
+        from desire_tui.engine.outputs.tables import dataframe_of_runs
+
+        return dataframe_of_runs(self.runs)
+
+    def plot(self, *names: str, ax: Axes | None = None, **style: Any) -> Axes:
+        """Draw the curves of all runs with matplotlib, all or those named, and return the axes."""
+        from desire_tui.engine.outputs.run_plot import plot_runs
+
+        return plot_runs(self.runs, names, ax, style)
+
+    def _repr_png_(self) -> bytes:
+        from desire_tui.engine.outputs.run_plot import run_png
+
+        return run_png(self.runs)
+
+    def _repr_html_(self) -> str:
+        from desire_tui.engine.outputs.run_plot import run_html
+
+        return run_html(self.runs, repr(self), {})
 
 
 def problem_data(diagnostic: Diagnostic) -> ResultProblem:
@@ -135,8 +128,8 @@ def problem_data(diagnostic: Diagnostic) -> ResultProblem:
     )  # fmt: skip
 
 
-def run_data(record: RunRecord) -> RunData:
-    """Return a run as plain data, its samples copied."""
+def run_data(record: RunRecord, *, more: bool = False, **in_memory: Any) -> Run:
+    """Return a run as plain data, its samples copied; `more`: those of stashed variables too."""
     requests = {request.kind: request for request in record.requests}
     shown = next((k for k in ("dispt", "dispxy", "DISPXY") if k in requests), None)
     count, rows = record.count, record.rows
@@ -147,7 +140,10 @@ def run_data(record: RunRecord) -> RunData:
             if column.name not in curves:
                 x = _abscissa(request.kind, [c.name for c in request.columns], number)
                 curves[column.name] = CurveData(column.name, x, rows[:count, first + number].copy())
-    return RunData(
+    for number, column in enumerate(record.columns if more else (), 1):
+        if column.name not in curves:
+            curves[column.name] = CurveData(column.name, None, rows[:count, number].copy())
+    return Run(
         segment=record.segment, line=record.line, request=shown or ("type" if "type" in requests else "none"),
         overlay=record.overlay, rule=record.rule, scale=record.scale, t0=record.t0, tmax=record.t_max,
         nn=record.nn, dt=record.dt, t=rows[:count, 0].copy(), curves=tuple(curves.values()),
@@ -157,6 +153,7 @@ def run_data(record: RunRecord) -> RunData:
         parameters=record.start.parameters if record.start is not None else {},
         initial=record.start.initial if record.start is not None else {},
         continues=record.start is not None and record.start.continues,
+        **in_memory,
     )  # fmt: skip
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from math import inf
 from threading import Event, Lock
+from time import monotonic
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -24,6 +26,8 @@ class Control:
         self._ending = False
         self._active = 0
         self._memory: RunMemory | None = None
+        self.deadline = inf
+        """When (`monotonic()`) the end of a run is requested without anybody's doing."""
 
     # ------------------------------------------------------------------ any thread
 
@@ -100,4 +104,6 @@ class Control:
     def clear_to_run(self, memory: RunMemory) -> bool:
         """Lower the stop flag; return False if a request came meanwhile and must be looked at first."""
         memory.stop = 0
+        if monotonic() > self.deadline:
+            self.end()
         return self._go_on.is_set() and not self._ending

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.nodes.expressions import Expr, Target
     from desire_tui.engine.nodes.program import Placed, Program
-    from desire_tui.engine.runtime.run_record import RunRecord
+    from desire_tui.engine.runtime.start_values import StartValues
     from desire_tui.engine.values import Values
 
 ParameterKind = Literal["number", "computed", "initial"]
@@ -41,9 +41,8 @@ class Parameter(NamedTuple):
         return f"{self.name}(0)" if self.kind == "initial" else self.name
 
 
-def parameters(program: Program, values: Values, last: RunRecord) -> list[Parameter]:
-    """Return what may be varied: numbers of the script, what else the last run read, starts of its states."""
-    start = last.start
+def parameters(program: Program, values: Values, start: StartValues | None) -> list[Parameter]:
+    """Return what may be varied: numbers of the script, what else a run read, starts of its states."""
     read = start.parameters if start is not None else {}
     initial = start.initial if start is not None else {}
     found: dict[str, Parameter] = {}

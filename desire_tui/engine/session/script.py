@@ -14,7 +14,7 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.values import SCALE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from desire_tui.engine.interpreter.interpreter import Interpreter
     from desire_tui.engine.nodes.program import Placed
@@ -97,6 +97,10 @@ class ScriptRunner:
                 self._ready().execute(tuple(statements), source)
         finally:
             self._workspace.command = before
+
+    def repeated(self, assignments: Sequence[Placed]) -> Callable[[], None]:
+        """Return what makes some of the script's assignments once more. It raises DesireError."""
+        return self._ready().repeated(assignments)
 
     def _clear(self) -> None:
         from desire_tui.engine.check.state_order import state_order

@@ -58,11 +58,17 @@ class ScriptHost:
         """The traced script may carry out the statement it stands at (`go` was given)."""
         self.runs_expected: int | None = None
         """How many runs there will be in all; None: that cannot be told."""
+        self.prepares: tuple[str | None] | None = None
+        """The segment at whose first `drun` the script is left (`RunReached`); (None,): at any."""
 
     # ------------------------------------------------------------------ runs
 
     def drun(self, label: str | None, placed: Placed, *, star: bool) -> None:
         """Make one run of a segment, to its end."""
+        if self.prepares is not None and self.prepares[0] in (None, label):
+            from desire_tui.engine.session.prepared_run import RunReached
+
+            raise RunReached(label, placed)
         ahead = self._interpreter.runs_ahead()
         with self._activity.during(State.COMPILING):
             self._runs.make(

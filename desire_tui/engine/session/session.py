@@ -26,7 +26,7 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.values import DT, SCALE, TMAX, T
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
     from pathlib import Path
 
     from desire_tui.engine.codegen.compiler_state import CompilerState
@@ -35,7 +35,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.outputs.picture_options import PictureOptions
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.listener import StoppedAt
+    from desire_tui.engine.session.prepared_run import PreparedRun
     from desire_tui.engine.session.quantity_plots import PlotOutcome
+    from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
 
 BackendName = Literal["native", "reference"]
@@ -60,14 +62,16 @@ class Session:
         folder: Path | None = None,
         permissions: Permissions | None = None,
         compiler: CompilerState | None = None,
+        elements_most: int | None = None,
     ) -> None:
         self._listener = console if console is not None else Listener()
-        self._control = Control()
+        self.control = Control()
+        self._control = self.control
         self._activity = Activity(self._control)
         self._notebook = Notebook(lambda problem: self._listener.problems((problem,)), _draw)
         if permissions is None:
             permissions = Permissions()
-        self._workspace = Workspace(backend, folder, permissions, self._notebook, compiler)
+        self._workspace = Workspace(backend, folder, permissions, self._notebook, compiler, elements_most)
         self.graphs = GraphPages()
         """The last graphs, oldest first; `graph` is the newest."""
         self._runs = Runs(self._workspace, self._listener, self._control, self.graphs)
@@ -260,6 +264,35 @@ class Session:
             workspace.program, workspace.structure = workspace.own
         with self._notebook.task("run", lambda: self.graph):
             self._script.run(scale=self.values.cells[SCALE])
+
+    def repeated(self, assignments: Sequence[Placed]) -> Callable[[], None]:
+        """Return what makes some of the script's assignments once more, as it stands now."""
+        return self._script.repeated(assignments)
+
+    @property
+    def structure(self) -> Structure | None:
+        """The blocks of the active program."""
+        return self._workspace.structure
+
+    def prepare(self, source: Source, segment: str | None = None) -> PreparedRun:
+        """Run a program's script as far as its first `drun` (of that labelled segment) and return that run.
+
+        A script without one runs to its end; then it is the run that could follow. A STOP stops nothing.
+        DesireError: as `erun`, and what is wrong with the segment.
+        """
+        from desire_tui.engine.session.prepared_run import PreparedRun, RunReached
+
+        self._host.prepares = (segment,)
+        reached = RunReached(segment, None)
+        try:
+            self.erun(source)
+            while self.stopped_at is not None:
+                self.go()
+        except RunReached as first:
+            reached = first
+        finally:
+            self._host.prepares = None
+        return PreparedRun(self._workspace, self._runs, self._control, reached, self._host.rule)
 
     def go(self) -> None:
         """Continue after STOP; error 43 if there is nothing to continue or the program was edited."""

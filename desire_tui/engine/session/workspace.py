@@ -31,8 +31,9 @@ class Workspace:
         permissions: Permissions,
         notebook: Notebook,
         compiler: CompilerState | None = None,
+        elements_most: int | None = None,
     ) -> None:
-        self.values = Values()
+        self.values = Values(elements_most)
         self.segments = CompiledSegments(self.values, backend, compiler)
         self.permissions = permissions
         self.program: Program | None = None

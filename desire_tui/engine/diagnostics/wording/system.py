@@ -88,6 +88,14 @@ MESSAGES: dict[str, Wording] = {
     "set-unknown": Wording(
         409, "'{setting}' is set from outside, but the program has no '{name}'", "look for a slip in the name"
     ),
+    "record-unknown": Wording(
+        409, "'{name}' is to be recorded, but the program does not have it", "look for a slip in the name"
+    ),
+    "initial-unknown": Wording(
+        409,
+        "a start is given for '{name}', but the program has no such state",
+        "Model.states has their names",
+    ),
     "set-array": Wording(
         409, "'{name}' is set from outside like a scalar, but is an array", "set its elements: {name}[1]"
     ),

@@ -1,0 +1,1 @@
+"""The Python interface: `desire_tui.load`, `desire_tui.run` and what they return."""

@@ -1,0 +1,42 @@
+"""Checks of what callers give: a wrong name is an error that says the nearest right one."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING, NoReturn, get_args
+
+from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.session.session import BackendName
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+BACKENDS: tuple[BackendName, ...] = get_args(BackendName)
+
+
+def refuse_name(function: str, what: str, name: str, known: Iterable[str]) -> NoReturn:
+    """Raise TypeError: there is no such keyword."""
+    near = closest(name, known)
+    hint = f"; did you mean {near!r}?" if near else ""
+    raise TypeError(f"{function}() has no {what} {name!r}{hint}")
+
+
+def checked_backend(name: str) -> BackendName:
+    """Return a back end's name. ValueError: there is no such back end."""
+    for known in BACKENDS:
+        if name == known:
+            return known
+    near = closest(str(name), BACKENDS)
+    hint = f"did you mean {near!r}?" if near else f"there are {' and '.join(map(repr, BACKENDS))}"
+    raise ValueError(f"backend={name!r} is unknown; {hint}")
+
+
+def checked_timeout(seconds: float | None) -> float | None:
+    """Return a time limit. ValueError: it is no time that can pass."""
+    if seconds is None:
+        return None
+    if isinstance(seconds, bool) or not isinstance(seconds, int | float):
+        raise TypeError(f"timeout is a number of seconds or None, not {seconds!r}")
+    if not seconds > 0 or not isfinite(seconds):
+        raise ValueError(f"timeout={seconds!r} is no time that can pass: give seconds above 0, or None")
+    return float(seconds)

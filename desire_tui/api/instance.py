@@ -1,0 +1,98 @@
+"""A program in a session of its own, brought to its first run; and a pool of them, one for each thread."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from threading import Lock
+from typing import TYPE_CHECKING, NamedTuple
+
+from desire_tui.batch.headless_listener import HeadlessListener
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.session.permissions import Permissions
+from desire_tui.engine.session.session import Session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from desire_tui.engine.session.prepared_run import PreparedRun
+    from desire_tui.engine.session.session import BackendName
+    from desire_tui.engine.source import Source
+
+ELEMENTS = 1 << 24
+"""Array elements for which address space is reserved at first: many models may be loaded at once."""
+
+
+class LoadOptions(NamedTuple):
+    """How a program is brought to its first run."""
+
+    segment: str | None = None
+    answers: tuple[str, ...] = ()
+    backend: BackendName = "native"
+    allow_shell: bool = False
+    allow_write: bool = False
+
+
+class Instance:
+    """A program that one thread at a time may run. DesireError: it does not come to a run."""
+
+    def __init__(self, source: Source, options: LoadOptions) -> None:
+        self._source, self._options = source, options
+        self._elements: int | None = ELEMENTS
+        self.overrides: dict[str, float] = {}
+        """What the script was run with in place of its own values."""
+        self._prepare()
+
+    def _prepare(self) -> None:
+        try:
+            self._begin()
+        except DesireError as error:
+            if self._elements is None or all(d.key != "out-of-memory" for d in error.diagnostics):
+                raise
+            self._elements = None
+            self._begin()
+
+    def _begin(self) -> None:
+        options = self._options
+        self.listener = HeadlessListener(_ignore, iter(options.answers), _ignore)
+        self.session = Session(
+            self.listener, backend=options.backend, elements_most=self._elements,
+            permissions=Permissions(shell=options.allow_shell, files=options.allow_write),
+        )  # fmt: skip
+        self._reach()
+
+    def _reach(self) -> None:
+        self.session.override(self.overrides)
+        self.prepared: PreparedRun = self.session.prepare(self._source, self._options.segment)
+
+    def override(self, settings: Mapping[str, float]) -> None:
+        """Run the script anew with these values in place of its own, unless it was run with them last."""
+        if self.overrides != settings:
+            self.overrides = dict(settings)
+            self._reach()
+
+
+def _ignore(_: object) -> None:
+    return
+
+
+class InstancePool:
+    """Instances of one program. Who takes one has it alone; one in which something broke comes not back."""
+
+    def __init__(self, make: Callable[[], Instance]) -> None:
+        self._make = make
+        self._idle: list[Instance] = []
+        self._lock = Lock()
+
+    @contextmanager
+    def one(self) -> Iterator[Instance]:
+        """Lend an instance, the one that was given back last."""
+        with self._lock:
+            instance = self._idle.pop() if self._idle else None
+        if instance is None:
+            instance = self._make()
+        yield instance
+        with self._lock:
+            self._idle.append(instance)
+
+    def __len__(self) -> int:
+        return len(self._idle)

@@ -1,0 +1,227 @@
+"""A program as a model: loaded once, run with other parameters as often as wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from desire_tui.api.arguments import checked_backend, checked_timeout, refuse_name
+from desire_tui.api.instance import Instance, InstancePool, LoadOptions
+from desire_tui.api.program_source import program_source
+from desire_tui.api.settings import Way, name_problems, numbers, slot_of, way_of
+from desire_tui.engine.diagnostics import DesireError, Diagnostic, closest
+from desire_tui.engine.outputs.results import run_data
+from desire_tui.engine.session.prepared_run import RunStart
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+    from os import PathLike
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from desire_tui.engine.outputs.run import Run
+    from desire_tui.engine.runtime.run_record import RunRecord
+    from desire_tui.engine.source import Source
+
+    Number = float | ArrayLike
+    Initial = Mapping[str, Number] | NDArray[np.float64] | Sequence[float]
+
+_RUN_ARGUMENTS = ("set", "initial", "t", "record", "check", "timeout", "on_block")
+
+
+def load(
+    program: str | PathLike[str],
+    *,
+    segment: str | None = None,
+    input: Iterable[str] = (),  # noqa: A002 - the command line's word
+    backend: str = "native",
+    allow_shell: bool = False,
+    allow_write: bool = False,
+) -> Model:
+    """See `desire_tui.load`."""
+    answers = tuple(input)
+    options = LoadOptions(segment, answers, checked_backend(backend), allow_shell, allow_write)
+    return Model(program_source(program), options)
+
+
+class Model:
+    """A program brought to its first `drun`, which can be made again and again, from several threads at once.
+
+    Each run begins where the script came to that `drun`, with the values given in place of the script's own.
+    """
+
+    def __init__(self, source: Source, options: LoadOptions) -> None:
+        self.name = source.name
+        self._source = source
+        self._pool = InstancePool(lambda: Instance(source, options))
+        self._ways: dict[tuple[int, tuple[str, ...]], Way] = {}
+        with self._pool.one() as first:
+            prepared, session = first.prepared, first.session
+            start = prepared.start_values()
+            from desire_tui.engine.session.parameters import parameters
+
+            assert session.program is not None
+            known = parameters(session.program, session.values, start)
+            self.parameters = {p.name: p.value for p in known if p.kind != "initial"}
+            """Quantities that may be varied, with the values that the script gives them."""
+            self.states = dict(prepared.states())
+            """All states (elements of arrays one by one) with the values that every run begins with."""
+            self.console = first.listener.console
+            """What the script wrote on its way to the run."""
+
+    def __repr__(self) -> str:
+        count = len(self.states)
+        states = ", ".join(list(self.states)[:6]) + (", …" if count > 6 else "")
+        values = [f"{name}={value:g}" for name, value in list(self.parameters.items())[:8]]
+        shown = ", ".join(values) + (", …" if len(self.parameters) > 8 else "")
+        return (
+            f"<Model {self.name}: {count} state{'s' * (count != 1)} {states}; "
+            f"{f'parameters {shown}' if shown else 'no parameters'}>"
+        )
+
+    def run(
+        self,
+        /,
+        *,
+        set: Mapping[str, Number] | None = None,  # noqa: A002 - the command line's word
+        initial: Initial | None = None,
+        t: tuple[float, float] | None = None,
+        record: str | Iterable[str] = (),
+        check: bool = False,
+        timeout: float | None = None,
+        on_block: Callable[[Block], object] | None = None,
+        **parameters: Number,
+    ) -> Run:
+        """Make one run and return its samples."""
+        names = (record,) if isinstance(record, str) else tuple(record)
+        seconds = checked_timeout(timeout)
+        with self._pool.one() as instance:
+            settings = self._numbers(set or {}, parameters, instance)
+            start = self._start(instance, settings, initial, t, parameters)
+            control, observer = instance.session.control, _Blocks(on_block, instance)
+            control.deadline = inf if seconds is None else monotonic() + seconds
+            made, error = instance.prepared.run(start, names, observer)
+            if made.ended == "stopped" and monotonic() > control.deadline:
+                error = DesireError(Diagnostic("time-limit", None, {"seconds": seconds}, self._source))
+            run = run_data(
+                made, more=True, program=self.name, state=instance.prepared.state(), error=error,
+                warnings=tuple(instance.prepared.warnings),
+            )  # fmt: skip
+        return run.check() if check else run
+
+    # ------------------------------------------------------------------ what a run begins with
+
+    def _start(
+        self,
+        instance: Instance,
+        settings: dict[str, float],
+        initial: Initial | None,
+        t: tuple[float, float] | None,
+        keywords: Mapping[str, Number],
+    ) -> RunStart:
+        way = self._way(instance, tuple(settings), keywords)
+        if way.slots is None:
+            instance.override(settings)
+            assignments: list[tuple[int, float]] = []
+        else:
+            instance.override({})
+            assignments = list(zip(way.slots, settings.values(), strict=True))
+        t0, t1 = (None, None) if t is None else _span(t)
+        follow = way.follow if way.slots is not None else None
+        return RunStart(assignments, follow, self._initial(instance, initial), t0, t1)
+
+    def _numbers(
+        self, values: Mapping[str, Number], keywords: Mapping[str, Number], instance: Instance
+    ) -> dict[str, float]:
+        try:
+            return numbers({**values, **keywords})
+        except (TypeError, ValueError):  # of an argument that is misspelt: the name is what is wrong
+            self._refuse_unknown(keywords, instance)
+            raise
+
+    def _way(self, instance: Instance, names: tuple[str, ...], keywords: Mapping[str, Number]) -> Way:
+        key = (id(instance), names)
+        way = self._ways.get(key)
+        if way is None:
+            instance.override({})
+            self._refuse_unknown(keywords, instance)
+            way = way_of(names, instance)
+            self._ways[key] = way
+        return way
+
+    def _refuse_unknown(self, keywords: Mapping[str, object], instance: Instance) -> None:
+        """TypeError: keywords that are neither arguments nor names of the program."""
+        for problem in name_problems(keywords, instance):
+            if problem.key == "set-unknown":
+                known = [*_RUN_ARGUMENTS, *self.parameters, *self.states]
+                refuse_name("run", "parameter or setting", str(problem.facts["name"]), known)
+
+    def _initial(self, instance: Instance, initial: Initial | None) -> list[tuple[int, float]]:
+        if initial is None:
+            return []
+        if not isinstance(initial, Mapping):
+            array = np.asarray(initial, dtype=np.float64)
+            if array.shape != (len(self.states),):
+                raise ValueError(
+                    f"initial has shape {array.shape}, but the model has {len(self.states)} states"
+                )
+            return list(zip(instance.prepared.state_slots().tolist(), array.tolist(), strict=True))
+        found = []
+        for name, value in numbers(initial).items():
+            slot = slot_of(name, instance) if name in self.states else None
+            if slot is None:
+                facts = {"name": name, "close": closest(name, self.states)}
+                raise DesireError(Diagnostic("initial-unknown", None, facts, self._source))
+            found.append((slot, value))
+        return found
+
+
+def _span(t: tuple[float, float]) -> tuple[float, float]:
+    try:
+        first, last = map(float, t)
+    except (TypeError, ValueError):
+        raise TypeError(f"t is a pair of times, (0, 10), not {t!r}") from None
+    return first, last
+
+
+class Block:
+    """New samples of a run that goes on: a mapping from names to arrays, `t` among them."""
+
+    def __init__(self, record: RunRecord, first: int) -> None:
+        self._record, self._first = record, first
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Times of the samples."""
+        return self["t"]
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        record = self._record
+        samples = record.t if name == "t" else record.values(name)
+        return samples[self._first :].copy()
+
+    def keys(self) -> list[str]:
+        """Return the names of what is recorded."""
+        return ["t", *dict.fromkeys(column.name for column in self._record.columns if column.name != "t")]
+
+    def __iter__(self) -> Any:
+        return iter(self.keys())
+
+    def __len__(self) -> int:
+        return len(self.keys())
+
+
+class _Blocks:
+    """Hands blocks of samples on; False ends the run."""
+
+    def __init__(self, on_block: Callable[[Block], object] | None, instance: Instance) -> None:
+        self._on_block, self._instance = on_block, instance
+
+    def block(self, record: RunRecord, first_row: int) -> None:
+        """Note new samples."""
+        if self._on_block is not None and self._on_block(Block(record, first_row)) is False:
+            self._instance.prepared.end()

@@ -1,0 +1,58 @@
+"""`desire_tui.run`."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any, TypedDict
+
+from desire_tui.api.arguments import checked_backend, checked_timeout, refuse_name
+from desire_tui.api.program_source import program_source
+from desire_tui.batch.headless_listener import HeadlessListener
+from desire_tui.batch.runner import Runner, RunOptions
+from desire_tui.batch.set_option import from_mapping
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+    from os import PathLike
+
+    from desire_tui.engine.outputs.results import Result
+
+
+class RunSettings(TypedDict, total=False):
+    """Settings of `desire_tui.run`."""
+
+    set: Mapping[str, Any] | None
+    input: Iterable[str]
+    go: bool
+    timeout: float | None
+    backend: str
+    allow_shell: bool
+    allow_write: bool
+    quiet: bool
+    check: bool
+
+
+def run_program(program: str | PathLike[str], settings: RunSettings) -> Result:
+    """See `desire_tui.run`."""
+    for name in settings:
+        if name not in RunSettings.__annotations__:
+            refuse_name("desire_tui.run", "setting", name, RunSettings.__annotations__)
+    source = program_source(program)
+    show: Callable[[str], object] = _ignore if settings.get("quiet", True) else sys.stdout.write
+    listener = HeadlessListener(show, iter(settings.get("input", ())), _ignore)
+    options = RunOptions(
+        settings=from_mapping(settings.get("set") or {}), answer_stops=settings.get("go", False),
+        timeout=checked_timeout(settings.get("timeout")),
+        backend=checked_backend(settings.get("backend", "native")),
+        allow_shell=settings.get("allow_shell", False), allow_write=settings.get("allow_write", False),
+    )  # fmt: skip
+    runner = Runner(source, options, listener)
+    runner.run()
+    if runner.interrupted:
+        raise KeyboardInterrupt
+    result = runner.result()
+    return result.check() if settings.get("check", False) else result
+
+
+def _ignore(_: object) -> None:
+    return

@@ -1,0 +1,193 @@
+"""A program brought to its first `drun`, and that run made any number of times, each from the same start."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.rules import DUMMY
+from desire_tui.engine.runtime.gap_warnings import gap_warnings
+from desire_tui.engine.runtime.run_record import RunRecord
+from desire_tui.engine.runtime.start_values import StartQuantities
+from desire_tui.engine.session.checkpoint import Checkpoint
+from desire_tui.engine.session.fault_place import with_part
+from desire_tui.engine.session.recorded_segment import recording
+from desire_tui.engine.values import TMAX, T
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.runtime.pause_and_stop import Control
+    from desire_tui.engine.runtime.simulator import Observer
+    from desire_tui.engine.runtime.start_values import StartValues
+    from desire_tui.engine.session.runs import Runs
+    from desire_tui.engine.session.workspace import Workspace
+    from desire_tui.engine.values import Values
+
+    Assignments = Iterable[tuple[int, float]]
+    """Numbers for slots."""
+
+
+class RunReached(BaseException):
+    """The script has come to a `drun` which its caller is to make. Passes what explains errors."""
+
+    def __init__(self, label: str | None, placed: Placed | None) -> None:
+        super().__init__()
+        self.label, self.placed = label, placed
+
+
+@dataclass(frozen=True)
+class RunStart:
+    """What a run begins with in place of what the script gave. Later ones win.
+
+    `settings` hold while `follow` computes again what the script computes from them; `initial` holds for the
+    run alone.
+    """
+
+    settings: Assignments = ()
+    follow: Callable[[], None] | None = None
+    initial: Assignments = ()
+    t0: float | None = None
+    t1: float | None = None
+
+
+class PreparedRun:
+    """Lives on one thread at a time. `segment` is compiled; `base` is where every run begins."""
+
+    def __init__(
+        self, workspace: Workspace, runs: Runs, control: Control, reached: RunReached, rule: int
+    ) -> None:
+        self._workspace, self._runs, self._control = workspace, runs, control
+        self.values: Values = workspace.values
+        self._label, self._rule = reached.label, rule
+        placed = reached.placed
+        self._source = workspace.source_of(placed) if placed is not None else workspace.source
+        self._span = placed.span() if placed is not None else None
+        self._line = workspace.line_of(placed) if placed is not None else 0
+        program, structure = workspace.runnable()
+        script = program.script
+        self.place = next((k for k, other in enumerate(script) if other is placed), len(script))
+        """Of the `drun` in the script."""
+        try:
+            self.segment = workspace.segments.lowered(program, structure, reached.label, rule)
+        except DesireError as error:
+            raise error if self._span is None else error.placed(self._span, self._source) from None
+        workspace.segments.model(self.segment, rule if self.segment.order else DUMMY)
+        self.base = Checkpoint.taken(self.values, runs.simulator)
+        self._recording: dict[tuple[str, ...], Segment] = {(): self.segment}
+        self._states = np.array(
+            [slot for s in self.segment.states for slot in range(s.slot, s.slot + s.count)], dtype=np.intp
+        )
+        self._starts = StartQuantities(self.segment, self.values)
+        self._starts.start(self.values, None, continues=False)
+        self.warnings: list[Diagnostic] = []
+        """Of the last run."""
+
+    def start_values(self) -> StartValues:
+        """Return parameters and states as every run finds them."""
+        self.base.restore(self.values, self._runs.simulator)
+        return self._starts.start(self.values, None, continues=False)
+
+    def run(
+        self, start: RunStart, record: tuple[str, ...], observer: Observer, base: Checkpoint | None = None
+    ) -> tuple[RunRecord, DesireError | None]:
+        """Make the run; an error leaves the samples that came before it.
+
+        `record` names what is sampled besides the program's own requests; `base` is another place to begin
+        at, `checkpoint()` of an earlier run. DesireError: the run cannot begin.
+        """
+        began = perf_counter()
+        workspace, simulator = self._workspace, self._runs.simulator
+        (base or self.base).restore(self.values, simulator)
+        segment = self._sampled(record)
+        self._assign(start)
+        if segment.recover:
+            path = workspace.stash_path("read", lambda _: False)
+            segment = workspace.segments.recovering(segment, path)
+        plan = simulator.defaults.plan(segment, self._rule, self._source, self._span)
+        self.warnings = list(simulator.defaults.warnings())
+        segment = workspace.segments.directed(segment, plan)
+        model = workspace.segments.model(segment, plan.rule)
+        self._runs.count += 1
+        made = RunRecord(
+            number=self._runs.count, segment=self._label, line=self._line, requests=segment.requests,
+            columns=segment.columns, overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0,
+            t_max=plan.span, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
+            start=self._starts.start(self.values, None, continues=base is not None),
+            compile_seconds=perf_counter() - began,
+        )  # fmt: skip
+        self._control.begin()
+        try:
+            simulator.run(model, segment, plan, made, observer)
+        except DesireError as fault:
+            made.ended = "failed"
+            explained = with_part(fault, simulator, segment, plan, model, self.values)
+            made.message = explained.diagnostics[0].message
+            return made, self._placed(explained)
+        finally:
+            self._control.done()
+        self.warnings += [*gap_warnings(segment, made), *simulator.cut_delays()]
+        self.warnings += workspace.segments.backend.problems()
+        return made, None
+
+    def state_slots(self) -> NDArray[np.intp]:
+        """Return where all states stand, in their order."""
+        return self._states
+
+    def state(self) -> NDArray[np.float64]:
+        """Return all states as they are now."""
+        return self.values.data[self._states]
+
+    def states(self) -> Iterator[tuple[str, float]]:
+        """Yield names and values of all states as every run finds them."""
+        labels = dict[int, str]()
+        for quantity in self.values:
+            if quantity.is_state and not quantity.shape:
+                labels[quantity.slot] = quantity.name
+            elif quantity.is_state:
+                for number, place in enumerate(np.ndindex(quantity.shape)):
+                    label = f"{quantity.name}[{','.join(str(k + 1) for k in place)}]"
+                    labels[quantity.slot + number] = label
+        data = self.values.data
+        yield from ((labels[slot], float(data[slot])) for slot in self._states.tolist())
+
+    def checkpoint(self) -> Checkpoint:
+        """Return what the last run left, as a place for others to begin at."""
+        return Checkpoint.taken(self.values, self._runs.simulator)
+
+    def end(self) -> None:
+        """End the run that goes on; from any thread."""
+        self._control.end()
+
+    def _sampled(self, record: tuple[str, ...]) -> Segment:
+        known = self._recording.get(record)
+        if known is None:
+            known = self._recording[record] = recording(self.segment, record, self.values)
+        return known
+
+    def _assign(self, start: RunStart) -> None:
+        assign = self.values.assign
+        for slot, value in start.settings:
+            assign(slot, value)
+        if start.follow is not None:
+            start.follow()
+            for slot, value in start.settings:
+                assign(slot, value)
+        for slot, value in start.initial:
+            assign(slot, value)
+        if start.t0 is not None:
+            assign(T, start.t0)
+        if start.t1 is not None:
+            assign(TMAX, start.t1 - (self.values.cells[T] if self.values.defined[T] else 0.0))
+
+    def _placed(self, error: DesireError) -> DesireError:
+        placed = error if self._span is None else error.placed(self._span, self._source)
+        return DesireError(*(d.within(self._source) for d in placed.diagnostics))
