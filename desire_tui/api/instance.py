@@ -32,14 +32,26 @@ class LoadOptions(NamedTuple):
     allow_write: bool = False
 
 
+class Way(NamedTuple):
+    """How settings of certain names take effect in one instance.
+
+    `slots`: the numbers are put there when a run begins, then `follow` computes again what depends on them.
+    No slots: the script has to run again with the values in place of its own.
+    """
+
+    slots: tuple[int, ...] | None
+    follow: Callable[[], None] | None
+
+
 class Instance:
     """A program that one thread at a time may run. DesireError: it does not come to a run."""
 
     def __init__(self, source: Source, options: LoadOptions) -> None:
         self._source, self._options = source, options
         self._elements: int | None = ELEMENTS
-        self.overrides: dict[str, float] = {}
-        """What the script was run with in place of its own values."""
+        self.overrides: dict[str, float] | None = {}
+        """What the script was run with in place of its own values; None: it did not come to the run."""
+        self.ways: dict[tuple[str, ...], Way] = {}
         self._prepare()
 
     def _prepare(self) -> None:
@@ -53,7 +65,7 @@ class Instance:
 
     def _begin(self) -> None:
         options = self._options
-        self.listener = HeadlessListener(_ignore, iter(options.answers), _ignore)
+        self.listener = HeadlessListener(_ignore, iter(self._next_answer, None), _ignore)
         self.session = Session(
             self.listener, backend=options.backend, elements_most=self._elements,
             permissions=Permissions(shell=options.allow_shell, files=options.allow_write),
@@ -61,8 +73,15 @@ class Instance:
         self._reach()
 
     def _reach(self) -> None:
-        self.session.override(self.overrides)
+        self._answers = iter(self._options.answers)
+        self.ways = {names: way for names, way in self.ways.items() if way.slots is None}
+        settings, self.overrides = self.overrides or {}, None
+        self.session.override(settings)
         self.prepared: PreparedRun = self.session.prepare(self._source, self._options.segment)
+        self.overrides = settings
+
+    def _next_answer(self) -> str | None:
+        return next(self._answers, None)
 
     def override(self, settings: Mapping[str, float]) -> None:
         """Run the script anew with these values in place of its own, unless it was run with them last."""
@@ -76,7 +95,7 @@ def _ignore(_: object) -> None:
 
 
 class InstancePool:
-    """Instances of one program. Who takes one has it alone; one in which something broke comes not back."""
+    """Instances of one program. Who takes one has it alone; one that was left by Ctrl-C is not used again."""
 
     def __init__(self, make: Callable[[], Instance]) -> None:
         self._make = make
@@ -90,7 +109,14 @@ class InstancePool:
             instance = self._idle.pop() if self._idle else None
         if instance is None:
             instance = self._make()
-        yield instance
+        try:
+            yield instance
+        except Exception:
+            self._give_back(instance)
+            raise
+        self._give_back(instance)
+
+    def _give_back(self, instance: Instance) -> None:
         with self._lock:
             self._idle.append(instance)
 

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from desire_tui.api.arguments import checked_backend, checked_timeout, refuse_name
-from desire_tui.api.instance import Instance, InstancePool, LoadOptions
+from desire_tui.api.instance import Instance, InstancePool, LoadOptions, Way
 from desire_tui.api.program_source import program_source
-from desire_tui.api.settings import Way, name_problems, numbers, slot_of, way_of
+from desire_tui.api.settings import name_problems, numbers, slot_of, way_of
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, closest
 from desire_tui.engine.outputs.results import run_data
 from desire_tui.engine.session.prepared_run import RunStart
@@ -58,14 +58,12 @@ class Model:
         self.name = source.name
         self._source = source
         self._pool = InstancePool(lambda: Instance(source, options))
-        self._ways: dict[tuple[int, tuple[str, ...]], Way] = {}
         with self._pool.one() as first:
             prepared, session = first.prepared, first.session
             start = prepared.start_values()
             from desire_tui.engine.session.parameters import parameters
 
-            assert session.program is not None
-            known = parameters(session.program, session.values, start)
+            known = parameters(prepared.script[0], session.values, start)
             self.parameters = {p.name: p.value for p in known if p.kind != "initial"}
             """Quantities that may be varied, with the values that the script gives them."""
             self.states = dict(prepared.states())
@@ -144,13 +142,12 @@ class Model:
             raise
 
     def _way(self, instance: Instance, names: tuple[str, ...], keywords: Mapping[str, Number]) -> Way:
-        key = (id(instance), names)
-        way = self._ways.get(key)
+        way = instance.ways.get(names)
         if way is None:
             instance.override({})
             self._refuse_unknown(keywords, instance)
             way = way_of(names, instance)
-            self._ways[key] = way
+            instance.ways[names] = way
         return way
 
     def _refuse_unknown(self, keywords: Mapping[str, object], instance: Instance) -> None:

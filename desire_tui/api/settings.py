@@ -2,29 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
+from desire_tui.api.instance import Way
 from desire_tui.batch.set_option import from_mapping
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.dependent_assignments import dependents
 from desire_tui.engine.session.overrides import name_and_subscripts, problems_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Iterable, Mapping
 
     from desire_tui.api.instance import Instance
     from desire_tui.engine.diagnostics import Diagnostic
-
-
-class Way(NamedTuple):
-    """How settings of certain names take effect in one instance.
-
-    `slots`: the numbers are put there when a run begins, then `follow` computes again what depends on them.
-    No slots: the script has to run again with the values in place of its own.
-    """
-
-    slots: tuple[int, ...] | None
-    follow: Callable[[], None] | None
 
 
 def numbers(values: Mapping[str, Any]) -> dict[str, float]:
@@ -35,10 +25,7 @@ def numbers(values: Mapping[str, Any]) -> dict[str, float]:
 
 def name_problems(names: Iterable[str], instance: Instance) -> list[Diagnostic]:
     """Return what is wrong with the names of settings."""
-    program, structure = instance.session.program, instance.session.structure
-    assert program is not None
-    assert structure is not None
-    return problems_of(program, structure, dict.fromkeys(names, 0.0))
+    return problems_of(*instance.prepared.script, dict.fromkeys(names, 0.0))
 
 
 def way_of(names: tuple[str, ...], instance: Instance) -> Way:
@@ -46,13 +33,10 @@ def way_of(names: tuple[str, ...], instance: Instance) -> Way:
     problems = name_problems(names, instance)
     if problems:
         raise DesireError(*problems)
-    session = instance.session
-    program, structure = session.program, session.structure
-    assert program is not None
-    assert structure is not None
+    session, prepared = instance.session, instance.prepared
     slots = tuple(slot_of(name, instance) for name in names)
     own = {name_and_subscripts(name)[0] for name in names}
-    following = dependents(program, structure, instance.prepared.place, own)
+    following = dependents(*prepared.script, prepared.place, own)
     if following is None or None in slots:
         return Way(None, None)
     found = tuple(slot for slot in slots if slot is not None)

@@ -16,7 +16,6 @@ from desire_tui.engine.session.listener import Listener
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.diagnostics import DesireError
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.session.session import Session
     from desire_tui.panes.example_catalogue import Example
@@ -137,7 +136,7 @@ class Previewer:
             return Preview(example, session.graph, listener.printed.rstrip(), problem)
 
 
-def _sentence(error: DesireError | OSError) -> str:
+def _sentence(error: Exception) -> str:
     """Return why a program ended, in one line."""
     from desire_tui.engine.diagnostics import DesireError
 

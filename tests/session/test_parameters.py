@@ -31,7 +31,7 @@ dispt x
 def test_parameters_of_a_model():
     session = Session(backend="reference")
     session.erun(Source(MODEL))
-    found = parameters(session.program, session.values, session.runs[-1])
+    found = parameters(session.program, session.values, session.runs[-1].start)
     assert [(one.label, one.value, one.kind) for one in found] == [
         ("a", 2.0, "number"), ("b", -3.0, "number"), ("q[2]", 5.0, "number"),
         ("c", 3.0, "computed"), ("r", 20.0, "computed"),

@@ -72,7 +72,7 @@ class PreparedRun:
         self._source = workspace.source_of(placed) if placed is not None else workspace.source
         self._span = placed.span() if placed is not None else None
         self._line = workspace.line_of(placed) if placed is not None else 0
-        program, structure = workspace.runnable()
+        program, structure = self.script = workspace.runnable()
         script = program.script
         self.place = next((k for k, other in enumerate(script) if other is placed), len(script))
         """Of the `drun` in the script."""

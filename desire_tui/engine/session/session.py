@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.listener import StoppedAt
     from desire_tui.engine.session.prepared_run import PreparedRun
     from desire_tui.engine.session.quantity_plots import PlotOutcome
-    from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
 
 BackendName = Literal["native", "reference"]
@@ -268,11 +267,6 @@ class Session:
     def repeated(self, assignments: Sequence[Placed]) -> Callable[[], None]:
         """Return what makes some of the script's assignments once more, as it stands now."""
         return self._script.repeated(assignments)
-
-    @property
-    def structure(self) -> Structure | None:
-        """The blocks of the active program."""
-        return self._workspace.structure
 
     def prepare(self, source: Source, segment: str | None = None) -> PreparedRun:
         """Run a program's script as far as its first `drun` (of that labelled segment) and return that run.
