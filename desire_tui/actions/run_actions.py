@@ -95,14 +95,18 @@ class RunActions(Controller):
         app.engine.submit(lambda: self._watched(Path(name).name, app.session.run))
 
     def _watched(self, name: str, run: Callable[[], object]) -> None:
-        """Run a program; where it fails before it has a graph, the graph pane says so."""
+        """Run a program; where it fails before it has a graph, or a run, graph pane and status bar say so."""
         app = self.app
-        before = app.session.graph
+        bar = app.main_screen.status_bar
+        graph, run_before = app.session.graph, app.session.status.record
+        app.on_screen(setattr, bar, "failed", "")
         try:
             run()
         except DesireError:
-            if app.session.graph is before:
+            if app.session.graph is graph:
                 app.on_screen(app.graph.show_failed, name)
+            if app.session.status.record is run_before:
+                app.on_screen(setattr, bar, "failed", f"{visible_line(name)} did not run")
             raise
 
     def proceed(self, argument: str = "") -> None:

@@ -203,9 +203,8 @@ class ProgramView(RenderedText):
         """Bring the cursor into view; `center` is about rows only."""
         if center and self._has_cursor:
             self._recompute_cursor_offset()  # type: ignore[no-untyped-call]
-            end = (
-                self.wrapped_document.height - self.size.height
-            )  # a view just made is not held to it by itself
+            # a view just made is not held to the end of the text by itself
+            end = self.wrapped_document.height - self.size.height
             y = min(self._cursor_offset[1] - self.size.height // 2, max(end, 0))
             self.scroll_to(0, y, animate=False, immediate=True, force=True)
         return super().scroll_cursor_visible(animate=animate)

@@ -192,7 +192,10 @@ class DrawnGraph(Container):
         columns, rows = self.room
         lines = list(painter.clipped.lines(frame, self.fit.notice) if self._marks else frame.lines)
         mark = self.page_mark
-        lines[0] = lines[0][: columns - len(mark)].ljust(columns - len(mark)) + mark
+        room, title = columns - len(mark), lines[0].rstrip()
+        if len(title) > room:  # it stands over the middle of the curves: there is room for it further left
+            title = title.strip().rjust(room)[:room]
+        lines[0] = title.ljust(room) + mark
         net = ground if page.net is None else ground + net_style(page.net, white=white)
         look = SheetStyles(ground, ground + Style(bold=True), net, white)
         return self.sheet.lay(columns, rows, look, lines, frame, self.canvas)

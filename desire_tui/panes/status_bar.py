@@ -46,6 +46,8 @@ class StatusBar(Widget):
     StatusBar { dock: bottom; height: 1; background: $panel; color: $foreground; }
     """
     status: reactive[Status | None] = reactive(None)
+    failed: reactive[str] = reactive("")
+    """Says that a program ended before its first run: what stands here otherwise is of the one before."""
     hint: reactive[str] = reactive("")
     """Says what a paused or waiting program expects; replaces the keys."""
 
@@ -65,6 +67,8 @@ class StatusBar(Widget):
         """What the right side says of the run."""
         width = self.size.width - (len(self.hint) + 3 if self.hint else 0)
         keys = 0 if self.hint else KEYS_GOING if self._going else max(KEYS_KEPT, int(width * KEYS_PART))
+        if self.failed and self.status is not None and self.status.state is State.IDLE:
+            return self.failed[: max(width - keys, RUN_KEPT)]
         return run_text(self.status, min(width, max(width - keys, RUN_KEPT)))
 
     @property

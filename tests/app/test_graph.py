@@ -344,15 +344,28 @@ async def test_a_graph_of_before_a_failed_start_is_marked(program):
         await desk.press("f5")
         await desk.idle()
         graph = desk.app.graph
-        desk.app.editor.front.text = OSCILLATOR.replace("drun", "write 1/0 | drun")
+        desk.app.editor.front.text = OSCILLATOR.replace("drun", "write 1/0 | zap | drun")
         await desk.press("f5")
         await desk.idle()
         assert "earlier run" in shown(graph)
+        await desk.until(lambda: desk.app.main_screen.status_bar.text.endswith(" did not run"))
         desk.app.editor.front.text = OSCILLATOR
         await desk.press("f5")
         await desk.idle()
         graph.tick()
         assert "earlier run" not in shown(graph)
+        assert desk.app.main_screen.status_bar.text.startswith("run 1")
+
+
+async def test_a_mark_covers_no_part_of_the_title(program):
+    async with desktop(program(OSCILLATOR), size=(100, 30)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        graph = desk.app.graph
+        graph.fit_curves()
+        graph.show_failed(graph.page.program)
+        await desk.until(lambda: "earlier run" in shown(graph))
+        assert shown(graph).splitlines()[0].endswith("· fitted earlier run ")
 
 
 async def test_the_cursor_reads_nothing_where_the_run_has_not_come(program):
