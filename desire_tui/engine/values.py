@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import mmap
 import os
+import resource
 from dataclasses import dataclass
 from enum import Enum
 from math import prod
@@ -38,6 +39,8 @@ SYSTEM_SLOTS = len(SYSTEM_VARIABLES)
 
 SCALAR_SLOTS = 1 << 22
 """Slots below this one hold scalars: 32 MiB of address space, touched as needed."""
+SESSIONS_ALLOWED_FOR = 16
+"""Where address space is limited, a session takes so small a part of it that there is room for others."""
 _ALIGN = 8  # arrays start on a cache line
 
 _DROPPED_PAGES_ARE_ZERO = os.uname().sysname == "Linux"  # elsewhere MADV_DONTNEED is only a hint
@@ -252,13 +255,16 @@ def _pages(size: int) -> int:
 
 
 def _allowed_bytes() -> int:
-    """Three quarters of the memory of the machine, or of the container this runs in."""
+    """Three quarters of the memory of the machine or container this runs in; less under `ulimit -v`."""
     size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     for limit in ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"):
         try:
             size = min(size, int(Path(limit).read_text(encoding="ascii")))
         except (OSError, ValueError):
             continue
+    address_space, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if address_space != resource.RLIM_INFINITY:  # `ulimit -v`: sessions come after this one, libraries too
+        size = min(size, address_space // SESSIONS_ALLOWED_FOR)
     return max(size // 4 * 3, 1 << 27)
 
 

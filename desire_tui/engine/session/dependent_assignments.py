@@ -6,19 +6,17 @@ would with the value in place of its own.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.control import For, GoTo, Procedure
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.random_sequence import DRAWS
+from desire_tui.engine.session.overrides import WORD
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.structure.structure import Structure
-
-_WORD = re.compile(r"[A-Za-z][\w$]*")
 
 
 class _Line(NamedTuple):
@@ -71,10 +69,10 @@ def _line(program: Program, structure: Structure, number: int, placed: Placed, a
     block = structure.inside[number]
     once = block < 0 or block in around
     span = placed.span()
-    words = set(_WORD.findall(program.source.text[span.start : span.end]))
+    words = set(WORD.findall(program.source.text[span.start : span.end]))
     if once and isinstance(node, Assign):
         value = placed.span(node.value)
-        reads = set(_WORD.findall(program.source.text[value.start : value.end]))
+        reads = set(WORD.findall(program.source.text[value.start : value.end]))
         if isinstance(node.target, Name):
             return _Line(placed, node.target.name, reads)
         return _Line(placed, node.target.name, words, is_element=True)

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.structure.structure import Structure
 
 _FORM = re.compile(r"\s*([A-Za-z][\w$]*)\s*(?:\[\s*(\d+(?:\s*,\s*\d+)*)\s*\])?\s*", re.ASCII)
-_WORD = re.compile(r"[A-Za-z][\w$]*")
+WORD = re.compile(r"[A-Za-z][\w$]*")
+"""A name, or a part of a text that may be one."""
 
 
 def name_and_subscripts(setting: str) -> tuple[str, tuple[int, ...]]:
@@ -70,7 +71,7 @@ def problems_of(program: Program, structure: Structure, overrides: Mapping[str, 
     from desire_tui.engine.values import SYSTEM_VARIABLES
 
     survey = DeclaredNames(program, structure)
-    words = set(_WORD.findall(program.source.text)) - KEYWORDS.keys()
+    words = set(WORD.findall(program.source.text)) - KEYWORDS.keys()
     known = {*survey.everything, *SYSTEM_VARIABLES, *words}
     problems = []
     for setting in overrides:
