@@ -9,6 +9,7 @@ need to know whether they are defined, so an array costs nothing but its own num
 
 from __future__ import annotations
 
+import gc
 import mmap
 import os
 import resource
@@ -39,8 +40,8 @@ SYSTEM_SLOTS = len(SYSTEM_VARIABLES)
 
 SCALAR_SLOTS = 1 << 22
 """Slots below this one hold scalars: 32 MiB of address space, touched as needed."""
-SESSIONS_ALLOWED_FOR = 16
-"""Where address space is limited, a session takes so small a part of it that there is room for others."""
+ROOM_PARTS = 8
+"""Where address space is limited, a session takes such a part of what is left: there will be others."""
 _ALIGN = 8  # arrays start on a cache line
 
 _DROPPED_PAGES_ARE_ZERO = os.uname().sysname == "Linux"  # elsewhere MADV_DONTNEED is only a hint
@@ -263,9 +264,20 @@ def _allowed_bytes() -> int:
         except (OSError, ValueError):
             continue
     address_space, _ = resource.getrlimit(resource.RLIMIT_AS)
-    if address_space != resource.RLIM_INFINITY:  # `ulimit -v`: sessions come after this one, libraries too
-        size = min(size, address_space // SESSIONS_ALLOWED_FOR)
+    if address_space != resource.RLIM_INFINITY:  # `ulimit -v`
+        if _free(address_space) < address_space // 2:
+            gc.collect()  # sessions that nobody has any more
+        size = min(size, _free(address_space) // ROOM_PARTS)
     return max(size // 4 * 3, 1 << 27)
+
+
+def _free(address_space: int) -> int:
+    """Return how much of a limited address space is left."""
+    try:
+        used = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * mmap.PAGESIZE
+    except OSError:
+        used = 0
+    return max(address_space - used, 0)
 
 
 def _reserve(allowed: int) -> tuple[mmap.mmap, int]:
