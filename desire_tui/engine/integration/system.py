@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.integration.bdf.solver import OwnSolver
-from desire_tui.engine.integration.problem import ERROR_SHARE, NOISE_WAIT, SLIDE_PARTS, Matrix, SolverProblem
+from desire_tui.engine.integration.problem import (
+    ERROR_SHARE,
+    NEWTON_ERROR_SHARE,
+    NOISE_WAIT,
+    SLIDE_PARTS,
+    Matrix,
+    SolverProblem,
+)
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Solver
@@ -128,7 +135,8 @@ class StiffSystem:
         """Prepare a run: forget history, counts and largest values; take ERMAX, DTMAX and the first DT."""
         problem = self.problem
         problem.memory = ctypes.addressof(memory)  # type: ignore[arg-type]
-        problem.tolerance = memory.error_max * ERROR_SHARE
+        share = ERROR_SHARE if self.plan.method is Matrix.NONE else NEWTON_ERROR_SHARE
+        problem.tolerance = memory.error_max * share
         problem.first_step = first_step
         problem.anew = 0
         problem.settled = 1
@@ -138,7 +146,7 @@ class StiffSystem:
         problem.watch_t = float("nan")  # nothing is nearer: the first look only notes where it was
         problem.jacobian_calls = problem.derivative_calls = 0
         problem.suspect = -1
-        problem.absolute = memory.error_absolute * ERROR_SHARE
+        problem.absolute = memory.error_absolute * share
         problem.noise_seen, problem.noise_wait = 0, NOISE_WAIT
         problem.turns = problem.returned = 0
         problem.relief = 1.0
