@@ -98,7 +98,7 @@ class InstancePool:
     """Instances of one program. Who takes one has it alone; one that was left by Ctrl-C is not used again."""
 
     def __init__(self, make: Callable[[], Instance]) -> None:
-        self._make = make
+        self.make = make
         self._idle: list[Instance] = []
         self._lock = Lock()
 
@@ -108,7 +108,7 @@ class InstancePool:
         with self._lock:
             instance = self._idle.pop() if self._idle else None
         if instance is None:
-            instance = self._make()
+            instance = self.make()
         try:
             yield instance
         except Exception:

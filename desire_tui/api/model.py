@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from math import inf
 from time import monotonic
 from typing import TYPE_CHECKING, Any
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from desire_tui.api.equations import JacobianMatrix, RightHandSide
     from desire_tui.engine.outputs.run import Run
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.source import Source
@@ -110,6 +112,37 @@ class Model:
                 warnings=tuple(instance.prepared.warnings),
             )  # fmt: skip
         return run.check() if check else run
+
+    # ------------------------------------------------------------------ for other people's solvers
+
+    @property
+    def rhs(self) -> RightHandSide:
+        """dx/dt as a compiled function of t and the states: `solve_ivp(model.rhs, …)`.
+
+        DesireError 491: the derivatives depend on the past or on random numbers, or there are none. What
+        SAMPLE, `step` and events set stays as the script left it.
+        """
+        return self._equations[0]
+
+    @property
+    def jacobian(self) -> JacobianMatrix:
+        """The derivatives of dx/dt by the states as a compiled function: `jac=model.jacobian`."""
+        return self._equations[1]
+
+    @cached_property
+    def _equations(self) -> tuple[RightHandSide, JacobianMatrix]:
+        return self.equations()
+
+    def equations(self, /, **parameters: Number) -> tuple[RightHandSide, JacobianMatrix]:
+        """Return `rhs` and `jacobian` with other parameters, and C addresses of their own."""
+        from desire_tui.api.equations import JacobianMatrix, RightHandSide, SharedEquations
+
+        shared = SharedEquations(self._pool.make, self._begin_with, parameters)
+        return RightHandSide(shared), JacobianMatrix(shared)
+
+    def _begin_with(self, instance: Instance, parameters: Mapping[str, Any]) -> RunStart:
+        settings = self._numbers({}, parameters, instance)
+        return self._start(instance, settings, None, None, parameters)
 
     # ------------------------------------------------------------------ what a run begins with
 

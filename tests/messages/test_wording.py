@@ -16,6 +16,8 @@ ROOT = Path(__file__).parents[2]
 ELSEWHERE = {
     "initial-unknown": "tests/api/test_model.py::test_states_and_quantities_that_are_not_there_are_named",
     "record-unknown": "tests/api/test_model.py::test_states_and_quantities_that_are_not_there_are_named",
+    "equations-missing": "tests/api/test_equations.py::test_derivatives_that_are_no_function_of_t_and_the_states",
+    "equations-impure": "tests/api/test_equations.py::test_derivatives_that_are_no_function_of_t_and_the_states",
     "graph-missing": (
         "tests/batch/test_headless.py::test_without_a_graph_data_are_written_and_pictures_are_a_warning"
     ),

@@ -13,6 +13,7 @@ and the threads that compile it, is one `compiler_state`. The rooms, from text t
               `register_storage` small models of scalars: states, parameters and passes in one function
               `array_storage`    all others: tables of pieces, one loop for all models of a rule
     `stiff`   rules 9 … 16: CVODE's callbacks and interval loop as native functions
+    `equations` right-hand side and Jacobian as C functions of t and x, for other people's solvers
     `moments` models with events or delays: `runtime.moments` in the place of a step
     `plain_python` compiles readable Python to IR: `integration.bdf`, most of `stiff`, the learning rules
 

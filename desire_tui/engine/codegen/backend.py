@@ -15,6 +15,7 @@ from desire_tui.engine.integration.rules import rule_numbered
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.backend import Model
+    from desire_tui.engine.runtime.equations import Equations
     from desire_tui.engine.values import Values
 
 
@@ -49,6 +50,13 @@ class NativeBackend:
         while len(self._models) > _MODELS_MOST:
             self._models.popitem(last=False)
         return made
+
+    def equations(self, segment: Segment, values: Values) -> Equations:
+        """Return the derivatives as functions of t and x. DesireError 491: they are none."""
+        from desire_tui.engine.codegen.equations.native_equations import NativeEquations
+
+        with self._compiler.improver.held(), undisturbed_allocation:
+            return NativeEquations(self._compiler.code, self._compiler.improver, segment, values)
 
     def forget(self) -> None:
         """Drop all models: their segments will not come again. What was compiled for them may."""

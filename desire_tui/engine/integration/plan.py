@@ -71,7 +71,8 @@ def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = 
     method = Matrix.DIFFERENCES
     if corrector == "jacobian":
         method = Matrix.PROGRAM if program else Matrix.TANGENT if tangent else Matrix.DIFFERENCES
-    return SolverPlan(linear, method, _tables(linear, pattern, method))
+    places = positions(linear, pattern.n, pattern.rows, pattern.columns)
+    return SolverPlan(linear, method, jacobian_tables(pattern, places, method))
 
 
 def _linear(pattern: Pattern) -> Linear:
@@ -96,14 +97,14 @@ def superlu_pays(pattern: Pattern) -> bool:
     return pattern.n > 200 and pattern.count < 0.1 * pattern.n**2 and superlu() is not None
 
 
-def _tables(linear: Linear, pattern: Pattern, method: Matrix) -> JacobianTables:
+def jacobian_tables(pattern: Pattern, places: Numbers, method: Matrix) -> JacobianTables:
+    """Return the tables that fill a matrix whose entries have these flat places, in the pattern's order."""
     n = pattern.n
     colours = np.zeros(n, dtype=np.int32) if method is Matrix.PROGRAM else pattern.colours
     number = int(colours.max(initial=-1)) + 1
     seeds = np.argsort(colours, kind="stable").astype(np.int32)
     entry_colours = colours[pattern.columns]
     order = np.argsort(entry_colours, kind="stable")
-    places = positions(linear, n, pattern.rows, pattern.columns)
     edges = np.arange(number + 1)
     return JacobianTables(
         seed_starts=np.searchsorted(colours[seeds], edges).astype(np.int32),

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.backend import Model
+    from desire_tui.engine.runtime.equations import Equations
     from desire_tui.engine.values import Values
 
 
@@ -47,6 +48,12 @@ class ReferenceBackend:
         from desire_tui.engine.reference.stiff import StiffReferenceModel
 
         return StiffReferenceModel(segment, rule, values)
+
+    def equations(self, segment: Segment, values: Values) -> Equations:
+        """Return the derivatives as functions of t and x. DesireError 491: they are none."""
+        from desire_tui.engine.reference.equations import ReferenceEquations
+
+        return ReferenceEquations(segment, values)
 
     def forget(self) -> None:
         """Do nothing: no model is kept."""

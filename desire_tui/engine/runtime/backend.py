@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.runtime.equations import Equations
     from desire_tui.engine.runtime.run_memory import Ended, RunMemory
     from desire_tui.engine.values import Values
 
@@ -26,6 +27,10 @@ class Backend(Protocol):
 
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
         """Prepare `segment` for an integration rule. DesireError 86: there is no such rule."""
+        ...
+
+    def equations(self, segment: Segment, values: Values) -> Equations:
+        """Return the derivatives as functions of t and x. DesireError 491: they are none."""
         ...
 
     def forget(self) -> None:

@@ -13,6 +13,7 @@ from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.start_values import StartQuantities
+from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.session.checkpoint import Checkpoint
 from desire_tui.engine.session.fault_place import with_part
 from desire_tui.engine.session.recorded_segment import recording
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.runtime.equations import Equations
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.runtime.simulator import Observer
     from desire_tui.engine.runtime.start_values import StartValues
@@ -106,9 +108,8 @@ class PreparedRun:
         """
         began = perf_counter()
         workspace, simulator = self._workspace, self._runs.simulator
-        (base or self.base).restore(self.values, simulator)
         segment = self._sampled(record)
-        self._assign(start)
+        self.begin(start, base)
         if segment.recover:
             path = workspace.stash_path("read", lambda _: False)
             segment = workspace.segments.recovering(segment, path)
@@ -137,6 +138,19 @@ class PreparedRun:
         self.warnings += [*gap_warnings(segment, made), *simulator.cut_delays()]
         self.warnings += workspace.segments.backend.problems()
         return made, None
+
+    def equations(self) -> Equations:
+        """Return the derivatives as functions of t and x, with parameters as `begin` left them.
+
+        DesireError 491: they depend on something else too. 44: a table's breakpoints fall.
+        """
+        check_tables(self.segment, self.values)
+        return self._workspace.segments.backend.equations(self.segment, self.values)
+
+    def begin(self, start: RunStart, base: Checkpoint | None = None) -> None:
+        """Put everything where a run begins."""
+        (base or self.base).restore(self.values, self._runs.simulator)
+        self._assign(start)
 
     def state_slots(self) -> NDArray[np.intp]:
         """Return where all states stand, in their order."""

@@ -96,6 +96,14 @@ MESSAGES: dict[str, Wording] = {
         "a start is given for '{name}', but the program has no such state",
         "Model.states has their names",
     ),
+    "equations-missing": Wording(
+        491, "the program has no d/dt, so no right-hand side", "drun segments with d/dt lines have one"
+    ),
+    "equations-impure": Wording(
+        491,
+        "the derivatives are no function of t and the states alone: they depend on {what}",
+        "Model.run runs such programs",
+    ),
     "set-array": Wording(
         409, "'{name}' is set from outside like a scalar, but is an array", "set its elements: {name}[1]"
     ),
