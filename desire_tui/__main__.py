@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import sys
 
-COMMANDS = frozenset({"run", "check", "config", "serve", "served", "ide"})
+COMMANDS = frozenset({
+    "run", "check", "help", "examples", "config", "completion", "serve", "served", "ide",
+})  # fmt: skip
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 
 
@@ -21,7 +23,7 @@ def main(arguments: list[str] | None = None) -> None:
                 open_desktop(tuple(words))
         from desire_tui.cli import main as command_line
 
-        command_line(arguments)
+        command_line(arguments, prog_name="desire")
     except KeyboardInterrupt:  # Ctrl-C while modules are still being loaded
         sys.stderr.write("stopped by the user\n")
         sys.exit(3)

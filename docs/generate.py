@@ -16,6 +16,7 @@ from desire_tui.engine.diagnostics.wording import all_wordings
 from desire_tui.engine.integration.rules import markdown_table
 from desire_tui.help.page_catalogue import topics
 from desire_tui.panes.example_catalogue import CHAPTERS, Example, examples
+from docs.man_page import man_page
 from tests.programs.coverage import markdown as tested_where
 
 if TYPE_CHECKING:
@@ -158,6 +159,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "rules.md": rules,
     "examples.md": gallery,
     "coverage.md": coverage,
+    "desire.1": man_page,
 }
 
 

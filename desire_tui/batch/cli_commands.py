@@ -1,4 +1,4 @@
-"""`desire run` and `desire check`: files in, exit status out."""
+"""`desire run`: a program in, exit status out."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from desire_tui.batch.progress import Progress
 from desire_tui.batch.runner import Runner, RunOptions
 from desire_tui.engine.diagnostics import DesireError, internal_error, render_all
 from desire_tui.engine.files import decoded, read_source
-from desire_tui.engine.program_files import is_folder
 from desire_tui.engine.session import process_groups
 from desire_tui.engine.source import Source
 from desire_tui.engine.visible_text import visible_line
@@ -26,46 +25,14 @@ if TYPE_CHECKING:
 
 DONE, FAILED, LIMIT = 0, 1, 3  # 2 is wrong usage, which click reports
 _EXIT = {"done": DONE, "stopped": DONE, "failed": FAILED, "limit": LIMIT}
-_STANDARD_INPUT = "-"
+STANDARD_INPUT = "-"
 
 
 def source_named(name: str) -> Source:
     """Read a program; `-` is standard input. DesireError 38."""
-    if name == _STANDARD_INPUT:
+    if name == STANDARD_INPUT:
         return Source(decoded(sys.stdin.buffer.read(), "<stdin>"), "<stdin>")
     return read_source(Path(name))
-
-
-def check_files(names: Sequence[str]) -> int:
-    """Report the problems of programs on standard error; 1 if any is an error or cannot be read.
-
-    A folder stands for all programs below it; then a summary by kind of problem is printed.
-    """
-    from desire_tui.batch.program_folder import Summary, programs_below
-    from desire_tui.engine.session.session import Session
-
-    session, status, summary = Session(), DONE, Summary()
-    has_folders = False
-    for name in names:
-        whole = name != _STANDARD_INPUT and is_folder(Path(name))
-        has_folders |= whole
-        hidden: list[Diagnostic] = []
-        for program in programs_below(name, hidden) if whole else (name,):
-            try:
-                # many programs: without the JACOBIANs, for which scripts are carried out
-                problems = session.check(source_named(program), quick=whole)
-            except DesireError as error:
-                problems = error.diagnostics
-            report(problems)
-            summary.add(problems)
-            if any(p.severity == "error" for p in problems):
-                status = FAILED
-        if hidden:
-            report(hidden)
-            status = FAILED
-    if has_folders:
-        sys.stdout.write("".join(f"{line}\n" for line in summary.lines()))
-    return status
 
 
 def run_file(
@@ -127,7 +94,7 @@ def report(problems: Sequence[Diagnostic]) -> None:
 
 
 def _answers(name: str | None) -> Iterator[str]:
-    if name in (None, _STANDARD_INPUT):
+    if name in (None, STANDARD_INPUT):
         return iter(sys.stdin.readline, "")
     return iter(read_source(Path(name)).text.splitlines())
 

@@ -119,9 +119,12 @@ def _write_one(
 def _write_pictures(
     graphs: Sequence[Graph], name: str, picture: PictureFormat, options: PictureOptions
 ) -> None:
-    """One graph: NAME; several: NAME-1, NAME-2 …; on standard output: the last one."""
+    """One graph: NAME; several: NAME-1, NAME-2 …, a document's pages; on standard output: the last one."""
     if name == STANDARD_OUTPUT:
-        sys.stdout.buffer.write(picture.content(graphs[-1], options))
+        document = picture.document
+        sys.stdout.buffer.write(
+            document(graphs, options) if document is not None else picture.content(graphs[-1], options)
+        )
         sys.stdout.flush()
         return
     path = Path(name)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from desire_tui.batch.cli_commands import check_files
+from desire_tui.batch.check_files import check_files
 
 
 def test_programs_below_a_folder_and_a_summary(tmp_path, capsys):

@@ -627,7 +627,7 @@ def test_what_no_terminal_shows_is_not_sent_to_one(decay, kind):
 def test_wrong_words_of_the_command_line_are_shown_and_not_obeyed():
     hostile = "\x1b]52;c;aGk=\x07\x1b[2J\u202e"
     for words in (
-        ("run", "x", f"--nonsense{hostile}"), ("run", "x", "--set", hostile), ("run", "x", "y" + hostile),
+        ("run", "x", f"--nonsense{hostile}"), ("run", "x", "--set", hostile), ("run", "x", "y", "--csv", hostile),
         ("run", "x", "--backend", hostile), ("config", hostile),
     ):  # fmt: skip
         status, shown = on_terminal(*words)

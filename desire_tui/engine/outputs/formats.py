@@ -25,13 +25,21 @@ class OutputFormat:
 
 
 class PictureFormat(OutputFormat):
-    """A format for one graph: `content` returns what its file holds."""
+    """A format for graphs: `content` returns what the file of one holds.
+
+    `document`: what a file of several holds, a page each; None: the format has no pages.
+    """
 
     def __init__(
-        self, name: str, title: str, about: str, content: Callable[[Graph, PictureOptions], bytes]
+        self,
+        name: str,
+        title: str,
+        about: str,
+        content: Callable[[Graph, PictureOptions], bytes],
+        document: Callable[[Sequence[Graph], PictureOptions], bytes] | None = None,
     ) -> None:
         super().__init__(name, title, about)
-        self.content = content
+        self.content, self.document = content, document
 
 
 class DataFormat(OutputFormat):
@@ -67,6 +75,12 @@ def _picture(kind: str) -> Callable[[Graph, PictureOptions], bytes]:
         return picture_of(graph, kind, options)
 
     return content
+
+
+def _pages(graphs: Sequence[Graph], options: PictureOptions) -> bytes:
+    from desire_tui.engine.outputs.matplotlib_figure import pdf_of
+
+    return pdf_of(graphs, options)
 
 
 def _csv(result: Result, file: IO[str]) -> None:
@@ -122,7 +136,7 @@ CSV = DataFormat(
 PICTURES = (
     PNG,
     PictureFormat("svg", "SVG", "Write the graph as SVG.", _picture("svg")),
-    PictureFormat("pdf", "PDF", "Write the graph as PDF.", _picture("pdf")),
+    PictureFormat("pdf", "PDF", "Write the graphs as PDF, a page each.", _picture("pdf"), _pages),
 )
 DATA = (
     CSV,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import replace
 from io import BytesIO
 from threading import Lock
@@ -17,6 +18,8 @@ from desire_tui.engine.graph.ticks import log_ticks, minor_log_ticks, minor_tick
 from desire_tui.engine.outputs.picture_options import FOR_PAPER, PictureOptions
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
@@ -50,25 +53,47 @@ def png_of(graph: Graph, width: int, height: int) -> bytes:
     return picture_of(graph, "png", PictureOptions((wide, wide * height / width), width / wide))
 
 
+def pdf_of(graphs: Sequence[Graph], options: PictureOptions = FOR_PAPER) -> bytes:
+    """Return graphs as the content of one PDF file, a page each."""
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    buffer = BytesIO()
+    with _settings(), PdfPages(buffer) as pages:
+        for graph in graphs:
+            figure = _drawn(graph, options)
+            pages.savefig(figure, dpi=options.dots_per_inch, facecolor=figure.get_facecolor())
+    return buffer.getvalue()
+
+
 def picture_of(graph: Graph, kind: str, options: PictureOptions = FOR_PAPER) -> bytes:
     """Return a graph as the content of a picture file; `kind` is a format of matplotlib (png, svg, pdf).
 
     It is drawn in memory: matplotlib's PDF writer cannot cope with a disk that is full.
     """
+    buffer = BytesIO()
+    with _settings():
+        figure = _drawn(graph, options)
+        figure.savefig(buffer, format=kind, dpi=options.dots_per_inch, facecolor=figure.get_facecolor())
+    return buffer.getvalue()
+
+
+@contextmanager
+def _settings() -> Iterator[None]:
+    """Draw alone, under our settings: no TeX, which can read files, and a `matplotlibrc` may ask for."""
     import logging
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it reports that it fills its font cache
     from matplotlib import rc_context
 
-    # no TeX, which can read files: a `matplotlibrc` beside a stranger's program may ask for it
     fixed = rc_context({
         "svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000, "text.usetex": False,
     })  # fmt: skip
     with _drawing, fixed:
-        figure = draw(graph if _in_own_colors(graph, options.style) else _on_paper(graph), options.inches)
-        buffer = BytesIO()
-        figure.savefig(buffer, format=kind, dpi=options.dots_per_inch, facecolor=figure.get_facecolor())
-    return buffer.getvalue()
+        yield
+
+
+def _drawn(graph: Graph, options: PictureOptions) -> Figure:
+    return draw(graph if _in_own_colors(graph, options.style) else _on_paper(graph), options.inches)
 
 
 def _in_own_colors(graph: Graph, style: PictureStyle | None) -> bool:

@@ -33,9 +33,17 @@ def write_picture(graph: Graph, path: Path, options: PictureOptions = FOR_PAPER)
 
 
 def write_pictures(graphs: Sequence[Graph], path: Path, options: PictureOptions = FOR_PAPER) -> None:
-    """Write one graph to `path`, several to `NAME-1.png`, `NAME-2.png` …. DesireError as `write_picture`."""
+    """Write one graph to `path`, several to `NAME-1.png`, `NAME-2.png` …, or as pages of one document.
+
+    DesireError as `write_picture`.
+    """
     if len(graphs) == 1:
         write_picture(graphs[0], path, options)
+        return
+    document = picture_format(path).document
+    if document is not None:
+        content = document(graphs, options)
+        write_bytes(path, lambda file: file.write(content))
         return
     for number, graph in enumerate(graphs, 1):
         write_picture(graph, path.with_name(f"{path.stem}-{number}{path.suffix}"), options)

@@ -1,0 +1,33 @@
+"""How every command ends: its exit status, and what the machine refuses as a message."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.user_folders import ignored_variables
+from desire_tui.engine.visible_text import visible
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+def guarded(work: Callable[[], int]) -> int:
+    """Run a command; what the machine refuses (a closed pipe, a full disk) is a message, not a traceback."""
+    for sentence in ignored_variables():
+        sys.stderr.write(f"warning: {visible(sentence)}\n")
+    try:
+        status = int(work())
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # the reader of our output has left (`| head`): nothing more to say, and nothing to flush at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except KeyboardInterrupt:
+        sys.stderr.write("stopped by the user\n")
+        return 3
+    except OSError as reason:
+        sys.stderr.write(f"error 106: cannot write: {reason.strerror or reason}\n")
+        return 1
+    return status
