@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from math import inf
 from threading import Lock
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.engine.diagnostics import DesireError
@@ -94,16 +95,23 @@ def _ignore(_: object) -> None:
     return
 
 
-class InstancePool:
-    """Instances of one program. Who takes one has it alone; one that was left by Ctrl-C is not used again."""
+Kind = TypeVar("Kind", bound=Instance)
 
-    def __init__(self, make: Callable[[], Instance]) -> None:
+
+class InstancePool(Generic[Kind]):
+    """Instances of one program. Who takes one has it alone; one that was left by Ctrl-C is not used again.
+
+    `idle_most` limits those that wait for somebody to take them.
+    """
+
+    def __init__(self, make: Callable[[], Kind], idle_most: float = inf) -> None:
         self.make = make
-        self._idle: list[Instance] = []
+        self._idle: list[Kind] = []
+        self._idle_most = idle_most
         self._lock = Lock()
 
     @contextmanager
-    def one(self) -> Iterator[Instance]:
+    def one(self) -> Iterator[Kind]:
         """Lend an instance, the one that was given back last."""
         with self._lock:
             instance = self._idle.pop() if self._idle else None
@@ -116,9 +124,10 @@ class InstancePool:
             raise
         self._give_back(instance)
 
-    def _give_back(self, instance: Instance) -> None:
+    def _give_back(self, instance: Kind) -> None:
         with self._lock:
-            self._idle.append(instance)
+            if len(self._idle) < self._idle_most:
+                self._idle.append(instance)
 
     def __len__(self) -> int:
         return len(self._idle)

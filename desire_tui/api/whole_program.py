@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 from desire_tui.api.arguments import checked_backend, checked_timeout, refuse_name
 from desire_tui.api.program_source import program_source
+from desire_tui.api.repeated_program import repeated_result
 from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.batch.runner import Runner, RunOptions
 from desire_tui.batch.set_option import from_mapping
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from desire_tui.engine.outputs.results import Result
+    from desire_tui.engine.source import Source
 
 
 class RunSettings(TypedDict, total=False):
@@ -38,20 +40,25 @@ def run_program(program: str | PathLike[str], settings: RunSettings) -> Result:
         if name not in RunSettings.__annotations__:
             refuse_name("desire_tui.run", "setting", name, RunSettings.__annotations__)
     source = program_source(program)
+    overrides, timeout = from_mapping(settings.get("set") or {}), checked_timeout(settings.get("timeout"))
+    backend, quiet = checked_backend(settings.get("backend", "native")), settings.get("quiet", True)
+    result = repeated_result(source, backend, overrides, timeout) if quiet else None
+    if result is None:
+        result = _whole(source, settings, RunOptions(
+            settings=overrides, answer_stops=settings.get("go", False), timeout=timeout, backend=backend,
+            allow_shell=settings.get("allow_shell", False), allow_write=settings.get("allow_write", False),
+        ))  # fmt: skip
+    return result.check() if settings.get("check", False) else result
+
+
+def _whole(source: Source, settings: RunSettings, options: RunOptions) -> Result:
     show: Callable[[str], object] = _ignore if settings.get("quiet", True) else sys.stdout.write
     listener = HeadlessListener(show, iter(settings.get("input", ())), _ignore)
-    options = RunOptions(
-        settings=from_mapping(settings.get("set") or {}), answer_stops=settings.get("go", False),
-        timeout=checked_timeout(settings.get("timeout")),
-        backend=checked_backend(settings.get("backend", "native")),
-        allow_shell=settings.get("allow_shell", False), allow_write=settings.get("allow_write", False),
-    )  # fmt: skip
     runner = Runner(source, options, listener)
     runner.run()
     if runner.interrupted:
         raise KeyboardInterrupt
-    result = runner.result()
-    return result.check() if settings.get("check", False) else result
+    return runner.result()
 
 
 def _ignore(_: object) -> None:

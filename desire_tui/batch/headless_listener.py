@@ -49,6 +49,15 @@ class HeadlessListener(Listener):
         """All console text so far."""
         return "".join(self._parts)
 
+    def mark(self) -> tuple[int, int]:
+        """Return how much has been heard so far, for `rewind`."""
+        return len(self._parts), len(self.warnings)
+
+    def rewind(self, mark: tuple[int, int]) -> None:
+        """Forget what was heard since."""
+        del self._parts[mark[0] :], self.warnings[mark[1] :]
+        self._size = sum(map(len, self._parts))
+
     def console_text(self, text: str) -> None:
         """Pass on and keep."""
         if self._size < CONSOLE_CHARACTERS_MAX:

@@ -18,11 +18,12 @@ from desire_tui.engine.session.session import Session
 from desire_tui.version import __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
     from pathlib import Path
 
     from desire_tui.batch.headless_listener import HeadlessListener
     from desire_tui.engine.outputs.results import Result, StatusWord
+    from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.session import BackendName
     from desire_tui.engine.source import Source
 
@@ -172,30 +173,45 @@ class Runner:
         if problems:
             raise DesireError(*problems)
 
-    def _errors(self) -> list[Diagnostic]:
-        return [problem for problem in self.problems if problem.severity == "error"]
-
     def result(self) -> Result:
         """Return everything the program produced so far; without the data if they cannot be gathered."""
-        from desire_tui.engine.outputs import results
-
         session = self.session
         try:
-            produced: dict[str, Any] = {
-                "runs": tuple(results.run_data(r) for r in list(session.runs)),
-                "plots": results.plot_points(session.graphs),
-                "quantities": results.final_quantities(session.values),
-                "timings": results.timings(session.parse_seconds, list(session.runs)),
-            }
+            produced = produced_by(session, list(session.runs))
         except DesireError as error:
             self.problems.extend(error.diagnostics)
             self.status, produced = "failed", {}
         except Exception as error:  # noqa: BLE001 - what the program said must not be lost for it
             self.failed("results were gathered", error)
             produced = {}
-        return results.Result(
-            desire=__version__, program=self._source.name, status=self.status,
-            problems=tuple(results.problem_data(p) for p in [*self._listener.warnings, *self.problems]),
-            console=self._listener.console, **produced,
-            error=DesireError(*errors) if (errors := self._errors()) else None,
-        )  # fmt: skip
+        return result_of(self._source, self.status, self._listener, self.problems, produced)
+
+
+def produced_by(session: Session, runs: Sequence[RunRecord]) -> dict[str, Any]:
+    """Return what a session holds, as the fields of a `Result`. DesireError 40: it would fill the memory."""
+    from desire_tui.engine.outputs import results
+
+    return {
+        "runs": tuple(results.run_data(record) for record in runs),
+        "plots": results.plot_points(session.graphs),
+        "quantities": results.final_quantities(session.values),
+        "timings": results.timings(session.parse_seconds, runs),
+    }
+
+
+def result_of(
+    source: Source,
+    status: StatusWord,
+    listener: HeadlessListener,
+    problems: Sequence[Diagnostic],
+    produced: dict[str, Any],
+) -> Result:
+    """Return everything together."""
+    from desire_tui.engine.outputs import results
+
+    errors = [problem for problem in problems if problem.severity == "error"]
+    return results.Result(
+        desire=__version__, program=source.name, status=status,
+        problems=tuple(results.problem_data(p) for p in [*listener.warnings, *problems]),
+        console=listener.console, **produced, error=DesireError(*errors) if errors else None,
+    )  # fmt: skip

@@ -147,9 +147,9 @@ class StiffReferenceModel(ReferenceModel):
 
     # ------------------------------------------------------------------ the run
 
-    def advice(self) -> tuple[Diagnostic, ...]:
-        """Return warnings about the run that is to start here, once for a model."""
-        if self._advised or not is_pure(derivative_slice(self._segment)):
+    def advice(self, *, again: bool = False) -> tuple[Diagnostic, ...]:
+        """Return warnings about the run that is to start here, once for a model unless `again`."""
+        if (self._advised and not again) or not is_pure(derivative_slice(self._segment)):
             return ()
         self._advised = True
         t, kept, k = self.cells[T], self._states(), np.zeros(self.order)

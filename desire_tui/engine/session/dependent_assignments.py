@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.control import For, GoTo, Procedure
+from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.names import declared
 from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.session.overrides import WORD
 
@@ -78,6 +80,8 @@ def _line(program: Program, structure: Structure, number: int, placed: Placed, a
         return _Line(placed, node.target.name, words, is_element=True)
     if number in around and isinstance(node, For) and isinstance(node.variable, Name):
         return _Line(placed, node.variable.name, words - {node.variable.name, "for", "to", "step"})
+    if isinstance(node, Declare) and all(group.whole is None for group in node.groups):
+        return _Line(placed, None, words - {*declared(node)})  # elements that are set change no sizes
     return _Line(placed, None, words)
 
 

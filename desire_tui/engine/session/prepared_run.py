@@ -17,6 +17,7 @@ from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.session.checkpoint import Checkpoint
 from desire_tui.engine.session.fault_place import with_part
 from desire_tui.engine.session.recorded_segment import recording
+from desire_tui.engine.session.runs import noise_warnings
 from desire_tui.engine.values import TMAX, T
 
 if TYPE_CHECKING:
@@ -90,6 +91,8 @@ class PreparedRun:
         )
         self._starts = StartQuantities(self.segment, self.values)
         self._starts.start(self.values, None, continues=False)
+        self.advises_always = False
+        """What a model has to say before a run is said before each, not only before its first."""
         self.warnings: list[Diagnostic] = []
         """Of the last run."""
 
@@ -114,16 +117,20 @@ class PreparedRun:
             path = workspace.stash_path("read", lambda _: False)
             segment = workspace.segments.recovering(segment, path)
         plan = simulator.defaults.plan(segment, self._rule, self._source, self._span)
+        begins = self._starts.start(self.values, None, continues=base is not None)
         self.warnings = list(simulator.defaults.warnings())
         segment = workspace.segments.directed(segment, plan)
         model = workspace.segments.model(segment, plan.rule)
+        self.warnings += [
+            *self._runs.advice(model, segment, again=self.advises_always),
+            *noise_warnings(segment),
+        ]
         self._runs.count += 1
         made = RunRecord(
             number=self._runs.count, segment=self._label, line=self._line, requests=segment.requests,
             columns=segment.columns, overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0,
             t_max=plan.span, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
-            start=self._starts.start(self.values, None, continues=base is not None),
-            compile_seconds=perf_counter() - began,
+            start=begins, compile_seconds=perf_counter() - began,
         )  # fmt: skip
         self._control.begin()
         try:
@@ -135,7 +142,7 @@ class PreparedRun:
             return made, self._placed(explained)
         finally:
             self._control.done()
-        self.warnings += [*gap_warnings(segment, made), *simulator.cut_delays()]
+            self.warnings += [*gap_warnings(segment, made), *simulator.cut_delays()]
         self.warnings += workspace.segments.backend.problems()
         return made, None
 

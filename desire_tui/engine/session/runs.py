@@ -110,8 +110,7 @@ class Runs:
             self._listener.problems(replaced)
         segment = workspace.segments.directed(segment, plan)
         model = workspace.segments.model(segment, plan.rule)
-        self._advise(model, segment)
-        self._warn_of_noise(segment)
+        self._warn_before(model, segment)
         self.start, self.run_of = start, (program.source.text, self._values.generation)
         self.count += 1
         record = RunRecord(
@@ -160,13 +159,15 @@ class Runs:
         if stash is not None:
             self._stash(stash, segment, record)
 
-    def _warn_of_noise(self, segment: Segment) -> None:
-        """Say once a program that derivatives read random numbers within a step."""
+    def _warn_before(self, model: Model, segment: Segment) -> None:
+        """Show what can be told of a run in front of it, once a program."""
+        problems = self.advice(model, segment)
+        if problems:
+            self._listener.problems(problems)
         noise = segment.noise
         if noise is not None and noise.span not in self._gaps:
             self._gaps.add(noise.span)
-            problem = at_statement("noise-in-step", {}, segment, noise)
-            self._listener.problems((replace(problem, severity="warning"),))
+            self._listener.problems(noise_warnings(segment))
 
     def _start_values(self, segment: Segment, start: Checkpoint | None) -> StartValues:
         if self._starts is None or self._starts[0] is not segment:
@@ -195,14 +196,13 @@ class Runs:
         values = self._values
         return Checkpoint.taken(values, self.simulator) if values.numbers_used <= NUMBERS_MOST else None
 
-    def _advise(self, model: Model, segment: Segment) -> None:
-        """Show what a model has to say before its first run (multistep rules)."""
+    def advice(self, model: Model, segment: Segment, *, again: bool = False) -> tuple[Diagnostic, ...]:
+        """Return what a model has to say before its first run, `again`: before any (multistep rules)."""
         advice = getattr(model, "advice", None)
-        problems = advice() if advice is not None else ()
+        problems: tuple[Diagnostic, ...] = advice(again=again) if advice is not None else ()
         if any(p.key == "jacobian-wrong" for p in problems):
             problems = self._exactly(segment, problems)
-        if problems:
-            self._listener.problems(problems)
+        return problems
 
     def _exactly(self, segment: Segment, found: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
         """Judge a JACOBIAN that disagrees with differences by exact derivatives: differences err at kinks."""
@@ -252,3 +252,11 @@ class Runs:
             self.start.restore(self._values, self.simulator)
         else:
             self.simulator.reset()
+
+
+def noise_warnings(segment: Segment) -> tuple[Diagnostic, ...]:
+    """Return a warning if derivatives read random numbers within a step."""
+    if segment.noise is None:
+        return ()
+    problem = at_statement("noise-in-step", {}, segment, segment.noise)
+    return (replace(problem, severity="warning"),)

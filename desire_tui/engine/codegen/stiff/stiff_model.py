@@ -159,9 +159,9 @@ class StiffModel:
         self._better = self._routines.fast(self._slots.size, own=self._own)
         yield
 
-    def advice(self) -> tuple[Diagnostic, ...]:
-        """Return warnings about the run that is to start here, once for a model."""
-        if self._advised or not is_pure(self._passes["derivative"]):
+    def advice(self, *, again: bool = False) -> tuple[Diagnostic, ...]:
+        """Return warnings about the run that is to start here, once for a model unless `again`."""
+        if (self._advised and not again) or not is_pure(self._passes["derivative"]):
             return ()
         self._advised = True
         values, slots, order = self._values.data, self._slots, self._slots.size
