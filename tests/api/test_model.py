@@ -102,6 +102,13 @@ def test_a_size_of_arrays():
     assert model.run().state == pytest.approx([1, 2])
 
 
+def test_a_number_that_code_is_compiled_with():
+    text = "k = 4 | m = 2*k | q = 0 | TMAX = 10 | NN = 101 | DT = 0.1\ndrun\nDYNAMIC\nd/dt x = 1\ny = q\ndispt y\nSAMPLE m\nq = x\n"
+    model = desire_tui.load(text)
+    for settings in ({"k": 10}, {"m": 7}, {}):
+        assert np.array_equal(model.run(**settings)["y"], desire_tui.run(text, set=settings).runs[0]["y"])
+
+
 def test_lines_for_input_are_there_each_time_the_script_runs():
     text = "input n | input k\nARRAY v[n] | v[1] = k\nTMAX = 1 | DT = 0.5\ndrun\nDYNAMIC\nd/dt x = v[1]\n"
     model = desire_tui.load(text, input=["2", "7"])
