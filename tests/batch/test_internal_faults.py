@@ -51,7 +51,8 @@ def broken(place, fault):
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: type(fault).__name__)
 def test_in_python(monkeypatch, capfd, place, fault):
     monkeypatch.setattr(*broken(place, fault))
-    result = desire_tui.run(PROGRAM)
+    text = f"{PROGRAM}-- {place} {type(fault).__name__}\n"  # one that was run before begins at its drun
+    result = desire_tui.run(text)
     assert result.status == "failed"
     problem = result.problems[-1]
     if not isinstance(fault, MemoryError | RecursionError):  # these may be the program's own
