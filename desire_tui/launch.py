@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 import sys
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -14,6 +14,11 @@ from desire_tui.desktop.watchdog import watched
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+
+GIVE_WAY_S = 0.001
+"""Whoever wants to compute in Python waits so long for another thread: a key passes through five waits until it
+is answered. Python's own 5 ms made that 0.1 s beside a long program that is being compiled."""
 
 
 def is_possible() -> bool:
@@ -33,6 +38,7 @@ def open_desktop(files: tuple[str, ...], *, allow_shell: bool = False, allow_wri
     """
     _speak_utf8()
     pause_gc()
+    sys.setswitchinterval(GIVE_WAY_S)
     with nullcontext() if is_served() else watched():
         with _without("ssl"):
             import asyncio  # noqa: F401 - here it must do without
@@ -42,13 +48,23 @@ def open_desktop(files: tuple[str, ...], *, allow_shell: bool = False, allow_wri
         if is_served():
             app.limit_to_visitors(Path.cwd(), allow_shell=allow_shell, allow_write=allow_write)
         app.run()
-    from desire_tui.desktop import forced_end
+        app.engine.settle()
+    _leave(app.return_code or 0)
+
+
+def _leave(status: int) -> NoReturn:
+    """End the process; what is to be kept is kept.
+
+    Python's own way takes apart, object by object, what a long program was compiled from (0.3 s for 10,000
+    equations), waits for LLVM, and writes to a terminal that may have gone.
+    """
     from desire_tui.engine.session.process_groups import end_all
 
     end_all()
-    if forced_end.is_begun():  # Python's own way to end writes to a terminal that may have gone, and aborts
-        os._exit(app.return_code or 0)
-    sys.exit(app.return_code)
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(status)
 
 
 def _speak_utf8() -> None:

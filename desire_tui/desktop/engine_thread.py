@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     Post = Callable[[engine_messages.EngineMessage], object]
 
 STOPPED_BY_USER = 301
+SETTLE_S = 0.2
+"""A run or a script that was ended is over by then, and what it wrote is in its files."""
 WARM_UP = "TMAX = 1 | DT = 0.5 | NN = 3 | x = 1\ndrun\nDYNAMIC\nd/dt x = -x\ndispt x\n"
 
 
@@ -41,6 +43,7 @@ class EngineThread:
         self.permissions = permissions
         self._jobs: queue.Queue[Callable[[], object]] = queue.Queue()
         self._pending = 0
+        self._counting = threading.Condition()
         self._session: Session | None = None
         self._made = threading.Event()
         self._thread = threading.Thread(target=self._work, daemon=True, name="desire-engine")
@@ -71,7 +74,7 @@ class EngineThread:
 
     def submit(self, job: Callable[[], object]) -> None:
         """Do a job after those that wait. Called on the screen's thread only."""
-        self._pending += 1
+        self._count(1)
         self._jobs.put(job)
         if self.is_ready and not self._thread.is_alive():
             reason = "the engine's thread had ended; another has taken its place"
@@ -83,7 +86,17 @@ class EngineThread:
         """Drop the jobs that were not begun."""
         while not self._jobs.empty():
             self._jobs.get_nowait()
-            self._pending -= 1
+            self._count(-1)
+
+    def settle(self) -> None:
+        """Wait for what was ended before the process goes; not for what goes on all the same."""
+        with self._counting:
+            self._counting.wait_for(lambda: not self._pending, SETTLE_S)
+
+    def _count(self, by: int) -> None:
+        with self._counting:
+            self._pending += by
+            self._counting.notify_all()
 
     def _work(self) -> None:
         try:
@@ -124,7 +137,7 @@ class EngineThread:
                 engine_messages.EngineFault(f"{type(error).__name__}: {error}", traceback.format_exc())
             )
         finally:
-            self._pending -= 1
+            self._count(-1)
             self._post(engine_messages.EngineIdle(failed=failed))
 
 

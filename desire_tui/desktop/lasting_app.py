@@ -88,9 +88,14 @@ class LastingApp(AppBase):
 
     def leave(self) -> None:
         """End well."""
-        self.checkpoints.leave()
         self._stop_engine()
+        self.checkpoints.leave()
         self.exit()
+
+    async def _close_all(self) -> None:
+        """Leave the widgets as they are if the process ends with the desktop: one by one they take 0.1 s."""
+        if self.is_headless:
+            await super()._close_all()
 
     def _stop_engine(self) -> None:
         if self.engine.is_ready:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 from codecs import getincrementaldecoder
 from select import select
 from typing import IO, TYPE_CHECKING, Any
@@ -32,6 +33,7 @@ class TerminalDriver(LinuxDriver):
         super().__init__(*arguments, **options)
         self._file: Any = _Output(self._file, self._lost)
         self._is_lost = False
+        self.exit_event: Any = _WakingEvent()
 
     def start_application_mode(self) -> None:
         """Take the terminal, perhaps again after an editor had it."""
@@ -45,7 +47,7 @@ class TerminalDriver(LinuxDriver):
         decode = getincrementaldecoder("utf-8")("replace").decode
         while True:
             is_last = self.exit_event.is_set()
-            if select([self.fileno], [], [], _TICK_S)[0]:
+            if self.fileno in select([self.fileno, self.exit_event], [], [], _TICK_S)[0]:
                 data = _received(self.fileno)
                 if not data:
                     self._lost()
@@ -75,6 +77,34 @@ def _received(terminal: int) -> bytes:
         return os.read(terminal, 4096)
     except OSError:
         return b""
+
+
+class _WakingEvent(threading.Event):
+    """An event that `select` can wait for: who reads from the terminal need not look for it now and then."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._reading, self._writing = os.pipe()
+
+    def fileno(self) -> int:
+        """Return what can be read as long as the event is set."""
+        return self._reading
+
+    def set(self) -> None:
+        """Wake up whoever waits."""
+        if not self.is_set():
+            super().set()
+            os.write(self._writing, b".")
+
+    def clear(self) -> None:
+        """Let whoever comes wait again."""
+        if self.is_set():
+            super().clear()
+            os.read(self._reading, 1)
+
+    def __del__(self) -> None:
+        os.close(self._reading)
+        os.close(self._writing)
 
 
 class _Output:

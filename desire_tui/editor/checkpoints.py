@@ -84,7 +84,7 @@ class Checkpoints:
     def leave(self) -> None:
         """End well: remember which files were open, remove the recovery file."""
         tabs = [self._saved(area, text=False) for area in self._editor.areas if area.buffer.path]
-        recovery.store(recovery.session_file(), tabs)
+        recovery.store(recovery.session_file(), tabs, sync=False)  # no work is in it, and somebody waits
         with self._writing:
             recovery.recovery_file().unlink(missing_ok=True)
 

@@ -58,12 +58,15 @@ def session_file() -> Path:
     return state_folder() / "session.json"
 
 
-def store(path: Path, tabs: list[SavedTab]) -> bool:
-    """Write tabs; without any, remove the file. False if the folder cannot be written."""
+def store(path: Path, tabs: list[SavedTab], *, sync: bool = True) -> bool:
+    """Write tabs; without any, remove the file. False if the folder cannot be written.
+
+    `sync`: they survive a power failure.
+    """
     try:
         if tabs:
             text = json.dumps({"version": VERSION, "tabs": [asdict(tab) for tab in tabs]})
-            write_private(str(path), text.encode())
+            write_private(str(path), text.encode(), sync=sync)
         else:
             path.unlink(missing_ok=True)
     except OSError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING, ClassVar
 
 from textual import on
@@ -72,9 +73,9 @@ class QuantitiesPane(Vertical):
             return
         wanted = self.query_one("#filter", Input).value.casefold()
         rows: dict[str, tuple[str, str]] = {}
-        own = [q for q in values if q.name not in SYSTEM_VARIABLES]
-        system = [q for q in values if q.name in SYSTEM_VARIABLES and values.is_defined(q) and q.name != "PI"]
-        for quantity in (*own, *system):
+        own = (q for q in values if q.name not in SYSTEM_VARIABLES)
+        system = (values.find(name) for name in SYSTEM_VARIABLES if name != "PI")
+        for quantity in chain(own, (q for q in system if q is not None and values.is_defined(q))):
             if wanted in quantity.name.casefold():
                 rows[quantity.name] = (value_text(values, quantity), shape_text(quantity))
             if len(rows) >= ROWS_MAX:
