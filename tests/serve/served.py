@@ -10,6 +10,8 @@ import signal
 import subprocess
 import sys
 import time
+from codecs import getincrementaldecoder
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +19,8 @@ import pyte
 from aiohttp import ClientSession, WSMsgType
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from aiohttp import ClientWebSocketResponse
 
 ROOT = Path(__file__).parents[2]
@@ -69,7 +73,10 @@ class Served:
 
 
 class Browser:
-    """One websocket; what the desktop shows is in `shown`."""
+    """One websocket; what the desktop shows is in `shown`.
+
+    A task of its own reads: a wait that is broken off in the middle of a read would take a message with it.
+    """
 
     def __init__(self, websocket: ClientWebSocketResponse) -> None:
         self.websocket = websocket
@@ -77,6 +84,9 @@ class Browser:
         """What the page was told beside what it draws."""
         self._screen = pyte.Screen(100, 60)
         self._stream = pyte.Stream(self._screen)
+        self._decode = getincrementaldecoder("utf-8")("replace").decode
+        self._came = asyncio.Event()
+        self._reading = asyncio.create_task(self._read())
 
     @classmethod
     async def connect(cls, session: ClientSession, served: Served, url: str | None = None) -> Browser:
@@ -88,42 +98,40 @@ class Browser:
 
     async def until(self, text: str) -> None:
         """Wait until a text stands on the screen."""
-        end = time.monotonic() + PATIENCE_S
-        while text not in self.shown:
-            await self._receive(end)
+        await self._until(lambda: text in self.shown)
 
     async def until_told(self, kind: str) -> Any:
         """Wait until the page was told something; returns what."""
-        end = time.monotonic() + PATIENCE_S
-        while not any(message[0] == kind for message in self.told):
-            await self._receive(end)
+        await self._until(lambda: any(message[0] == kind for message in self.told))
         at = next(n for n, message in enumerate(self.told) if message[0] == kind)
         return self.told.pop(at)[1]
 
-    async def _until_below(self, mark: str, text: str) -> None:
-        """Wait until a text stands below another, and no part of the screen is still to come."""
+    async def _until(self, condition: Callable[[], object]) -> None:
         end = time.monotonic() + PATIENCE_S
-        while True:
-            if text in self.shown.rpartition(mark)[2]:
-                try:
-                    await self._receive(time.monotonic() + 0.1)
-                except TimeoutError:
-                    return
-            else:
-                await self._receive(end)
+        while not condition():
+            assert not self._reading.done(), f"the connection has ended\n{self.shown}"
+            self._came.clear()
+            with suppress(TimeoutError):
+                await asyncio.wait_for(self._came.wait(), 1.0)
+            assert condition() or time.monotonic() < end, self.shown
 
-    async def _receive(self, end: float) -> None:
-        assert time.monotonic() < end, self.shown
-        message = await asyncio.wait_for(self.websocket.receive(), max(0.1, end - time.monotonic()))
-        assert message.type in (WSMsgType.BINARY, WSMsgType.TEXT), f"{message}\n{self.shown}"
-        if message.type == WSMsgType.TEXT:
-            self.told.append(json.loads(message.data))
-        else:
-            self._stream.feed(message.data.decode(errors="replace"))
+    async def _read(self) -> None:
+        async for message in self.websocket:
+            if message.type == WSMsgType.TEXT:
+                self.told.append(json.loads(message.data))
+            else:
+                self._stream.feed(self._decode(message.data))
+            self._came.set()
+        self._came.set()
 
     @property
     def shown(self) -> str:
         return "\n".join(self._screen.display)
+
+    @property
+    def output(self) -> str:
+        """What is shown, without what lies over it for some seconds."""
+        return "\n".join(row.partition("▌")[0] for row in self._screen.display)
 
     async def type(self, text: str) -> None:
         for letter in text:
@@ -138,8 +146,12 @@ class Browser:
         await self.type(line + ENTER)
 
     async def fails(self, line: str, error: str, *, mark: int) -> None:
-        """Give a command line and wait for its error: the one below `mark`, a number of its own."""
-        await self.type(f"write {mark - 1} + 1{ENTER}")
-        await self.until(str(mark))
+        """Give a command line and wait for its error between `mark`, a number of its own, and the same behind it."""
+        await self._write(mark)
         await self.type(line + ENTER)
-        await self._until_below(str(mark), error)
+        await self._until(lambda: error in self.output.rpartition(str(mark))[2])
+        await self._write(-mark)  # all that came of the line stands above
+
+    async def _write(self, number: int) -> None:
+        await self.type(f"write {number - 1} + 1{ENTER}")
+        await self._until(lambda: re.search(rf"[^0-9-]{number}\b(?! *[-+])", self.output))
