@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 
 GIVE_WAY_S = 0.001
-"""Whoever wants to compute in Python waits so long for another thread: a key passes through five waits until it
-is answered. Python's own 5 ms made that 0.1 s beside a long program that is being compiled."""
+"""Whoever wants to compute in Python waits so long for another thread: a key passes through several waits
+until it is answered. Python's own 5 ms made that 0.1 s beside a long program that is being compiled."""
 
 
 def is_possible() -> bool:

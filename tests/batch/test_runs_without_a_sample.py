@@ -6,6 +6,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy.io import netcdf_file
 
 import desire_tui
 from desire_tui.engine.runtime import stash
@@ -35,6 +36,15 @@ def test_in_every_output(text, tmp_path):
     assert status == 1
     assert all((tmp_path / f"o.{kind}").exists() for kind in OUTPUTS)
     assert json.loads((tmp_path / "o.json").read_text())["status"] == "failed"
+    with netcdf_file(tmp_path / "o.netcdf", mmap=False) as data:
+        assert np.isnan(data.variables["t"][:]).all()
+
+
+def test_of_a_name_that_a_line_not_reached_yet_defines_wrongly():
+    """The script never came to that line: without the unknown name there would be no reason."""
+    result = desire_tui.run("TMAX = 1\ndrun\nARRAY D[50, E[50]\nDYNAMIC\nd/dt x = 1\ndelay y = D(x, 0.5)\n")
+    assert result.status == "failed"
+    assert result.problems[-1].line == 6
 
 
 def test_reset_after_a_run_that_never_began():

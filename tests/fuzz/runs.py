@@ -7,13 +7,15 @@ import io
 import json
 from contextlib import suppress
 from pathlib import Path
+from time import process_time
 from typing import TYPE_CHECKING
+from unittest.mock import patch
 from zlib import crc32
 
 import numpy as np
 
 from desire_tui.batch.headless_listener import HeadlessListener
-from desire_tui.batch.runner import Runner, RunOptions
+from desire_tui.batch.runner import ENDING_SECONDS, Runner, RunOptions
 from desire_tui.engine.diagnostics import DesireError, render_all
 from desire_tui.engine.outputs.formats import DATA, PICTURES
 from desire_tui.engine.outputs.picture_options import FOR_PAPER
@@ -24,10 +26,24 @@ from tests.fuzz.mutations import mutated
 
 if TYPE_CHECKING:
     from random import Random
+    from threading import Thread
 
 STATUS = frozenset({"done", "failed", "stopped", "limit"})
 SECONDS = 0.5
+_PATIENCE = 60.0
 _PICTURE_EVERY = 24
+
+
+class _Runner(Runner):
+    """Notes what a program goes on to compute after it was asked to end: on a busy machine that takes longer."""
+
+    work_to_end = 0.0
+    """Processor time, seconds."""
+
+    def _end(self, thread: Thread, key: str, **facts: object) -> None:
+        before = process_time()
+        super()._end(thread, key, **facts)
+        self.work_to_end = process_time() - before
 
 
 def generate(rng: Random) -> str:
@@ -45,9 +61,11 @@ def check(text: str) -> None:
         answer_stops=chance % 2 == 0,
         backend="reference" if chance % 5 == 0 else "native",
     )
-    runner = Runner(Source(text, "program.src"), options, listener)
-    runner.run()
+    runner = _Runner(Source(text, "program.src"), options, listener)
+    with patch("desire_tui.batch.runner.ENDING_SECONDS", _PATIENCE):
+        runner.run()
     assert not runner.abandoned, "it did not end when it was asked to"
+    assert runner.work_to_end < ENDING_SECONDS, "it went on when it was asked to end"
     assert runner.status in STATUS
     assert "Traceback" not in render_all(runner.problems)
     assert runner.status != "failed" or runner.problems

@@ -46,7 +46,10 @@ def lower(
     scope = LiveScope(values)
     segment, problems = lower_segment(text, scope, program.source, functions_of(found), found, rule)
     if problems:
-        raise DesireError(*in_order(without_consequences(problems, program, found.problems)))
+        causes = without_consequences(problems, program, found.problems)
+        raise DesireError(
+            *in_order(causes or problems)
+        )  # a cause that the script has not met yet is no reason
     return replace(segment, constants=tuple(scope.constants.items())) if scope.constants else segment
 
 

@@ -40,16 +40,17 @@ def _add_runs(data: Any, runs: Sequence[Run]) -> None:
     longest = max(runs, key=lambda run: len(run.t)).t
     same = all(np.array_equal(run.t, longest) for run in runs)
     samples = "t" if same else "sample"
-    data.createDimension(samples, len(longest))
+    width = max(1, len(longest))  # of no samples: in this format 0 stands for a length that grows
+    data.createDimension(samples, width)
     if same:
-        _variable(data, "t", longest, "t")
+        _variable(data, "t", _padded([longest], width)[0], "t")
     else:
-        _variable(data, "t", _padded([run.t for run in runs], len(longest)), "run", samples)
+        _variable(data, "t", _padded([run.t for run in runs], width), "run", samples)
     nothing = np.empty(0)
     for name in dict.fromkeys(curve.name for run in runs for curve in run.curves):
         if name != "t":
             own = [next((c.values for c in run.curves if c.name == name), nothing) for run in runs]
-            _variable(data, name, _padded(own, len(longest)), "run", samples)
+            _variable(data, name, _padded(own, width), "run", samples)
     starts = [run.parameters | {f"{name}(0)": x for name, x in run.initial.items()} for run in runs]
     for name in dict.fromkeys(name for start in starts for name in start):
         if name not in data.variables:
