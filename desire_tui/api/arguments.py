@@ -40,3 +40,14 @@ def checked_timeout(seconds: float | None) -> float | None:
     if not seconds > 0 or not isfinite(seconds):
         raise ValueError(f"timeout={seconds!r} is no time that can pass: give seconds above 0, or None")
     return float(seconds)
+
+
+def checked_workers(number: int | None) -> int | None:
+    """Return a number of threads. TypeError, ValueError: there cannot be so many."""
+    if number is None:
+        return None
+    if isinstance(number, bool) or not isinstance(number, int):
+        raise TypeError(f"workers is a whole number or None, not {number!r}")
+    if number < 1:
+        raise ValueError(f"workers={number!r} make no run: give 1 or more, or None")
+    return number

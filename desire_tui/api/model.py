@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from desire_tui.api.arguments import checked_backend, checked_timeout, refuse_name
+from desire_tui.api.arguments import checked_backend, checked_timeout, checked_workers, refuse_name
 from desire_tui.api.instance import Instance, InstancePool, LoadOptions, Way
 from desire_tui.api.program_source import program_source
 from desire_tui.api.settings import name_problems, numbers, slot_of, way_of
@@ -22,9 +22,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
     from os import PathLike
 
+    import xarray as xr
     from numpy.typing import ArrayLike, NDArray
 
     from desire_tui.api.equations import JacobianMatrix, RightHandSide
+    from desire_tui.api.sweep_result import Keep
     from desire_tui.engine.outputs.run import Run
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.source import Source
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
     Initial = Mapping[str, Number] | NDArray[np.float64] | Sequence[float]
 
 _RUN_ARGUMENTS = ("set", "initial", "t", "record", "check", "timeout", "on_block")
+_SWEEP_ARGUMENTS = ("set", "initial", "t", "record", "keep", "workers", "progress", "timeout")
 
 
 def load(
@@ -113,6 +116,52 @@ class Model:
             )  # fmt: skip
         return run.check() if check else run
 
+    def sweep(
+        self,
+        /,
+        *,
+        set: Mapping[str, Number] | None = None,  # noqa: A002 - the command line's word
+        initial: Initial | None = None,
+        t: tuple[float, float] | None = None,
+        record: str | Iterable[str] = (),
+        keep: Keep = "curves",
+        workers: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        timeout: float | None = None,
+        **parameters: Number | Sequence[float],
+    ) -> xr.Dataset:
+        """Make a run for every combination of the values listed, and return all of them over the parameters.
+
+        Parameters with a list are the dimensions, in the order given; those with a number hold for all runs.
+        `keep`: `curves` (samples over `t`), `last`, `max`, `min` or `mean` of each curve, `state` (all states
+        at the end), or a function of a `Run` that returns a number, an array, or a mapping from names to
+        such. A run that fails is NaN, and `message` says why. `workers`: so many threads, by default as many
+        as pay; `progress(done, total)` is called in this thread, ten times a second; `timeout` is a run's.
+
+        ImportError: xarray is missing (`pip install 'desire-tui[data]'`). TypeError, ValueError: as `run`.
+        """
+        from desire_tui.api.sweep import Sweep, grid_of
+        from desire_tui.api.sweep_result import STATE, checked_keep
+        from desire_tui.engine.outputs.tables import needed
+
+        needed("xarray")
+        names = (record,) if isinstance(record, str) else tuple(record)
+        seconds, kept = checked_timeout(timeout), checked_keep(keep)
+        count = checked_workers(workers)
+        with self._pool.one() as instance:
+            self._refuse_unknown(parameters, instance, "sweep", _SWEEP_ARGUMENTS)
+            grid = grid_of({**(set or {}), **parameters}, lambda v: self._numbers(v, {}, instance))
+            first = next(grid.places())
+            self._start(instance, first, initial, t, parameters)
+            columns = instance.prepared.sampled(names).columns
+            if not columns and isinstance(kept, str) and kept != STATE:
+                raise ValueError("nothing is recorded: name quantities, record=['x'], or keep='state'")
+
+        def begin(instance: Instance, values: Mapping[str, float]) -> RunStart:
+            return self._start(instance, values, initial, t, parameters)
+
+        return Sweep(self._pool, begin, names, kept, self.name).run(grid, count, progress, seconds)
+
     # ------------------------------------------------------------------ for other people's solvers
 
     @property
@@ -137,6 +186,8 @@ class Model:
         """Return `rhs` and `jacobian` with other parameters, and C addresses of their own."""
         from desire_tui.api.equations import JacobianMatrix, RightHandSide, SharedEquations
 
+        with self._pool.one() as instance:
+            self._refuse_unknown(parameters, instance, "equations", ())
         shared = SharedEquations(self._pool.make, self._begin_with, parameters)
         return RightHandSide(shared), JacobianMatrix(shared)
 
@@ -149,10 +200,10 @@ class Model:
     def _start(
         self,
         instance: Instance,
-        settings: dict[str, float],
+        settings: Mapping[str, float],
         initial: Initial | None,
         t: tuple[float, float] | None,
-        keywords: Mapping[str, Number],
+        keywords: Mapping[str, Any],
     ) -> RunStart:
         way = self._way(instance, tuple(settings), keywords)
         if way.slots is None:
@@ -166,7 +217,7 @@ class Model:
         return RunStart(assignments, follow, self._initial(instance, initial), t0, t1)
 
     def _numbers(
-        self, values: Mapping[str, Number], keywords: Mapping[str, Number], instance: Instance
+        self, values: Mapping[str, Any], keywords: Mapping[str, Any], instance: Instance
     ) -> dict[str, float]:
         try:
             return numbers({**values, **keywords})
@@ -174,7 +225,7 @@ class Model:
             self._refuse_unknown(keywords, instance)
             raise
 
-    def _way(self, instance: Instance, names: tuple[str, ...], keywords: Mapping[str, Number]) -> Way:
+    def _way(self, instance: Instance, names: tuple[str, ...], keywords: Mapping[str, Any]) -> Way:
         way = instance.ways.get(names)
         if way is None:
             instance.override({})
@@ -183,12 +234,18 @@ class Model:
             instance.ways[names] = way
         return way
 
-    def _refuse_unknown(self, keywords: Mapping[str, object], instance: Instance) -> None:
-        """TypeError: keywords that are neither arguments nor names of the program."""
+    def _refuse_unknown(
+        self,
+        keywords: Mapping[str, object],
+        instance: Instance,
+        function: str = "run",
+        arguments: tuple[str, ...] = _RUN_ARGUMENTS,
+    ) -> None:
+        """TypeError: keywords that are neither arguments of a function nor names of the program."""
         for problem in name_problems(keywords, instance):
             if problem.key == "set-unknown":
-                known = [*_RUN_ARGUMENTS, *self.parameters, *self.states]
-                refuse_name("run", "parameter or setting", str(problem.facts["name"]), known)
+                known = [*arguments, *self.parameters, *self.states]
+                refuse_name(function, "parameter or setting", str(problem.facts["name"]), known)
 
     def _initial(self, instance: Instance, initial: Initial | None) -> list[tuple[int, float]]:
         if initial is None:

@@ -111,7 +111,7 @@ class PreparedRun:
         """
         began = perf_counter()
         workspace, simulator = self._workspace, self._runs.simulator
-        segment = self._sampled(record)
+        segment = self.sampled(record)
         self.begin(start, base)
         if segment.recover:
             path = workspace.stash_path("read", lambda _: False)
@@ -167,8 +167,12 @@ class PreparedRun:
         """Return all states as they are now."""
         return self.values.data[self._states]
 
+    def state_names(self) -> tuple[str, ...]:
+        """Return the names of all states in their order."""
+        return tuple(name for name, _ in self.states())
+
     def states(self) -> Iterator[tuple[str, float]]:
-        """Yield names and values of all states as every run finds them."""
+        """Yield names and values of all states, now."""
         labels = dict[int, str]()
         for quantity in self.values:
             if quantity.is_state and not quantity.shape:
@@ -188,7 +192,8 @@ class PreparedRun:
         """End the run that goes on; from any thread."""
         self._control.end()
 
-    def _sampled(self, record: tuple[str, ...]) -> Segment:
+    def sampled(self, record: tuple[str, ...]) -> Segment:
+        """Return the segment that samples more quantities. DesireError 409: they are not there."""
         known = self._recording.get(record)
         if known is None:
             known = self._recording[record] = recording(self.segment, record, self.values)
