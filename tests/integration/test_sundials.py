@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import gc
-from math import cos, exp
+from math import cos
 
 import numpy as np
 import pytest
@@ -20,7 +20,6 @@ from desire_tui.engine.integration.sundials.signatures import (
     WeightFunction,
 )
 from desire_tui.engine.integration.sundials.solver import Callbacks, Solver
-from tests.integration.stiff_programs import numbers as written
 
 LINEARS = ("fixed-point", "dense", "dense", "diagonal")
 
@@ -134,24 +133,6 @@ def forget():
     library.libraries.cache_clear()
     yield
     library.libraries.cache_clear()
-
-
-PROGRAM = """irule {rule} | ERMAX = 1E-6 | x = 1 | DT = 0.01 | TMAX = 1 | NN = 11
-drun
-write x
-DYNAMIC
-d/dt x = -x
-dispt x
-"""
-
-
-def test_without_the_library_a_plain_message_and_the_other_rules_work(monkeypatch, forget):
-    monkeypatch.setattr(library, "find_spec", lambda _name: None)
-    with pytest.raises(DesireError) as caught:
-        written(PROGRAM.format(rule=15), "reference")
-    assert caught.value.diagnostics[0].code == 460
-    assert "scikit-sundae" in caught.value.diagnostics[0].hint
-    assert written(PROGRAM.format(rule=3), "reference")[0] == pytest.approx(exp(-1), abs=1e-5)
 
 
 def test_another_version_is_refused(monkeypatch, forget):

@@ -42,9 +42,7 @@ ELSEWHERE = {
     "solver-linear": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
     "solver-too-close": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
     "solver-broken": "tests/messages/test_machine_messages.py::test_what_the_stiff_solver_gives_up_with",
-    "solver-missing": (
-        "tests/integration/test_sundials.py::test_without_the_library_a_plain_message_and_the_other_rules_work"
-    ),
+    "solver-missing": "tests/integration/test_without_sundials.py::test_other_rules_say_what_is_missing",
     "solver-version": "tests/integration/test_sundials.py::test_another_version_is_refused",
     "stopped-by-user": "tests/runtime/test_run_control.py::test_pause_resume_and_end",
     "go-after-edit": "tests/runtime/test_run_control.py::test_go_after_an_edit_is_refused",

@@ -9,7 +9,7 @@ import numpy as np
 
 from desire_tui.engine.integration.problem import Matrix
 from desire_tui.engine.integration.rules import rule_numbered
-from desire_tui.engine.integration.sundials.library import superlu
+from desire_tui.engine.integration.sundials.library import is_there, superlu
 from desire_tui.engine.integration.sundials.linear import Linear, positions
 
 if TYPE_CHECKING:
@@ -51,8 +51,13 @@ class SolverPlan:
 
 
 def is_own(rule: int, n: int, plan: SolverPlan) -> bool:
-    """Whether `bdf` can do it in CVODE's place: Newton's iteration for BDF with a dense matrix."""
-    return rule_numbered(rule).has_own_solver and n <= DENSE_MOST and plan.tables is not None
+    """Whether `bdf` does it in CVODE's place: Newton's iteration for BDF with a dense matrix.
+
+    For few states, where it is faster; for any number where there is no CVODE.
+    """
+    if not rule_numbered(rule).has_own_solver or plan.tables is None or plan.linear.kind != "dense":
+        return False
+    return n <= DENSE_MOST or not is_there()
 
 
 def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = True) -> SolverPlan:
@@ -78,7 +83,7 @@ def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = 
 def _linear(pattern: Pattern) -> Linear:
     """Compare the operations of one factorisation: n³/3 dense, 2·n·l·(l + u) band."""
     n = pattern.n
-    if n <= DENSE_MOST:
+    if n <= DENSE_MOST or not is_there():
         return Linear("dense")
     lower, upper = pattern.lower, pattern.upper
     band_work = 2.0 * n * (lower + 1) * (lower + upper + 1)

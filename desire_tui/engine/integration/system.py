@@ -105,7 +105,7 @@ class StiffSystem:
         problem.derivatives, problem.tangent = functions.derivatives, functions.tangent
         problem.jacobian, problem.step = functions.jacobian, functions.step
         problem.directions, problem.array = values + 8 * directions, values + 8 * array
-        self._connect_matrix()
+        self._connect_matrix(own=natives.own)
         linear = plan.linear
         if plan.method is not Matrix.NONE:
             linear = replace(linear, jacobian=natives.jacobian)
@@ -118,13 +118,15 @@ class StiffSystem:
         problem.solver, problem.vector = self.solver.memory, self.solver.vector
         problem.between_vector = self.solver.between
 
-    def _connect_matrix(self) -> None:
+    def _connect_matrix(self, *, own: bool) -> None:
         problem, plan = self.problem, self.plan
         problem.method = plan.method.value
         if plan.tables is None:
             return
-        library = libraries().cvode
         plan.tables.give(problem)
+        if own:  # its matrix is an array
+            return
+        library = libraries().cvode
         problem.data_of = address(library, _DATA_OF[plan.linear.kind])
         if plan.linear.kind == "sparse":
             problem.nonzeros = plan.linear.nonzeros

@@ -126,7 +126,6 @@ class SolverRoutines:
 
     def _make_own(self, n: int, *, level: int) -> StiffFunctions:
         """Compile our solver for n states, `_ANY` number of them."""
-        self._connect()
         with self._locks[level]:
             if (found := self._own[n]) is None:
                 text = _own_text(n)
@@ -138,7 +137,6 @@ class SolverRoutines:
         """Return our solver's fast code for n states if this process or another one has made it."""
         found = self._own[n]
         if found is None:
-            self._connect()
             code = kept_code(_name(n))
             if code is not None:
                 found = self._keep(n, code)

@@ -9,13 +9,15 @@ _AT = "at t = {t:.6g} with DT = {dt:.3g}, state '{state}'"
 MESSAGES: dict[str, Wording] = {
     "solver-missing": Wording(
         460,
-        "rules 9 to 16 need the SUNDIALS library, which could not be loaded: {reason}",
-        "install scikit-sundae 1.2.0, or use rules 0 to 8, which need nothing",
+        "rules 9 to 13 and 16 need the SUNDIALS library, which could not be loaded: {reason}",
+        "install scikit-sundae 1.2.0, or use rules 14, 15 (stiff systems) or 0 to 8, which need nothing",
+        "Rules 9 to 13 and 16 are SUNDIALS' own. Where it is missing, because scikit-sundae has no package for"
+        " the machine (Linux on ARM), rules 14 and 15 run on a solver of this program, with a dense matrix.",
     ),
     "solver-version": Wording(
         461,
-        "rules 9 to 16 need SUNDIALS {wanted}, found {found}",
-        "install scikit-sundae 1.2.0, or use rules 0 to 8, which need nothing",
+        "rules 9 to 13 and 16 need SUNDIALS {wanted}, found {found}",
+        "install scikit-sundae 1.2.0, or use rules 14, 15 (stiff systems) or 0 to 8, which need nothing",
     ),
     "solver-gave-up": Wording(
         220,

@@ -50,6 +50,16 @@ def libraries() -> Libraries:
 
 
 @cache
+def is_there() -> bool:
+    """Whether SUNDIALS can be had: scikit-sundae has no wheel for every machine (Linux on ARM)."""
+    try:
+        libraries()
+    except DesireError:
+        return False
+    return True
+
+
+@cache
 def superlu() -> ctypes.CDLL | None:
     """Load the sparse direct solver SuperLU_MT (it brings OpenBLAS: 0.1 s); None where the wheel has none."""
     try:
