@@ -6,7 +6,7 @@ BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
 
-.PHONY: run test check lint types contracts bench fuzz mutants pictures soak help clean
+.PHONY: run test check lint types contracts bench fuzz mutants pictures recording soak dist docs help clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -51,6 +51,9 @@ soak: $(STAMP)  ## edit and run at full speed for SECONDS; memory, threads and f
 
 pictures: $(STAMP)  ## the screenshots in docs/
 	$(BIN)/python -m tests.app.pictures
+
+dist: $(STAMP)  ## build source archive and wheel in dist/, try the wheel in an empty folder
+	$(BIN)/python -m tests.package
 
 clean:  ## remove the environment and caches
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache

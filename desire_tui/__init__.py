@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from desire_tui.systems import check
 from desire_tui.version import __version__
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ def load(
     the labelled segment whose run is meant, `input` holds the lines that the script's `input` reads.
     DesireError: what is wrong with the program, with file, line and column.
     """
+    check()
     from desire_tui.api.model import load
 
     return load(
@@ -83,6 +85,7 @@ def run(program: str | PathLike[str], **settings: Unpack[RunSettings]) -> Result
     unknown setting. ValueError: `set` holds what is no quantity's name or no number, another setting what it
     cannot be. KeyboardInterrupt: Ctrl-C.
     """
+    check()
     from desire_tui.api.whole_program import run_program
 
     return run_program(program, settings)
@@ -92,6 +95,7 @@ def __getattr__(name: str) -> Any:
     home = _HOMES.get(name)
     if home is None:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    check()
     from importlib import import_module
 
     return getattr(import_module(home), name)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import sys
 
+from desire_tui.systems import reason_against
+
 COMMANDS = frozenset({
     "run", "check", "help", "examples", "config", "completion", "serve", "served", "ide",
 })  # fmt: skip
@@ -14,6 +16,9 @@ COMMANDS = frozenset({
 def main(arguments: list[str] | None = None) -> None:
     """Open the desktop if there are only names of files, or nothing; else read the command line."""
     keep_current_folder_out()
+    reason = reason_against()
+    if reason is not None:
+        sys.exit(reason)
     words = sys.argv[1:] if arguments is None else arguments
     try:
         if not any(word.startswith("-") for word in words) and not COMMANDS.intersection(words[:1]):
