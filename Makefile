@@ -46,6 +46,9 @@ fuzz: $(STAMP)  ## random inputs of every kind, SECONDS=60 of them; what failed 
 mutants: $(STAMP)  ## put deliberate faults into a copy of the engine and see which of them no test notices
 	$(BIN)/python -m tests.mutants
 
+recording: $(STAMP)  ## the moving picture in the README: the real program in a pseudo-terminal
+	$(BIN)/python -m tests.app.recording
+
 soak: $(STAMP)  ## edit and run at full speed for SECONDS; memory, threads and files must end as they began
 	$(BIN)/python -m tests.soak $(SECONDS)
 

@@ -6,12 +6,12 @@ Nothing here is heavy: what a command needs is imported when it runs.
 
 from __future__ import annotations
 
-from desire_tui.cli.check import check
-from desire_tui.cli.completion import completion
+from desire_tui.cli.check_command import check
+from desire_tui.cli.completion_command import completion
 from desire_tui.cli.group import ide, main
 from desire_tui.cli.information import config, examples, help_
-from desire_tui.cli.run import run
-from desire_tui.cli.serve import serve, served
+from desire_tui.cli.run_command import run
+from desire_tui.cli.serve_command import serve, served
 
 for _command in (ide, run, check, help_, examples, config, completion, serve, served):
     main.add_command(_command)

@@ -30,7 +30,9 @@ import desire_tui
 run = desire_tui.load("x = 1 | TMAX = 1 | DT = 0.001 | drun\\nDYNAMIC\\nd/dt x = -x\\ndispt x\\n").run()
 assert abs(run["x"][-1] - 0.36787944) < 1e-5, run["x"][-1]
 """
-STIFF = "irule 14 | ERMAX = 1.0E-6 | x = 1 | TMAX = 1 | NN = 3\ndrun\nDYNAMIC\nd/dt x = -1000*x + 1000\ndispt x\n"
+STIFF = (
+    "irule 14 | ERMAX = 1.0E-6 | x = 1 | TMAX = 1 | NN = 3\ndrun\nDYNAMIC\nd/dt x = -1000*x + 1000\ndispt x\n"
+)
 
 
 def main() -> None:
@@ -85,7 +87,9 @@ def try_wheel(wheel: Path, python: str, folder: Path) -> None:
         assert "Traceback" not in done.stderr, done.stderr
         return done.stdout + done.stderr
 
-    if (uv := shutil.which("uv", path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")) is not None:
+    if (
+        uv := shutil.which("uv", path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    ) is not None:
         call(uv, "pip", "install", "--quiet", "--python", str(environment / "bin" / "python"), str(wheel))
     else:
         call("python", "-m", "pip", "install", "--quiet", str(wheel))

@@ -58,7 +58,7 @@ def test_the_readme_begins_with_the_installation_and_its_links_lead_out_of_an_in
 @pytest.mark.parametrize("library", ["aiohttp", "textual_serve"])
 def test_serving_without_its_libraries_names_the_extra(library, monkeypatch):
     monkeypatch.setattr(
-        "desire_tui.cli.serve.find_spec", lambda name: None if name == library else object()
+        "desire_tui.cli.serve_command.find_spec", lambda name: None if name == library else object()
     )
     status, _, err = desire("serve")
     assert status == 2
@@ -76,6 +76,10 @@ def test_windows_gets_a_sentence(monkeypatch):
         __main__.main(["run", "x.src"])
     assert end.value.code == ON_WINDOWS
     assert "WSL" in ON_WINDOWS
-    for use in (lambda: desire_tui.run("x = 1 | y = 2"), lambda: desire_tui.load("x.src"), lambda: desire_tui.Session):
+    for use in (
+        lambda: desire_tui.run("x = 1 | y = 2"),
+        lambda: desire_tui.load("x.src"),
+        lambda: desire_tui.Session,
+    ):
         with pytest.raises(OSError, match="WSL"):
             use()

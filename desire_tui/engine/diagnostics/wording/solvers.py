@@ -11,8 +11,9 @@ MESSAGES: dict[str, Wording] = {
         460,
         "rules 9 to 13 and 16 need the SUNDIALS library, which could not be loaded: {reason}",
         "install scikit-sundae 1.2.0, or use rules 14, 15 (stiff systems) or 0 to 8, which need nothing",
-        "Rules 9 to 13 and 16 are SUNDIALS' own. Where it is missing, because scikit-sundae has no package for"
-        " the machine (Linux on ARM), rules 14 and 15 run on a solver of this program, with a dense matrix.",
+        "Rules 9 to 13 and 16 are SUNDIALS' own. Where it is missing, because scikit-sundae has no"
+        " package for the machine (Linux on ARM), rules 14 and 15 run on a solver of this program, with a"
+        " dense matrix.",
     ),
     "solver-version": Wording(
         461,
