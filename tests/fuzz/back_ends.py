@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from threading import Timer
 from typing import TYPE_CHECKING
@@ -35,6 +36,8 @@ OTHER_ROUNDINGS = 8
 ENOUGH = 0.1
 """So much of it must they show, in the same variable."""
 KIND = "kind"
+NOT_FINITE, MOMENTS = 3, re.compile(r"^(event|every) |delay\(", re.MULTILINE)
+"""A model with moments may make a step more before it is seen that a state is no number: the samples are the same."""
 
 
 def generate(rng: Random) -> str:
@@ -51,6 +54,8 @@ def check(text: str) -> None:
         return
     reference = execute(text, "reference", Path.cwd())
     wrong = {name: gap for name, gap in _differences(native, reference).items() if gap > TOLERANCE}
+    if NOT_FINITE in _codes(native) and MOMENTS.search(text):
+        wrong = {name: gap for name, gap in wrong.items() if name == KIND or name.startswith("run ")}
     for seed in range(OTHER_ROUNDINGS if wrong else 0):
         with other_roundings(seed):
             moved = _differences(execute(text, "reference", Path.cwd()), reference)

@@ -148,6 +148,8 @@ class ProgramMaker:
             self._known += ["o1", "o2"]
         for _ in range(rng.randint(0, 3)):
             lines += self._statement()
+        if rng.random() < 0.3:
+            lines += self._moments()
         if rng.random() < 0.25:
             lines += ["step", *(line for _ in range(rng.randint(1, 2)) for line in self._statement())]
         if rng.random() < 0.25:
@@ -156,10 +158,51 @@ class ProgramMaker:
             lines += [f"SAMPLE {rng.randint(1, 4)}", *self._statement()]
         shown = [name for name in self._known if name != "t"]
         lines.append(f"dispt {', '.join(rng.sample(shown, min(len(shown), 3)))}")
+        if rng.random() < 0.1:
+            lines += self._moments()
         return "\n".join(lines) + "\n"
+
+    def _moments(self) -> list[str]:
+        """Return blocks for what happens at moments, where clocks tick or something passes 0."""
+        rng = self._rng
+        lines = []
+        for _ in range(rng.randint(1, 3)):
+            if rng.random() < 0.4:
+                period = rng.choice(("0.1", "0.25", "0.04", "0.3333", "abs(a) + 0.05", self._number()))
+                start = rng.choice(("", "", ", 0.07", ", -0.1", f", {self._number()}"))
+                lines.append(f"every {period}{start}")
+            elif self._wild and rng.random() < 0.4:
+                lines.append(f"event {self._expression(self._known, 2)}")
+            else:  # passes 0 now and then
+                name = rng.choice((*self._states, "t"))
+                form = rng.choice(("{x} - {y}", "{y} - {x}", "sin({w}*t) - {y}", "sin({w}*{x} + t)"))
+                lines.append(
+                    f"event {form.format(x=name, y=self._expression(self._known, 1), w=rng.randint(1, 30))}"
+                )
+            lines += [line for _ in range(rng.randint(1, 3)) for line in self._at_a_moment()]
+        return [*lines, "end event"]
+
+    def _at_a_moment(self) -> list[str]:
+        """Return statements of a block."""
+        rng = self._rng
+        form = rng.random()
+        if form < 0.45 and self._states:
+            name = rng.choice(self._states)
+            return [
+                f"{name} = {rng.choice((f'-0.8*{name}', f'0.5*{name} + 0.1', f'sat({self._expression(self._known, 1)})'))}"
+            ]
+        if form < 0.6:
+            name = rng.choice("bc")
+            return [f"{name} = 0.5*{name} + 0.1*sat({self._expression(self._known, 2)})"]
+        if form < 0.7 and self._has_vector_state:
+            return [rng.choice(("Vector s = -0.5*s", "s[1] = s[1] - 0.2", "Vector s = sat(p + s)"))]
+        made: list[str] = rng.choice(_AT_MOMENTS)(self)
+        return made
 
     def _derivative(self, name: str) -> list[str]:
         rhs = self._expression(self._known, 3)
+        if self._draws and self._rng.random() < 0.2:
+            rhs += f" + white({self._number()})"
         if not self._wild or self._rng.random() < 0.7:
             rhs = f"{self._rng.choice(('sat', 'tanh', 'sin'))}({rhs}) - 0.5*{name}"
         return [f"d/dt {name} = {rhs}"]
@@ -202,6 +245,23 @@ class ProgramMaker:
             f"{buffer}({self._rng.choice(self._known)}, {self._rng.choice(('0.05', '0.1', 'abs(b)', '0'))})",
             f"{word} ",
         )
+
+    def past(self) -> list[str]:
+        """A value of before, kept by the run."""
+        rng = self._rng
+        time = rng.choice(
+            (
+                "0.05",
+                "0.1",
+                "0.21",
+                "abs(b)",
+                "0.1 + 0.05*sin(t)",
+                f"0.1*({self._expression(self._known, 1)})^2",
+            )
+        )
+        before = rng.choice(("", "", ", 0.3", ", cos(t)", ", t"))
+        inner = rng.choice(self._known) if rng.random() < 0.7 else self._expression(self._known, 1)
+        return self._assigned(f"0.5*delay({inner}, {time}{before})")
 
     def table(self) -> list[str]:
         """Table functions."""
@@ -355,5 +415,9 @@ _STATEMENTS = (
     *(ProgramMaker.scalar,) * 6,
     ProgramMaker.persistent, ProgramMaker.delayed, ProgramMaker.table, ProgramMaker.stored, ProgramMaker.tracked,
     ProgramMaker.ended, ProgramMaker.vector, ProgramMaker.vector, ProgramMaker.product, ProgramMaker.product,
-    ProgramMaker.matrix, ProgramMaker.summed, ProgramMaker.learned, ProgramMaker.element,
+    ProgramMaker.matrix, ProgramMaker.summed, ProgramMaker.learned, ProgramMaker.element, ProgramMaker.past,
+)  # fmt: skip
+_AT_MOMENTS = (
+    ProgramMaker.scalar, ProgramMaker.persistent, ProgramMaker.table, ProgramMaker.vector, ProgramMaker.product,
+    ProgramMaker.matrix, ProgramMaker.summed, ProgramMaker.element,
 )  # fmt: skip

@@ -62,3 +62,24 @@ def test_a_part_of_a_defined_variable_and_of_vectors() -> None:
     assert problem.facts["cause"] == "1 divided by 0"
     problem, _ = failure(text.replace("1/(t - t)", "1"))
     assert problem.facts["part"] == "recip(g - g)"
+
+
+@pytest.mark.parametrize("backend", ["native", "reference"])
+@pytest.mark.parametrize("rule", [3, 14])
+def test_what_looks_into_the_past_is_not_made_again_without_it(rule, backend) -> None:
+    """By the method of steps: x = 1 + (2 + ln 1.7) t up to 0.5, and the logarithm's argument is 0 half a unit after x is 2.7."""
+    text = (
+        f"irule {rule} | ERMAX = 1e-6\nTMAX = 4 | NN = 5 | DT = 0.01 | x = 1\ndrun\nDYNAMIC\n"
+        "d/dt x = 2 + ln(2.7 - delay(x, 0.5))\ndispt x\n"
+    )
+    problem, _ = failure(text, backend)
+    assert problem.key in {"not-finite", "solver-derivative"}
+    assert 1.1 < problem.facts["t"] < 1.3
+
+
+@pytest.mark.parametrize("backend", ["native", "reference"])
+def test_nor_are_steps_that_events_cut(backend) -> None:
+    text = "irule 3\nTMAX = 4 | NN = 5 | DT = 0.03 | x = 1\ndrun\nDYNAMIC\nd/dt x = ln(x)\nevery 1, 0.5\nx = -1\n"
+    problem, _ = failure(text, backend)
+    assert problem.key == "not-finite"
+    assert 0.5 < problem.facts["t"] < 1.1

@@ -66,7 +66,13 @@ class _TooLong(BaseException):
 def find_culprit(
     start: BlockStart, segment: Segment, rule: int, model: Model, values: Values
 ) -> Culprit | None:
-    """Return what made the inf or nan with which a run has just ended; everything is left as it was."""
+    """Return what made the inf or nan with which a run has just ended; everything is left as it was.
+
+    None where it cannot be told: steps that events cut, or that look into the past, are not made again, because the
+    start of a block does not hold what those remember.
+    """
+    if segment.events or segment.delays:
+        return None
     counters = start.counters
     after = BlockStart(start.memory, bytes(start.memory), counters, counters.copy(), values.saved())
     rows = int(start.memory.row)
