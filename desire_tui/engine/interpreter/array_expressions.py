@@ -6,6 +6,7 @@ one too, and two vectors multiply element by element. Scalars multiply and add e
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, assert_never
 
 import numpy as np
@@ -35,6 +36,7 @@ from desire_tui.engine.nodes.expressions import (
     Truth,
     Unary,
 )
+from desire_tui.engine.nodes.signs import whole_power
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -160,8 +162,11 @@ class ArrayExpressions:
     def _power(self, node: Binary) -> Evaluator:
         a, b = self.evaluator(node.left), self.evaluator(node.right)
         check = self._context.machine.check
-        function, domain = _whole_or_real_power, "power-argument"
-        return lambda: _elementwise(check, function, node, domain, *self._same(a(), b(), node))
+        domain, exponent = "power-argument", whole_power(node.right)
+        if exponent is not None:
+            whole = partial(integer_power, n=exponent)
+            return lambda: _elementwise(check, whole, node, domain, a())
+        return lambda: _elementwise(check, power, node, domain, *self._same(a(), b(), node))
 
     def _same(self, a: Any, b: Any, node: Node) -> tuple[Any, Any]:
         if np.ndim(a) and np.ndim(b) and np.shape(a) != np.shape(b):
@@ -243,11 +248,6 @@ def _elementwise(
     except ValueError:
         raise ScriptFault(domain, node, function=getattr(node, "name", "")) from None
     return result.reshape(np.broadcast_shapes(*map(np.shape, args)))[()]
-
-
-def _whole_or_real_power(x: float, y: float) -> complex:
-    """x^y as in scalar expressions: whole powers are products."""
-    return integer_power(x, int(y)) if abs(y) < 1 << 31 and y == int(y) else power(x, y)
 
 
 def _quotient(a: Any, b: Any, divisor: Node) -> Any:

@@ -35,7 +35,7 @@ from desire_tui.engine.nodes.expressions import (
     Truth,
     Unary,
 )
-from desire_tui.engine.nodes.signs import whole_literal
+from desire_tui.engine.nodes.signs import whole_power
 from desire_tui.engine.values import Kind, Quantity
 
 if TYPE_CHECKING:
@@ -48,7 +48,6 @@ _ARITHMETIC: dict[str, ast.operator] = {"+": py.ADD, "-": py.SUBTRACT, "*": py.M
 _RELATIONS: dict[str, ast.cmpop] = {
     "=": py.EQUAL, "<": ast.Lt(), ">": ast.Gt(), "<=": ast.LtE(), ">=": ast.GtE(), "<>": ast.NotEq(),
 }  # fmt: skip
-_WHOLE_POWER_LIMIT = 1 << 31
 
 
 class ExpressionTranslator(ScalarTranslator):
@@ -164,8 +163,8 @@ class ExpressionTranslator(ScalarTranslator):
 
     def _power(self, node: Binary) -> Typed:
         base, kind = self.finite(node.left)
-        exponent = whole_literal(node.right)
-        if exponent is not None and abs(exponent) < _WHOLE_POWER_LIMIT:
+        exponent = whole_power(node.right)
+        if exponent is not None:
             if exponent == 1:
                 return Typed(base, kind)
             if exponent == 2:

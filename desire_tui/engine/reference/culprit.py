@@ -68,7 +68,7 @@ def find_culprit(
 ) -> Culprit | None:
     """Return what made the inf or nan with which a run has just ended; everything is left as it was.
 
-    None where it cannot be told: steps that events cut, or that look into the past, are not made again, because
+    None where it cannot be told: steps that events cut, or that look into the past, are not made again:
     the start of a block does not hold what those remember.
     """
     if segment.events or segment.delays:
