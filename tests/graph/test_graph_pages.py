@@ -205,6 +205,7 @@ def test_old_pages_are_thinned_where_all_take_too_much(monkeypatch):
         session.erun(Source(program + f"-- {number}\n"))
     oldest, *others = session.graphs.pages
     assert oldest.curves[0].count <= 10
+    assert oldest.curves[0].record.t[-1] == 1.0
     assert oldest.caption == "x vs. t (thinned)"
     assert oldest.erased == 1  # a painter begins anew
     assert [page.curves[0].count for page in others] == [501] * 3

@@ -37,7 +37,8 @@ RUNS = (
     _runtime("whole(records, 0, line.count)", "whole(records, 0, line.count - 1)", *program("dynamic/delay_of_a_whole_buffer")),
     _runtime("tau / interval + ROUNDING", "tau / interval", *program("dynamic/delay_time_under_if")),
     # runs and what connects them
-    _runtime("record.pictures[::2]", "record.pictures[1::2]", "tests/runtime/test_pictures.py"),
+    _runtime("every + 1][::2]", "every + 1][1::2]", "tests/runtime/test_pictures.py"),
+    _runtime("[*kept, newest] if sample % record.picture_every else kept", "kept", "tests/runtime/test_pictures.py"),
     _runtime("positions.points -= 1", "pass", *program("dynamic/last_of_thinned")),
     _runtime("values.cells[T] if sampled else nan", "values.cells[T]", "tests/runtime/test_after_a_failed_run.py"),
     _runtime("(first, max(length, slot + count - first))", "(first, slot + count - first)", *program("dynamic/reset_of_overlaid_states")),

@@ -77,7 +77,7 @@ class ShownArray:
 
     def latest(self) -> Floats | None:
         """Return the newest picture, rows × columns, filled up with nan; None before the first."""
-        values = self.values if self.record is None else self._newest()
+        values = self.newest()
         if values is None:
             return None
         rows = -(-len(values) // self.columns)
@@ -90,8 +90,10 @@ class ShownArray:
         parts = np.clip(values / (self.scale or 1.0), -1.0, 1.0)
         return np.sign(parts) * np.sqrt(np.abs(parts))
 
-    def _newest(self) -> Floats | None:
-        assert self.record is not None
+    def newest(self) -> Floats | None:
+        """Return the numbers of the newest picture as they stand; None before the first."""
+        if self.record is None:
+            return self.values
         films = self.record.pictures
         return films[-1][self.number] if films else None
 

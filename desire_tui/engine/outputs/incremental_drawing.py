@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import is_
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +36,7 @@ class Painter:
         self._drawn: dict[Curve, int] = {}
         self._along: dict[Curve, int] = {}  # dots of dashed curves
         self._points = 0
-        self._pictures = 0
+        self._pictures: list[Floats | None] = []
         self._few = graph.has_few_points
         self._erased = graph.erased
         self.clipped = ClipMarks(canvas.columns, canvas.rows)
@@ -60,7 +61,7 @@ class Painter:
     def _begin_anew(self) -> None:
         self._drawn.clear()
         self._along.clear()
-        self._points = self._pictures = 0
+        self._points, self._pictures = 0, []
         self.canvas.clear()
 
     def _curve(self, curve: Curve) -> bool:
@@ -104,11 +105,11 @@ class Painter:
     def _picture(self) -> None:
         """SHOW: side by side, sign by colour; large values are dense dots (dithering) or large squares."""
         shown = self.graph.shown
-        state = sum(len(s.record.pictures) if s.record is not None else 1 for s in shown)
-        if not shown or state == self._pictures:
+        newest = [array.newest() for array in shown]
+        if len(newest) == len(self._pictures) and all(map(is_, newest, self._pictures)):
             return
         self._begin_anew()  # curves are drawn over it, again with each new picture
-        self._pictures = state
+        self._pictures = newest
         for number, array in enumerate(shown):
             values = array.latest()
             if values is None:

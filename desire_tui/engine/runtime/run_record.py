@@ -57,7 +57,11 @@ class RunRecord:
     compile_seconds: float = 0.0
     message: str = ""
     pictures: list[tuple[NDArray[np.float64], ...]] = field(default_factory=list)
-    """What SHOW kept: at each sample one copy of each shown array, in the order of the SHOW statements."""
+    """What SHOW kept: of each sample a copy of each shown array, in the order of the SHOW statements.
+
+    When there are too many, of every `picture_every`-th sample from the first one, and of the newest.
+    """
+    picture_every: int = 1
 
     def __post_init__(self) -> None:
         """Give the rows their width: a run that fails at once has none, but columns."""
@@ -87,11 +91,11 @@ class RunRecord:
         return self.rows.nbytes + sum(shown.nbytes for picture in list(self.pictures) for shown in picture)
 
     def thin(self, rows_most: int) -> None:
-        """Keep every n-th sample, at most `rows_most` of them, and the last picture: enough for a graph."""
+        """Keep every n-th sample and the last, and the last picture: enough for a graph."""
         del self.pictures[:-1]
-        step = -(-self.count // rows_most)
+        step = -(-(self.count - 1) // (rows_most - 1))
         if step > 1:
-            kept = self.rows[: self.count : step].copy()
+            kept = self.rows[np.r_[0 : self.count - 1 : step, self.count - 1]]
             self.count = min(self.count, len(kept))
             self.rows = kept
 

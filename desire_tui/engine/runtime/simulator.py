@@ -41,7 +41,7 @@ BLOCK_GROWTH = 64
 ROWS_BYTES_MAX = 1 << 30
 """Samples one run may keep: 10 million of 12 variables."""
 PICTURES_BYTES_MAX = 1 << 28
-"""What SHOW may keep of one run; then every second picture goes."""
+"""What SHOW may keep of one run; then every second picture goes, but for the first and the newest."""
 
 _WORDS: dict[Ended, EndedWord] = {Ended.TMAX: "tmax", Ended.TERM: "term", Ended.STOPPED: "stopped"}
 
@@ -225,10 +225,18 @@ class Simulator:
             record.rows = record.rows[: record.count].copy()
 
     def _keep_pictures(self, segment: Segment, record: RunRecord) -> None:
-        data = self._values.data
-        record.pictures.append(tuple(data[p.slot : p.slot + p.count].copy() for p in segment.pictures))
+        """Keep each sample's picture while there is room, then each second, fourth … one; and the newest."""
+        data, every = self._values.data, record.picture_every
+        newest = tuple(data[p.slot : p.slot + p.count].copy() for p in segment.pictures)
+        sample = record.count - 1
+        if sample and (sample - 1) % every:  # the one before was kept as the newest only
+            record.pictures[-1] = newest
+        else:
+            record.pictures.append(newest)
         if len(record.pictures) * sum(p.count for p in segment.pictures) * 8 > PICTURES_BYTES_MAX:
-            record.pictures = record.pictures[::2]
+            kept = record.pictures[: sample // every + 1][::2]
+            record.picture_every = 2 * every
+            record.pictures = [*kept, newest] if sample % record.picture_every else kept
 
 
 def _rows(plan: RunPlan, record: RunRecord) -> NDArray[np.float64]:
