@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.graph.model import Graph
     from desire_tui.panes.command_history import CommandHistory
 
+LOW_BELOW = 28
+"""Rows below which the side pane gets more of them."""
 PANES: tuple[Pane, ...] = ("editor", "command", "graph", "side")
 SHOWN_KEYS = {
     "run.start": "run",
@@ -128,6 +130,8 @@ class MainScreen(DeferredScreen):
 
     def compose(self) -> ComposeResult:
         """Lay out the panes."""
+        for name in self._changed_classes(self._wanted()):  # before there are widgets whose styles it changes
+            self.add_class(name, update=False)
         with Horizontal(id="desk"):
             with Vertical(id="left"):
                 yield self.editor
@@ -168,24 +172,32 @@ class MainScreen(DeferredScreen):
 
     def update_layout(self) -> None:
         """Show the panes that belong on the screen now."""
-        width, height = self.app.size
-        now = arrange(width, height, focused=self._focused_pane, maximized=self._only_pane, side=self._side)
-        self.set_class(height < 28, "-low")
+        now = self._wanted()
+        if changed := self._changed_classes(now):
+            self.toggle_class(*changed)  # at once: each change looks for the styles of every widget
         if now == self._arrangement:
             return
         self._arrangement = now
-        self.set_class(now.too_small, "-small")
-        self.set_class(now.order == "rows", "-rows")
-        self.set_class(now.order == "one", "-one")
-        self.set_class(now.framed, "-framed")
         for top in self._frame_tops():
             top.framed = now.framed
-        self.set_class(now.order == "rows" and "editor" not in now.panes, "-few")
         for name in PANES:
             self.query_one(f"#{name}").display = name in now.panes
         for column in ("#left", "#right"):
             self.query_one(column).display = any(pane.display for pane in self.query_one(column).children)
         self.splits.lay(now.column_split)
+
+    def _wanted(self) -> Arrangement:
+        width, height = self.app.size
+        return arrange(width, height, focused=self._focused_pane, maximized=self._only_pane, side=self._side)
+
+    def _changed_classes(self, now: Arrangement) -> list[str]:
+        """Return the classes, in the words of the style sheet, that an arrangement has and the screen not, or no more."""
+        wanted = {
+            "-low": self.app.size.height < LOW_BELOW, "-small": now.too_small, "-rows": now.order == "rows",
+            "-one": now.order == "one", "-framed": now.framed,
+            "-few": now.order == "rows" and "editor" not in now.panes,
+        }  # fmt: skip
+        return [name for name, has in wanted.items() if has != self.has_class(name)]
 
     def _frame_tops(self) -> Iterable[FrameTop]:
         return self.query("TabStrip, SideTabs").results(FrameTop)
