@@ -191,7 +191,7 @@ class MainScreen(DeferredScreen):
         return arrange(width, height, focused=self._focused_pane, maximized=self._only_pane, side=self._side)
 
     def _changed_classes(self, now: Arrangement) -> list[str]:
-        """Return the classes, in the words of the style sheet, that an arrangement has and the screen not, or no more."""
+        """Return the classes that an arrangement has and the screen has not, or no more."""
         wanted = {
             "-low": self.app.size.height < LOW_BELOW, "-small": now.too_small, "-rows": now.order == "rows",
             "-one": now.order == "one", "-framed": now.framed,

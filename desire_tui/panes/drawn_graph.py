@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from textual.geometry import Region
 
     from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.outputs.backdrop import Backdrop
     from desire_tui.engine.outputs.braille_canvas import Canvas
     from desire_tui.engine.outputs.incremental_drawing import Painter
     from desire_tui.engine.outputs.text_frame import TextFrame
@@ -50,6 +51,7 @@ class DrawnGraph(Container):
         """Whether the page is of a run before a start that failed."""
         self._below = Vertical(id="below")
         self._painter: Painter | None = None
+        self._backdrop: Backdrop | None = None
         self._drawn: tuple[object, ...] = ()
         self.sheet = GraphSheet()
         self._tiles = Tiles(self.sheet)
@@ -176,8 +178,11 @@ class DrawnGraph(Container):
         if before is None or canvas is None or place != (before.left, before.columns, before.rows):
             canvas = self.canvas = Canvas(max(frame.columns, 1), max(frame.rows, 1), frame.left)
         self.show_keys()
-        self._painter = Painter(canvas, self.paging.with_all_under(page), self.view)
-        self._painter.update()  # first: a piece is sent with what stands in it
+        self._painter = painter = Painter(
+            canvas, self.paging.with_all_under(page), self.view, self.paging.curves_behind, self._backdrop
+        )
+        painter.update()  # first: a piece is sent with what stands in it
+        self._backdrop = painter.backdrop
         canvas.take_dirty()
         self._marks = self._marks_now()
         self._lay()

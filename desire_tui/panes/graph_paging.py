@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from desire_tui.engine.graph.curve import Curve
     from desire_tui.engine.graph.model import Graph
 
 OVERLAYS_MAX = 12
@@ -21,6 +22,7 @@ class GraphPaging:
         self.under: list[Graph] = []
         self.ghost: Graph | None = None
         """The page whose curves stand pale in the background."""
+        self._pale: tuple[Graph | None, list[Curve]] = None, []
         self.overlay_next = False
         self.ghost_next: Graph | None = None
 
@@ -81,6 +83,14 @@ class GraphPaging:
         from desire_tui.engine.graph.colors import GHOST
 
         ghost = self.ghost.curves if self.ghost is not None else []
-        pale = [replace(curve, color=GHOST) for curve in ghost]
+        if self._pale[0] is not self.ghost or len(self._pale[1]) != len(
+            ghost
+        ):  # the same ones as long as may be
+            self._pale = self.ghost, [replace(curve, color=GHOST) for curve in ghost]
         above = [curve for graph in (*self.under, page) for curve in graph.curves]
-        return replace(page, curves=[*pale, *above])
+        return replace(page, curves=[*self._pale[1], *above])
+
+    @property
+    def curves_behind(self) -> int:
+        """How many curves of `with_all_under` are not the page's own."""
+        return sum(len(graph.curves) for graph in self.behind)

@@ -35,6 +35,13 @@ class ClipMarks:
         if _leaves(x):
             _mark(1.0 - y, x, self.left, self.right)
 
+    def copy(self) -> ClipMarks:
+        """Return marks of their own at the same places."""
+        other = ClipMarks(0, 0)
+        other.above, other.below = self.above.copy(), self.below.copy()
+        other.left, other.right = self.left.copy(), self.right.copy()
+        return other
+
     def counts(self) -> tuple[int, ...]:
         """Return how many marks there are at each side."""
         return tuple(int(side.sum()) for side in (self.above, self.below, self.left, self.right))

@@ -10,6 +10,7 @@ import numpy as np
 from desire_tui.engine.graph.fit import WHOLE
 from desire_tui.engine.graph.model import SQUARE_MOST
 from desire_tui.engine.graph.polylines import thin_columns, through
+from desire_tui.engine.outputs.backdrop import Backdrop
 from desire_tui.engine.outputs.clip_marks import ClipMarks
 
 if TYPE_CHECKING:
@@ -29,9 +30,19 @@ SAMPLES_MOST = 200_000
 
 
 class Painter:
-    """Draws one graph on one canvas through a window (left, right, bottom, top) in frame units."""
+    """Draws one graph on one canvas through a window (left, right, bottom, top) in frame units.
 
-    def __init__(self, canvas: Canvas, graph: Graph, window: Window = WHOLE) -> None:
+    Its first curves, so many as `behind` says, may be complete on an earlier painter's `backdrop`.
+    """
+
+    def __init__(
+        self,
+        canvas: Canvas,
+        graph: Graph,
+        window: Window = WHOLE,
+        behind: int = 0,
+        backdrop: Backdrop | None = None,
+    ) -> None:
         self.canvas, self.graph, self.window = canvas, graph, window
         self._drawn: dict[Curve, int] = {}
         self._along: dict[Curve, int] = {}  # dots of dashed curves
@@ -41,6 +52,17 @@ class Painter:
         self._erased = graph.erased
         self.clipped = ClipMarks(canvas.columns, canvas.rows)
         canvas.clear()
+        self._behind = 0 if graph.shown else behind
+        self.backdrop: Backdrop | None = None
+        """The curves behind, once they are drawn."""
+        if backdrop is not None and backdrop.fits(canvas, graph.curves[: self._behind], self._look):
+            backdrop.put(canvas)
+            self._drawn.update(backdrop.curves)
+            self.clipped, self.backdrop = backdrop.clipped.copy(), backdrop
+
+    @property
+    def _look(self) -> tuple[object, ...]:
+        return self.window, self.graph.axes, self._few
 
     def update(self) -> bool:
         """Draw what is new; returns whether there may be more at once (a long curve seen first)."""
@@ -53,12 +75,20 @@ class Painter:
             self._begin_anew()
         self._picture()
         more = False
-        for curve in list(self.graph.curves):
+        for number, curve in enumerate(list(self.graph.curves)):
             more |= self._curve(curve)
+            if (
+                number + 1 == self._behind
+                and self.backdrop is None
+                and len(self._drawn) == self._behind
+                and not more
+            ):
+                self.backdrop = Backdrop.taken(self.canvas, self._drawn, self._look, self.clipped)
         self._plot_points()
         return more
 
     def _begin_anew(self) -> None:
+        self.backdrop = None
         self._drawn.clear()
         self._along.clear()
         self._points, self._pictures = 0, []
