@@ -15,6 +15,7 @@ from desire_tui.engine.integration.rules import RULES
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment, StateRange
+from desire_tui.engine.lowered.statements import Guard
 from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.lowering import arrays, learning, lowering_cache, requests, statements, targets
 from desire_tui.engine.lowering.builder import SegmentBuilder
@@ -104,6 +105,13 @@ def lower_segment(
                 builder.watch_row(context.row_read)
                 context.row_read = None
             if context.computed_first:
+                if isinstance(node, Event | Every) and builder.at_moment:
+                    outer = builder.guards[-1].outer  # not in the block that ends here
+                    place = len(outer)
+                elif builder.at_moment and any(
+                    isinstance(action, Guard) for action in context.computed_first
+                ):
+                    context.report("not-at-moment", node, word="white")
                 outer[place:place] = context.computed_first
                 context.computed_first.clear()
     body = builder.finish()
