@@ -9,6 +9,8 @@
     result = desire_tui.run("study.src")                 # a whole program: all its runs, its final values
     result.runs[-1]["x"], result["alpha"]
 
+    found = desire_tui.study("torpedo.src", over={"UC": [0.2, 0.25, 0.3]}, keep="x[end], max(y)")
+
 `Session` executes statement by statement. docs/python.md describes all of it.
 """
 
@@ -30,8 +32,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.outputs.results import Result
     from desire_tui.engine.outputs.run import Run
     from desire_tui.engine.session.session import Session
+    from desire_tui.studies.call import StudySettings
 
-__all__ = ["DesireError", "Model", "Result", "Run", "Session", "__version__", "load", "run"]
+__all__ = ["DesireError", "Model", "Result", "Run", "Session", "__version__", "load", "run", "study"]
 
 _HOMES = {
     "DesireError": "desire_tui.engine.diagnostics",
@@ -89,6 +92,29 @@ def run(program: str | PathLike[str], **settings: Unpack[RunSettings]) -> Result
     from desire_tui.api.whole_program import run_program
 
     return run_program(program, settings)
+
+
+def study(program: str | PathLike[str], **settings: Unpack[StudySettings]) -> Any:
+    """Run a program for many values of its quantities; return what is kept of each run, an xarray Dataset.
+
+    `program` is a file name, or the text of a program (a string with a line end or a `|`). What varies:
+    `over` (mapping of names to values: a grid), `sample` (names to distributions, `"normal(40, 4)"` or frozen
+    ones of scipy.stats; `runs` says how often, `design` how: `random`, `latin`, `sobol`), `points` (a table:
+    a CSV file, a DataFrame, a mapping of names to lists). `keep` says what is kept of each run:
+    `"x[end], max(x), t[x<1], y@0:2:0.1"`. All others are optional: `seed` (run k draws from (seed, k) alone;
+    a study of one run with the program's own SEED is the program), `set` (values for all runs), `segment`,
+    `input` (as of `load`), `threads`, `workers` (processes of a local cluster), `cluster` (a
+    `distributed.Client` or a scheduler's address), `store` (a Zarr folder, filled as results come), `resume`
+    (go on with what is there), `progress` (called with how far it has come; False ends the study), `fast`,
+    `backend`, `allow_shell`, `allow_write`.
+
+    A run that fails is nan, with the error's number in the variable `error`. DesireError, before the first
+    run: a name that the program does not have, something that is not written as it has to be, no runs, or
+    more than memory or disk can hold. TypeError, ValueError: of the call. docs/studies.md describes it.
+    """
+    from desire_tui.studies.call import run_study
+
+    return run_study(program, settings)
 
 
 def __getattr__(name: str) -> Any:

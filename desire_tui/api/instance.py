@@ -15,6 +15,7 @@ from desire_tui.engine.session.session import Session
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
+    from desire_tui.engine.session.kept_expressions import KeptExpressions
     from desire_tui.engine.session.prepared_run import PreparedRun
     from desire_tui.engine.session.session import BackendName
     from desire_tui.engine.source import Source
@@ -31,6 +32,8 @@ class LoadOptions(NamedTuple):
     backend: BackendName = "native"
     allow_shell: bool = False
     allow_write: bool = False
+    keep: KeptExpressions | None = None
+    """Expressions that runs sample besides what the program displays."""
 
 
 class Way(NamedTuple):
@@ -71,6 +74,7 @@ class Instance:
             self.listener, backend=options.backend, elements_most=self._elements,
             permissions=Permissions(shell=options.allow_shell, files=options.allow_write),
         )  # fmt: skip
+        self.session.keep(options.keep)
         self._reach()
 
     def _reach(self) -> None:

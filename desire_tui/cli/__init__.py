@@ -12,8 +12,9 @@ from desire_tui.cli.group import ide, main
 from desire_tui.cli.information import config, examples, help_
 from desire_tui.cli.run_command import run
 from desire_tui.cli.serve_command import serve, served
+from desire_tui.cli.study_command import study
 
-for _command in (ide, run, check, help_, examples, config, completion, serve, served):
+for _command in (ide, run, check, help_, examples, config, completion, serve, served, study):
     main.add_command(_command)
 
 __all__ = ["check", "main", "run"]

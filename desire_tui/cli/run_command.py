@@ -21,7 +21,8 @@ _OUTPUT = click.Path(writable=False, readable=False, allow_dash=True)
 _Command = TypeVar("_Command", bound="Callable[..., Any]")
 
 
-def _settings(_: click.Context, __: click.Parameter, values: tuple[str, ...]) -> dict[str, float]:
+def settings(_: click.Context, __: click.Parameter, values: tuple[str, ...]) -> dict[str, float]:
+    """Read `--set`."""
     if not values:
         return {}
     from desire_tui.batch.set_option import from_texts
@@ -62,7 +63,7 @@ def _output_options(command: _Command) -> _Command:
 @click.option("--style", type=click.Choice(["paper", "screen"]),
               help="Pictures dark on white, or in the program's colours. [default: paper, unless it uses "
               "display N or C]")  # fmt: skip
-@click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", callback=_settings,
+@click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", callback=settings,
               help="Override the script's own values: a=3, v[2]=3, v=1,2,3, A=1,2;3,4.")  # fmt: skip
 @click.option("--go", is_flag=True, help="Continue after every STOP.")
 @click.option("--input", "answers", metavar="F", type=_OUTPUT, help="File with the lines that `input` reads.")

@@ -24,7 +24,7 @@ import numpy as np
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -105,6 +105,8 @@ class Values:
         self.data: NDArray[np.float64] = np.frombuffer(view, dtype=np.float64)
         self.defined = bytearray(1024)
         self.random = np.zeros(1, dtype=np.uint64)
+        self.seeding: Callable[[int], int] | None = None
+        """In a study: what SEED makes of its state, so that each run draws numbers of its own."""
         self.names: dict[str, Quantity] = {}
         self.generation = 0
         self._scalars = 0

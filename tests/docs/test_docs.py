@@ -72,7 +72,13 @@ def test_command_lines_in_the_documentation_work(commands, shown, tmp_path, monk
         words = shlex.split(line, comments=True)
         if words[:1] == ["make"]:
             assert set(words[1:]) <= targets, line
-        elif words[:1] == ["desire"] and words[1:2] in (["run"], ["check"], ["help"], ["completion"]):
+        elif words[:1] == ["desire"] and words[1:2] in (
+            ["run"],
+            ["check"],
+            ["help"],
+            ["completion"],
+            ["study"],
+        ):
             result = CliRunner().invoke(main, words[1:])
             assert result.exit_code == 0, f"{line}\n{result.output}"
 

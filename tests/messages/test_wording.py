@@ -59,6 +59,15 @@ ELSEWHERE = {
     "set-no-array": "tests/batch/test_headless.py::test_a_setting_the_program_has_no_use_for",
     "program-missing": "tests/batch/test_headless.py::test_files_that_are_no_programs",
     "file-unreadable": "tests/batch/test_headless.py::test_files_that_are_no_programs",
+    "study-form": "tests/studies/test_forms.py::test_what_cannot_be_kept",
+    "study-twice": "tests/studies/test_forms.py::test_what_varies_twice",
+    "study-empty": "tests/studies/test_forms.py::test_studies_of_no_runs",
+    "study-too-large": "tests/studies/test_study.py::test_a_study_too_large_for_the_machine_is_refused_with_its_size",
+    "study-store": "tests/studies/test_stores.py::test_another_study_does_not_go_on_with_a_store",
+    "study-store-there": "tests/studies/test_stores.py::test_another_study_does_not_go_on_with_a_store",
+    "study-cluster": "tests/studies/test_cluster.py::test_a_scheduler_that_is_not_there",
+    "study-library": "tests/studies/test_study.py::test_a_library_that_is_missing_is_said_first",
+    "study-no-run": "tests/studies/test_study.py::test_a_script_without_a_run",
     "file-binary": "tests/batch/test_headless.py::test_files_that_are_no_programs",
 }
 """Messages that no program text alone produces, and the tests that do."""

@@ -72,10 +72,11 @@ def irule(context: StatementContext, node: Irule) -> Operation:
 
 def seed(context: StatementContext, node: Seed) -> Operation:
     """`SEED n`."""
-    number, random = context.truncated(node.value), context.values.random
+    number, values = context.truncated(node.value), context.values
 
     def action() -> None:
-        random[0] = seeded(number())
+        state = seeded(number())
+        values.random[0] = state if values.seeding is None else values.seeding(state)
 
     return context.then(action)
 

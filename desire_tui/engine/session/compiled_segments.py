@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.program import Program
     from desire_tui.engine.runtime.backend import Backend, Model
     from desire_tui.engine.runtime.plan import RunPlan
+    from desire_tui.engine.session.kept_expressions import KeptExpressions
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
 
@@ -50,6 +51,7 @@ class CompiledSegments:
         self._backend: Backend | None = None
         self._kept: dict[tuple[str | None, int], Segment] = {}
         self._backward: dict[int, tuple[Segment, Segment]] = {}
+        self._expressions: KeptExpressions | None = None
         self._generation = -1
         self._program: Program | None = None
         self._histories: dict[str | None, tuple[Segment, tuple[int, ...], int]] = {}
@@ -84,10 +86,20 @@ class CompiledSegments:
             if program.segment(label) is None:
                 key = "no-dynamic-segment" if label is None else "no-such-segment"
                 raise DesireError(Diagnostic(key, facts={"label": label}))
-            from desire_tui.engine.lowering.lowering import lower
-
-            known = self._kept[label, rule] = lower(program, label, self._values, structure, rule)
+            known = self._kept[label, rule] = self._lower(program, label, structure, rule)
         return known
+
+    def keep(self, expressions: KeptExpressions | None) -> None:
+        """Let every segment made from now on compute and sample some expressions besides its own."""
+        self._expressions = expressions
+        self.forget()
+
+    def _lower(self, program: Program, label: str | None, structure: Structure, rule: int) -> Segment:
+        if self._expressions is not None:
+            return self._expressions.lower(program, label, self._values, structure, rule)
+        from desire_tui.engine.lowering.lowering import lower
+
+        return lower(program, label, self._values, structure, rule)
 
     def _holds(self, segment: Segment) -> bool:
         """Whether the numbers that a segment was compiled with are what they were."""

@@ -60,6 +60,8 @@ class RunStart:
     initial: Assignments = ()
     t0: float | None = None
     t1: float | None = None
+    random: int | None = None
+    """Where the run's random numbers begin."""
 
 
 class PreparedRun:
@@ -209,6 +211,8 @@ class PreparedRun:
                 assign(slot, value)
         for slot, value in start.initial:
             assign(slot, value)
+        if start.random is not None:
+            self.values.random[0] = start.random
         if start.t0 is not None:
             assign(T, start.t0)
         if start.t1 is not None:

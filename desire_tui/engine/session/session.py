@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.outputs.picture_options import PictureOptions
     from desire_tui.engine.runtime.run_record import RunRecord
+    from desire_tui.engine.session.kept_expressions import KeptExpressions
     from desire_tui.engine.session.listener import StoppedAt
     from desire_tui.engine.session.prepared_run import PreparedRun
     from desire_tui.engine.session.quantity_plots import PlotOutcome
@@ -214,6 +215,10 @@ class Session:
         for name in settings:
             name_and_subscripts(name)
         self._workspace.overrides = dict(settings)
+
+    def keep(self, expressions: KeptExpressions | None) -> None:
+        """Let every run from now on compute and sample some expressions besides its program's own."""
+        self._workspace.segments.keep(expressions)
 
     def set_breakpoints(self, lines: Iterable[int]) -> None:
         """Stop the script before these lines (from 1) of the active program, as at a STOP.

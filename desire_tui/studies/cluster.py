@@ -1,0 +1,116 @@
+"""Chunks of a study on other processes and machines, by Dask's `distributed`: its scheduler, its workers."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.studies.chunk import run_chunk
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from desire_tui.studies.plan import Plan
+    from desire_tui.studies.task import Chunk, Task
+
+FIRST = 64
+SECONDS = 2.0
+"""How long a chunk should take: a thousand times what scheduling it costs."""
+NUMBERS_MOST = 1 << 21
+"""Numbers that one chunk may keep: 16 MB to be sent."""
+WAITING_EACH = 3
+"""Chunks for each thread of the cluster that are given out at a time."""
+REPEATS_MOST = 8
+"""So often a chunk runs again whose worker died."""
+CONNECT_SECONDS = 10.0
+
+
+@contextmanager
+def cluster_of(given: Any, workers: int | None = None) -> Iterator[Any]:
+    """Lend a `distributed.Client`: the one given, one at an address, or one with local worker processes.
+
+    DesireError 514: there is no scheduler at the address; 516: the library is not there.
+    """
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError:
+        facts = {"what": "a cluster", "library": "distributed"}
+        raise DesireError(Diagnostic("study-library", None, facts)) from None
+    if isinstance(given, Client):
+        yield given
+        return
+    if given is None:
+        with (  # its types are not written down
+            LocalCluster(
+                n_workers=workers, threads_per_worker=1, dashboard_address=None, silence_logs=50
+            ) as cluster,
+            Client(cluster) as client,
+        ):
+            yield client
+        return
+    try:
+        client = Client(given, timeout=CONNECT_SECONDS)
+    except (OSError, TimeoutError, ValueError) as error:
+        raise _unreachable(str(given), error) from None
+    with client:
+        yield client
+
+
+def chunks_by_cluster(plan: Plan, missing: Iterable[tuple[int, int]], cluster: Any) -> Iterator[Chunk]:
+    """Yield what runs gave, in the order in which they come. DesireError 514: the scheduler has gone."""
+    with cluster_of(cluster) as client:
+        try:
+            yield from _chunks(plan, missing, client)
+        except _lost() as error:
+            raise _unreachable(client.scheduler_info().get("address", ""), error) from None
+
+
+def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iterator[Chunk]:
+    from distributed import as_completed
+
+    size, most = FIRST, max(1, NUMBERS_MOST // max(plan.kept.size, 1))
+    stretches = list(missing)[::-1]
+    task = client.scatter(plan.task, broadcast=True, hash=False)
+    coming = as_completed(with_results=True)
+    under_way: dict[str, Any] = {}
+    threads = max(sum(client.nthreads().values()), 1)
+    while stretches or under_way:
+        while stretches and len(under_way) < WAITING_EACH * threads:
+            first, runs = stretches.pop()
+            count = min(runs, size, -(-runs // threads) + FIRST)
+            if count < runs:
+                stretches.append((first + count, runs - count))
+            rows = plan.design.rows(first, count)
+            future = client.submit(timed_chunk, task, first, rows, pure=False, retries=REPEATS_MOST)
+            under_way[future.key] = future
+            coming.add(future)
+        future, (chunk, seconds) = next(coming)
+        del under_way[future.key]
+        future.release()
+        wanted = int(len(chunk.errors) * SECONDS / max(seconds, 1e-6))
+        size = max(1, min(most, wanted, 16 * size))
+        yield chunk
+
+
+def timed_chunk(task: Task, first: int, rows: NDArray[np.float64]) -> tuple[Chunk, float]:
+    """Make some runs; return what they gave, and the seconds that took. Carried out on a worker."""
+    began = perf_counter()
+    return run_chunk(task, first, rows), perf_counter() - began
+
+
+def _lost() -> tuple[type[BaseException], ...]:
+    from concurrent.futures import CancelledError
+
+    from distributed.comm import CommClosedError
+
+    return CommClosedError, CancelledError, OSError, TimeoutError
+
+
+def _unreachable(address: str, error: BaseException) -> DesireError:
+    reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+    return DesireError(Diagnostic("study-cluster", None, {"address": address, "reason": reason}))

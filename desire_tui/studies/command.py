@@ -1,0 +1,147 @@
+"""`desire study`: a program's runs for many values, from the command line."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+from desire_tui.batch.cli_commands import DONE, FAILED, LIMIT, report, source_named
+from desire_tui.batch.progress import short
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.studies.design import METHODS, Design
+from desire_tui.studies.design_forms import over_texts, points_of, sample_texts
+from desire_tui.studies.output import check_ending, summary, write
+from desire_tui.studies.study import Study
+from desire_tui.studies.task import Task
+
+if TYPE_CHECKING:
+    from typing import IO
+
+    from desire_tui.studies.study import Progress
+
+_BAR = 20
+_REDRAW_SECONDS = 0.1
+_SHOW_AFTER_SECONDS = 0.5
+
+
+def study_file(name: str, options: dict[str, Any]) -> int:
+    """Make a study; returns the exit status: 0 done, 1 it cannot be made or all runs failed, 3 stopped."""
+    try:
+        output = None if options["output"] is None else Path(options["output"])
+        if output is not None:
+            check_ending(output)
+        study = _planned(name, options, output)
+        shown = _ProgressLine(sys.stderr) if sys.stderr.isatty() and not options["quiet"] else None
+        status = _run(study, options, shown)
+        return _tell(study, output, status, quiet=options["quiet"])
+    except DesireError as error:
+        report(error.diagnostics)
+        return FAILED
+
+
+def _planned(name: str, options: dict[str, Any], output: Path | None) -> Study:
+    source = source_named(name)
+    seed = options["seed"]
+    method = next(known for known in METHODS if known == options["design"])
+    design = Design(
+        over_texts(options["over"]),
+        sample_texts(options["sample"]),
+        points_of(options["points"]),
+        options["runs"],
+        method,
+        0 if seed is None else seed,
+    )
+    task = Task(
+        text=source.text,
+        name=source.name,
+        path=None if source.path is None else str(source.path.absolute()),
+        keep=", ".join(options["keep"]),
+        names=design.names,
+        fixed=tuple(options["settings"].items()),
+        seed=seed,
+        segment=options["segment"],
+        backend=options["backend"],
+        allow_shell=options["allow_shell"],
+        allow_write=options["allow_write"],
+        fast=options["fast"],
+    )
+    store = output if output is not None and output.suffix == ".zarr" else None
+    if options["resume"] and store is None:
+        facts = {"what": "--resume needs a folder to go on with", "remedy": "-o results.zarr"}
+        raise DesireError(Diagnostic("study-form", None, facts))
+    return Study(task, design, store=store, resume=options["resume"])
+
+
+def _run(study: Study, options: dict[str, Any], shown: _ProgressLine | None) -> int:
+    try:
+        if options["workers"] is None and options["cluster"] is None:
+            study.run(options["threads"], progress=shown)
+        else:
+            from desire_tui.studies.cluster import cluster_of
+
+            with cluster_of(options["cluster"], options["workers"]) as client:
+                study.run(cluster=client, progress=shown)
+    except KeyboardInterrupt:
+        return LIMIT
+    finally:
+        if shown is not None:
+            shown.clear()
+    return DONE
+
+
+def _tell(study: Study, output: Path | None, status: int, *, quiet: bool) -> int:
+    result = study.result()
+    if output is not None and output.suffix != ".zarr":
+        write(result, output)
+    failures, runs = study.store.failures, study.plan.runs
+    for line in failures.lines():
+        sys.stderr.write(f"{line}\n")
+    if status == LIMIT:
+        sys.stderr.write(
+            "stopped by the user; what was made is kept\n" if output else "stopped by the user\n"
+        )
+    if not quiet:
+        shape = " × ".join(f"{axis.size} {axis.name}" for axis in study.plan.design.axes)
+        sys.stdout.write(f"{runs} runs ({shape}), {failures.count} failed\n")
+        if output is None or output.suffix != ".zarr":
+            sys.stdout.write("".join(f"{line}\n" for line in summary(result)))
+    return FAILED if status == DONE and failures.count == runs else status
+
+
+class _ProgressLine:
+    """A line on the terminal that shows how far a study is."""
+
+    def __init__(self, terminal: IO[str]) -> None:
+        self._terminal, self._drawn = terminal, monotonic() + _SHOW_AFTER_SECONDS - _REDRAW_SECONDS
+        self._is_shown = False
+
+    def __call__(self, progress: Progress) -> None:
+        """Redraw it."""
+        now = monotonic()
+        if now - self._drawn < _REDRAW_SECONDS:
+            return
+        self._drawn, self._is_shown = now, True
+        full = round(_BAR * progress.made / progress.runs)
+        failed = f" · {progress.failed} failed" if progress.failed else ""
+        self._terminal.write(
+            f"\r\x1b[K{'━' * full}{'╌' * (_BAR - full)} {short(progress.made)} / {short(progress.runs)} runs"
+            f"{failed} · {_span(progress.seconds_left)} left"
+        )
+        self._terminal.flush()
+
+    def clear(self) -> None:
+        """Remove it."""
+        if self._is_shown:
+            self._terminal.write("\r\x1b[K")
+            self._terminal.flush()
+
+
+def _span(seconds: float | None) -> str:
+    if seconds is None:
+        return "…"
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    minutes = seconds / 60
+    return f"{minutes:.0f} min" if minutes < 100 else f"{minutes / 60:.1f} h"

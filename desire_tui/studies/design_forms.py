@@ -1,0 +1,130 @@
+"""What varies, as users write it: `UC=0.2:0.3:101`, `k=normal(40,4), r=…`, a CSV file; arrays and dicts."""
+
+from __future__ import annotations
+
+import csv
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.files import read_source
+from desire_tui.studies.distributions import EXAMPLE as DRAWN
+from desire_tui.studies.distributions import Distribution, distribution, read
+from desire_tui.studies.texts import name_and_rest, number, split, whole
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from desire_tui.studies.texts import Piece
+
+    Floats = NDArray[np.float64]
+
+EXAMPLE = "UC=0.2:0.3:101 (from, to, how many), k=1:1000:4:log, lead=0,5,10"
+COUNT_MOST = 1 << 40
+
+
+def over_texts(texts: Iterable[str]) -> dict[str, Floats]:
+    """Read `UC=0.2:0.3:101`, `lead=0,5,10`, one quantity each. DesireError 510, 511."""
+    found: dict[str, Floats] = {}
+    for text in texts:
+        piece = whole(text, "--over")
+        name, rest = name_and_rest(piece, EXAMPLE)
+        if name in found:
+            raise DesireError(Diagnostic("study-twice", None, {"name": name}))
+        found[name] = values(rest)
+    return found
+
+
+def values(piece: Piece) -> Floats:
+    """Read `0.2:0.3:101`, `1:1000:4:log`, `0,5,10`. DesireError 510, 511."""
+    parts = list(split(piece, ":"))
+    if len(parts) == 1:
+        return np.array([number(part, EXAMPLE) for part in split(piece)])
+    is_log = len(parts) == 4 and parts[3].text == "log"
+    if len(parts) != 3 and not is_log:
+        raise piece.wrong(f"'{piece.text}' names no values", f"from:to:count, for instance {EXAMPLE}")
+    first, last, count = number(parts[0], EXAMPLE), number(parts[1], EXAMPLE), number(parts[2], EXAMPLE)
+    if count != int(count) or not 0 <= count <= COUNT_MOST:
+        raise parts[2].wrong(f"{count:g} is no number of values", f"from:to:count, for instance {EXAMPLE}")
+    if count == 0:
+        facts = {"what": f"'{piece.text}' has no values", "remedy": "a count of 1 or more"}
+        raise DesireError(Diagnostic("study-empty", None, facts))
+    if is_log:
+        if not (first > 0.0 and last > 0.0):
+            raise piece.wrong("a logarithmic scale has no 0 and nothing below", "from and to above 0")
+        return np.geomspace(first, last, int(count))
+    return np.linspace(first, last, int(count))
+
+
+def sample_texts(texts: Iterable[str]) -> dict[str, Distribution]:
+    """Read `k=normal(40,4), r=lognormal(0,0.2)`. DesireError 510."""
+    found: dict[str, Distribution] = {}
+    for text in texts:
+        for piece in split(whole(text, "--sample")):
+            name, rest = name_and_rest(piece, DRAWN)
+            if name in found:
+                raise DesireError(Diagnostic("study-twice", None, {"name": name}))
+            found[name] = read(rest)
+    return found
+
+
+def over_mapping(given: Mapping[str, Any] | None) -> dict[str, Floats]:
+    """Return axes from numbers, lists, arrays or texts by names. ValueError: no finite numbers."""
+    return {_name(name): _numbers(name, value) for name, value in (given or {}).items()}
+
+
+def sample_mapping(given: Mapping[str, Any] | None) -> dict[str, Distribution]:
+    """Return distributions from texts or frozen ones of scipy by names. DesireError 510."""
+    return {_name(name): distribution(value, f"sample[{name!r}]") for name, value in (given or {}).items()}
+
+
+def points_of(given: Any) -> dict[str, Floats]:
+    """Return columns of a table: a file of comma-separated values, a DataFrame, lists by names."""
+    if given is None:
+        return {}
+    if isinstance(given, str) or hasattr(given, "__fspath__"):
+        from pathlib import Path
+
+        return points_file(Path(given))
+    return {_name(str(name)): _numbers(str(name), given[name]) for name in given}
+
+
+def points_file(path: Path) -> dict[str, Floats]:
+    """Read a file whose first line holds names, the others numbers. DesireError 38, 510."""
+    source = read_source(path)
+    rows = [row for row in csv.reader(source.text.splitlines()) if any(cell.strip() for cell in row)]
+    if not rows:
+        raise DesireError(
+            Diagnostic("study-empty", None, {"what": f"{path} is empty", "remedy": "names, then numbers"})
+        )
+    names = [
+        name_and_rest(whole(f"{cell}=", str(path))._replace(text=f"{cell.strip()}=0"), "k,x0")[0]
+        for cell in rows[0]
+    ]
+    columns: list[list[float]] = [[] for _ in names]
+    for line, row in enumerate(rows[1:], 2):
+        if len(row) != len(names):
+            text = whole(",".join(row), f"{path}:{line}")
+            raise text.wrong(
+                f"{len(row)} values stand in a line of {len(names)}", "one for each name in the first line"
+            )
+        for cell, column in zip(row, columns, strict=True):
+            column.append(number(whole(cell, f"{path}:{line}"), "0.25"))
+    return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
+
+
+def _name(text: str) -> str:
+    return name_and_rest(whole(f"{text}=0", "names"), "k, a[2]")[0]
+
+
+def _numbers(name: str, value: Any) -> Floats:
+    if isinstance(value, str):
+        return values(whole(value, f"over[{name!r}]"))
+    numbers = np.atleast_1d(np.asarray(value, dtype=np.float64))
+    if numbers.ndim != 1 or not np.isfinite(numbers).all():
+        raise ValueError(f"{name} varies over finite numbers, a list of them or an array, not {value!r}")
+    return numbers

@@ -1,0 +1,146 @@
+"""A program whose script is one run: that run made again and again, each time with other values."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.api.instance import Instance, LoadOptions
+from desire_tui.api.settings import way_of
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.session.prepared_run import RunStart
+from desire_tui.studies.keep import kept
+from desire_tui.studies.reductions import reduce
+from desire_tui.studies.streams import first_state, stream
+from desire_tui.studies.task import Chunk
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.runtime.run_record import RunRecord
+    from desire_tui.studies.keep import Kept
+    from desire_tui.studies.task import Task
+
+    Floats = NDArray[np.float64]
+
+
+_GATHERED_MOST, _RUNS_MOST = 1 << 17, 256
+"""Numbers, runs whose samples wait at most."""
+
+
+class PreparedProgram:
+    """Lives on one thread at a time. DesireError: the program does not come to a run; a name cannot vary."""
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        self.kept = kept(task.keep)
+        self._names = (*task.names, *(name for name, _ in task.fixed))
+        self._fixed = np.array([value for _, value in task.fixed])
+        self._expressions = self.kept.expressions()
+        options = LoadOptions(
+            task.segment, task.answers, task.backend, task.allow_shell, task.allow_write, self._expressions
+        )
+        self.instance = Instance(task.source, options)
+        self.way = way_of(self._names, self.instance)
+
+    def settings(self, rows: Floats) -> Floats:
+        """Return the values of everything that is set: what varies, then what is fixed."""
+        return np.concatenate([rows, np.broadcast_to(self._fixed, (len(rows), len(self._fixed)))], axis=1)
+
+    def first_state(self) -> int:
+        """Return where the random numbers of run 0 begin."""
+        return first_state(self.task.seed, int(self.instance.prepared.base.saved.random[0]))
+
+    def chunk(self, first: int, rows: Floats, stopped: Callable[[], bool]) -> Chunk:
+        """Make runs one after the other."""
+        made = Chunk.empty(first, len(rows), self.kept.size)
+        self._one_by_one(made, range(len(rows)), self.settings(rows), stopped)
+        return made
+
+    def end(self) -> None:
+        """End the run that goes on; from any thread."""
+        self.instance.prepared.end()
+
+    def _one_by_one(
+        self, made: Chunk, places: Iterable[int], settings: Floats, stopped: Callable[[], bool]
+    ) -> None:
+        """Make the runs at some places of a chunk; what they sample is reduced for several at a time."""
+        gathered, numbers = _Gathered(self.kept.items), settings.tolist()
+        for place in places:
+            if stopped():
+                break
+            number = made.first + place
+            try:
+                record = self._record(number, numbers[place])
+            except DesireError as error:
+                made.errors[place] = made.failures.note(number, error.diagnostics[0])
+                continue
+            gathered.add(place, self._columns(record))
+            if gathered.is_full:
+                gathered.reduce_into(made)
+        gathered.reduce_into(made)
+
+    def _record(self, number: int, row: list[float]) -> RunRecord:
+        instance, way = self.instance, self.way
+        if way.slots is None:
+            instance.override(dict(zip(self._names, row, strict=True)))
+        start = RunStart(
+            settings=() if way.slots is None else tuple(zip(way.slots, row, strict=True)),
+            follow=way.follow,
+            random=stream(self.first_state(), number),
+        )
+        record, error = instance.prepared.run(start, (), _NOBODY)
+        if error is None and record.ended == "stopped":
+            error = DesireError(Diagnostic("stopped-by-user", source=self.task.source))
+        if error is not None:
+            raise error
+        return record
+
+    def _columns(self, record: RunRecord) -> Floats:
+        """Return times and what is kept at them: (samples, 1 + items)."""
+        names = [column.name for column in record.columns]
+        taken = [0, *(1 + names.index(name) for name in self._expressions.names)]
+        return record.rows[: record.count, taken]
+
+
+class _Gathered:
+    """Samples of runs that wait to be reduced together."""
+
+    def __init__(self, items: tuple[Kept, ...]) -> None:
+        self._items = items
+        self._places: list[int] = []
+        self._samples: list[Floats] = []
+        self._numbers = 0
+
+    def add(self, place: int, samples: Floats) -> None:
+        """Add a run's."""
+        self._places.append(place)
+        self._samples.append(samples)
+        self._numbers += samples.size
+
+    @property
+    def is_full(self) -> bool:
+        """Whether there are enough of them."""
+        return self._numbers >= _GATHERED_MOST or len(self._places) >= _RUNS_MOST
+
+    def reduce_into(self, made: Chunk) -> None:
+        """Put what is kept of the runs into a chunk, and forget their samples."""
+        if not self._places:
+            return
+        counts = np.array([len(samples) for samples in self._samples])
+        table = np.zeros((1 + len(self._items), counts.max(), len(counts)))
+        for run, samples in enumerate(self._samples):
+            table[:, : len(samples), run] = samples.T
+        made.numbers[self._places] = reduce(self._items, table[0], list(table[1:]), counts)
+        self._places, self._samples, self._numbers = [], [], 0
+
+
+class _Nobody:
+    def block(self, record: RunRecord, first_row: int) -> None:
+        """Look at no samples while they come."""
+
+
+_NOBODY = _Nobody()

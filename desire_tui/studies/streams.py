@@ -1,0 +1,29 @@
+"""A stream of random numbers for each run, from the study's seed and the run's number alone.
+
+Run 0 draws as the program itself does behind `SEED seed` (without a seed: behind its own SEED). The streams
+of the others begin at places of the sequence that splitmix64 (Steele, Lea, Flood, 2014) takes from both.
+"""
+
+from __future__ import annotations
+
+from desire_tui.engine.random_sequence import BITS, seeded
+
+_MASK = (1 << 64) - 1
+_GOLDEN = 0x9E3779B97F4A7C15
+
+
+def stream(state: int, number: int) -> int:
+    """Return where the random numbers of a run begin if those of run 0 begin at `state`."""
+    return state if number == 0 else _mixed(_mixed(state) + number * _GOLDEN) >> 64 - BITS
+
+
+def first_state(seed: int | None, own: int) -> int:
+    """Return where run 0 begins: at the seed, or without one where the program itself does."""
+    return own if seed is None else seeded(seed)
+
+
+def _mixed(z: int) -> int:
+    z = (z + _GOLDEN) & _MASK
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 & _MASK
+    z = (z ^ z >> 27) * 0x94D049BB133111EB & _MASK
+    return z ^ z >> 31

@@ -1,0 +1,52 @@
+"""Studies on worker processes: the same results, whatever dies."""
+
+from __future__ import annotations
+
+import os
+import signal
+
+import pytest
+
+import desire_tui
+from desire_tui import DesireError
+from desire_tui.studies import cluster
+
+NOISY = """k = 1 | DT = 0.01 | TMAX = 1 | NN = 101 | x = 1 | n = 0
+drun
+DYNAMIC
+d/dt x = n - k*x^3
+OUT
+n = gauss(0)
+dispt x
+"""
+SETTINGS = {"sample": {"k": "uniform(-0.6, 1)"}, "runs": 500, "seed": 7, "keep": "x[end], x@0:1:0.5"}
+
+
+def test_a_worker_that_dies_costs_its_chunk_only():
+    from distributed import Client, LocalCluster
+
+    alone = desire_tui.study(NOISY, **SETTINGS)
+    with (
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as two,
+        Client(two) as client,
+    ):
+        told = []
+
+        def kill_one(progress):
+            if not told:
+                os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+            told.append(progress)
+
+        found = desire_tui.study(NOISY, **SETTINGS, cluster=client, progress=kill_one)
+    assert len(told) > 1, "it died in the middle"
+    assert found.identical(alone)
+    assert 0 < found.attrs["failed"] < 500
+
+
+def test_a_scheduler_that_is_not_there(monkeypatch):
+    monkeypatch.setattr(cluster, "CONNECT_SECONDS", 0.3)
+    with pytest.raises(DesireError) as error:
+        desire_tui.study(NOISY, **SETTINGS, cluster="tcp://127.0.0.1:9")
+    problem = error.value.diagnostics[0]
+    assert problem.code == 514
+    assert "tcp://127.0.0.1:9 cannot be reached" in problem.message
