@@ -8,7 +8,7 @@ import sys
 from desire_tui.systems import reason_against
 
 COMMANDS = frozenset({
-    "run", "check", "help", "examples", "config", "completion", "serve", "served", "ide",
+    "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide",
 })  # fmt: skip
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 
