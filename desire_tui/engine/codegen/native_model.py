@@ -9,6 +9,8 @@ import numpy as np
 
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
+from desire_tui.engine.codegen.loop.register_storage import ModeRows
+from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
 from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
@@ -68,6 +70,8 @@ class NativeModel:
         self._vital = np.array(vital, dtype=np.int64)
         self._vital_slots = self._columns[self._vital]
         self._passes = passes_of(segment, variable=variable)
+        if switching is not None:
+            self._passes |= {"watch_stage": switching.stage_pass, "watch_end": switching.end_pass}
         self._tables = PieceTables(self._store, self._passes)
         self._temps = np.zeros(self._tables.temps)
         self.context = WorkMemory(values=values.address, temps=self._temps.ctypes.data)
@@ -76,11 +80,12 @@ class NativeModel:
         self._kept: list[object] = []
         self._stage_memory()
         self._watcher: Watcher | None = None
+        self._watched = NOTHING
+        self._modes: ModeRows | None = None
         if switching is not None:
             self._watch(switching)
-        watched = self._watcher is not None
         contiguous = bool((np.diff(self._states) == 1).all())
-        self._loop = array_loop(rule, contiguous=contiguous, watched=watched)
+        self._loop = array_loop(rule, contiguous=contiguous, watched=self._watched)
         self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
         self.improved = False
@@ -108,6 +113,12 @@ class NativeModel:
     def _watch(self, switching: Switching) -> None:
         """Prepare what sees to the segment's switches."""
         values, segment, context = self._values, self._segment, self.context
+        self._watched = Watched(bool(switching.clocks), bool(switching.modes))
+        slots = switching.slots
+        self._modes = ModeRows(slots.frozen, slots.first, slots.second, switching.count)
+        context.mode_count = switching.count
+        for row in ("frozen", "first", "second"):
+            setattr(context, f"modes_{row}", values.address + 8 * getattr(slots, row))
         ranges = [(s.slot, s.first, s.count) for s in segment.states]
         inner = {"modes": switching.live_pass, "derivative": self._passes["derivative"]}
         functions = PassFunctions(self._store, values, segment.order, inner, frozenset())
@@ -130,7 +141,7 @@ class NativeModel:
         if small:
             states, columns = self._states.tolist(), self._columns.tolist()
             self._loop = register_loop(self._passes, self._rule, states, columns, self._vital_slots.tolist(),
-                                       watched=self._watcher is not None)  # fmt: skip
+                                       watched=self._watched, modes=self._modes)  # fmt: skip
         self._better = self._store.fast(self._loop, slp=not small or self._segment.order >= PAIRED_LEAST)
         self.context.hurry = 1
         yield

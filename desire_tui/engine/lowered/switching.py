@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Vec
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,33 +28,86 @@ def has_bounds(value: Value) -> bool:
     return value.name in _BOUNDED if isinstance(value, Op) else isinstance(value, Const | Load | Table1)
 
 
+class Threshold(IntEnum):
+    """Where a jump's argument makes it jump."""
+
+    ZERO = 0
+    UNIT = 1
+    """At -1 and 1."""
+    HALF = 2
+    """Half-way between whole numbers."""
+    WHOLE = 3
+    """At whole numbers but 0."""
+
+
+THRESHOLDS = {
+    "swtch": Threshold.ZERO, "sgn": Threshold.ZERO, "deadc": Threshold.UNIT, "rect": Threshold.UNIT,
+    "round": Threshold.HALF, "trnc": Threshold.WHOLE,
+}  # fmt: skip
+"""Of the operations that modes are computed by."""
+
+
+@dataclass(frozen=True)
+class ModeSlots:
+    """First slots of rows with a number for each mode.
+
+    `frozen`: in force while a step lasts. `live`: at the present t and states, of `arguments` there.
+    The others tell whether a mode may have switched inside a step (`passes.watch_passes`): `first` and
+    `second` are then other numbers than the frozen ones; `stage` holds arguments inside the step.
+    """
+
+    frozen: int
+    live: int
+    arguments: int
+    stage: int
+    first: int
+    second: int
+
+    ROWS = 6
+
+    @classmethod
+    def from_slot(cls, slot: int, room: int) -> ModeSlots:
+        """Lay the rows out one behind the other."""
+        return cls(*(slot + row * room for row in range(cls.ROWS)))
+
+
 @dataclass(frozen=True)
 class Mode:
     """Numbers that are constant while a step lasts: `count` of them, computed at one statement.
 
-    `rising`: only a change from 0 to 1 counts (`term`, `event`).
+    `name` is what the program calls it, `operation` the jump that computes it. `is_affine`: its argument is a
+    sum of t and states with constant factors while no mode switches. `rising`: only a change from 0 to 1
+    counts (`term`, `event`). `is_scalar`: not an array, not of one element either.
     """
 
     first: int
     count: int
     name: str
+    operation: str
     where: Where
+    is_affine: bool
+    is_scalar: bool
     rising: bool = False
+
+    def at(self, row: int) -> Value:
+        """Return what stands in a row of `ModeSlots`."""
+        return Load(row + self.first) if self.is_scalar else Vec(row + self.first, self.count)
 
 
 @dataclass(frozen=True)
 class Switching:
     """What may switch in a segment.
 
-    `modes` stand in a row from the slots `frozen` (in force) and `live` (at the present t and states) on;
-    `live_pass` computes the latter. `clocks` are the expressions of t that switch, each with its place,
-    `definitions` what the scalars in them mean.
+    `live_pass` computes the modes at the present t and states; `stage_pass` and `end_pass`, of rules without
+    an interpolant of their own, what tells at a step's end whether one may have switched in it. `clocks` are
+    the expressions of t that switch, each with its place, `definitions` what the scalars in them mean.
     """
 
     modes: tuple[Mode, ...]
-    frozen: int
-    live: int
+    slots: ModeSlots
     live_pass: tuple[Action, ...]
+    stage_pass: tuple[Action, ...]
+    end_pass: tuple[Action, ...]
     clocks: tuple[tuple[Value, Where], ...]
     definitions: Mapping[int, Value]
 

@@ -12,14 +12,16 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.effects import count_draws, expressions, role, writes
-from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2, Vec
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetMat, SetVec, Terminate
-from desire_tui.engine.lowered.switching import JUMPS, KINKS, Mode, Switching, has_bounds
+from desire_tui.engine.lowered.switching import JUMPS, KINKS, Mode, ModeSlots, Switching, has_bounds
 from desire_tui.engine.lowered.walk import simple_actions, walk_actions, walk_values
+from desire_tui.engine.passes.affine import Affinity
 from desire_tui.engine.passes.dead_code import without_dead_code
 from desire_tui.engine.passes.dependence import Dependence, Dependences
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.passes.slot_set import SlotSet
+from desire_tui.engine.passes.watch_passes import assignment, end_pass, stage_pass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -45,12 +47,13 @@ def switching(segment: Segment, allocate: Callable[[int], int]) -> tuple[Segment
     room = finder.room()
     if room == 0 and not finder.clocks:
         return segment, None
-    slots = allocate(2 * max(room, 1))
-    rewriter = _Rewriter(finder, slots, slots + room)
+    slots = ModeSlots.from_slot(allocate(ModeSlots.ROWS * max(room, 1)), room)
+    rewriter = _Rewriter(finder, slots)
     body = rewriter.body(segment.body)
+    modes, live = tuple(rewriter.modes), rewriter.live_pass()
     return replace(segment, body=body), Switching(
-        tuple(rewriter.modes), slots, slots + room, rewriter.live_pass(), tuple(finder.clocks),
-        finder.dependences.definitions,
+        modes, slots, live, stage_pass(live, modes, slots), end_pass(live, modes, slots),
+        tuple(finder.clocks), finder.dependences.definitions,
     )  # fmt: skip
 
 
@@ -74,6 +77,7 @@ class _Finder:
         self.dependences = Dependences(actions, segment.states, has_bounds)
         self.derivative = {id(action) for action in simple_actions(actions)}
         self.clocks: list[tuple[Value, Where]] = []
+        self.affinity = Affinity(self.dependences, segment.states)
         self.states = SlotSet()
         for given in segment.states:
             self.states.add(given.slot, given.count)
@@ -169,9 +173,9 @@ def extent(action: SimpleAction, node: Value) -> int:
 class _Rewriter:
     """Writes the segment's body over frozen modes, and the pass that computes them."""
 
-    def __init__(self, finder: _Finder, frozen: int, live: int) -> None:
+    def __init__(self, finder: _Finder, slots: ModeSlots) -> None:
         self._finder = finder
-        self._frozen, self._live = frozen, live
+        self._slots = slots
         self._used = 0
         self.modes: list[Mode] = []
         self._pass: list[Action] = []
@@ -195,8 +199,9 @@ class _Rewriter:
             elif isinstance(action, Terminate):
                 made.append(action)
                 if is_located(action):
-                    self._mode(Op("swtch", (self._value(excess(action), action, live)[1],)), 1, "term",
-                               action.where, live, rising=True)  # fmt: skip
+                    given = excess(action)
+                    self._mode("swtch", given, self._value(given, action, live)[1], "term", action.where,
+                               live, rising=True)  # fmt: skip
             elif id(action) in self._finder.derivative and not in_step:
                 made.append(self._statement(action, live))
             else:
@@ -217,8 +222,7 @@ class _Rewriter:
         if self._finder.is_watched(guard, in_step=in_step):
             frozen, now = self._value(guard.condition, None, live, guard.where)
             if self._finder.dependences.of(guard.condition) is Dependence.STATES:
-                slot = self._mode(Op("swtch", (now,)), 1, "if", guard.where, live)
-                frozen, now = Load(self._frozen + slot), Load(self._live + slot)
+                frozen, now = self._mode("swtch", guard.condition, now, "if", guard.where, live)
         then: list[Action] = []
         other: list[Action] = []
         body = self._actions(guard.body, then, in_step=inner)
@@ -235,29 +239,30 @@ class _Rewriter:
 
     def _mode(
         self,
-        value: Value,
-        count: int,
+        operation: str,
+        given: Value,
+        argument: Value,
         name: str,
         where: Where,
         live: list[Action],
         *,
         rising: bool = False,
         action: SimpleAction | None = None,
-    ) -> int:
-        """Add a mode; return its number."""
-        number, self._used = self._used, self._used + count
-        self.modes.append(Mode(number, count, name, where, rising))
-        slot = self._live + number
-        made: Action
-        if is_scalar(value):  # an array of one element is an array
-            made = Set(slot, value, where)
-        elif isinstance(action, SetMat):
-            made = SetMat(slot, action.rows, action.cols, value, where)
-        else:
-            made = SetVec(slot, count, value, where)
+    ) -> tuple[Value, Value]:
+        """Add a mode of an argument, `given` as the program has it; return it frozen and live."""
+        slots, scalar = self._slots, is_scalar(given)  # an array of one element is an array
+        count = 1 if scalar or action is None else extent(action, given)
+        mode = Mode(
+            self._used, count, name, operation, where, self._finder.affinity.is_affine(given), scalar, rising
+        )
+        self._used += count
+        self.modes.append(mode)
+        found = mode.at(slots.arguments)
+        made = assignment(mode, slots.live, Op(operation, (found,)))
+        live.append(_argument(mode, slots.arguments, argument, action))
         live.append(made)
         self._kept.add(id(made))
-        return number
+        return mode.at(slots.frozen), mode.at(slots.live)
 
     def _statement(self, action: SimpleAction, live: list[Action]) -> SimpleAction:
         def both(value: Value) -> tuple[Value, Value]:
@@ -326,12 +331,9 @@ class _Rewriter:
         same = all(pair[0] is argument for pair, argument in zip(pairs, value.args, strict=True))
         if value.name not in JUMPS or not self._finder.is_mode(value):
             return (value, value) if same else (Op(value.name, frozen_args), Op(value.name, live_args))
-        count = 1 if action is None else extent(action, value)
-        name = "swtch" if value.name == "comp" else value.name
-        number = self._mode(Op(name, live_args[:1]), count, value.name, where, live, action=action)
-        inside, outside = (
-            Load(base + number) if count == 1 else Vec(base + number, count)
-            for base in (self._frozen, self._live)
+        operation = "swtch" if value.name == "comp" else value.name
+        inside, outside = self._mode(
+            operation, value.args[0], live_args[0], value.name, where, live, action=action
         )
         if value.name != "comp":
             return inside, outside
@@ -340,3 +342,10 @@ class _Rewriter:
             Op("comp", (Op("sub", (inside, half)), *frozen_args[1:])),
             Op("comp", (Op("sub", (outside, half)), *live_args[1:])),
         )
+
+
+def _argument(mode: Mode, row: int, value: Value, action: SimpleAction | None) -> Action:
+    """Return the statement that computes a mode's argument as `action` would."""
+    if isinstance(action, SetMat) and not mode.is_scalar:
+        return SetMat(row + mode.first, action.rows, action.cols, value, mode.where)
+    return assignment(mode, row, value)

@@ -280,8 +280,9 @@ class StiffReferenceModel(ReferenceModel):
         memory.dt_most = max(memory.dt_most, cells[DT])
         memory.steps += 1
         if self.switches is not None:
-            problem.settled = 0
-            if self.switches.look(t_from, t):
+            found = self.switches.look_back(t_from, t)
+            problem.settled = int(found < 0)
+            if found > 0:
                 self._solution()[:] = self._states()
                 problem.t_step, problem.anew = cells[T], 1
             self._leave(problem.t_step, self._solution())

@@ -69,9 +69,9 @@ class Switches:
         """See `watch.limit`."""
         return watching.limit(self._watch, t, wish)
 
-    def look(self, t0: float, t1: float) -> int:
-        """See `watch.look`."""
-        return self._checked(watching.look(self._watch, t0, t1))
+    def look_back(self, t0: float, t1: float) -> int:
+        """See `watch.look_back`."""
+        return self._checked(watching.look_back(self._watch, t0, t1))
 
     def settle(self, t_next: float) -> int:
         """See `watch.settle`."""

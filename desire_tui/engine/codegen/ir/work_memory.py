@@ -10,9 +10,10 @@ from desire_tui.engine.runtime.run_memory import RunMemory
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.text import IrText
 
-PASSES = ("derivative", "step", "full", "tail", "renewal", "step_renewal")
+PASSES = ("derivative", "step", "full", "tail", "renewal", "step_renewal", "watch_stage", "watch_end")
 """The pass with its flags folded in: later stages, step starts, communication points, after `term`;
-derivatives computed anew behind communication points and behind other step starts (`passes.renewal`)."""
+derivatives computed anew behind communication points and behind other step starts (`passes.renewal`);
+what tells whether something may have switched in a step (`passes.watch_passes`)."""
 
 
 class WorkMemory(ctypes.Structure):
@@ -34,6 +35,8 @@ class WorkMemory(ctypes.Structure):
         ("tail", ctypes.c_uint64),
         ("renewal", ctypes.c_uint64),
         ("step_renewal", ctypes.c_uint64),
+        ("watch_stage", ctypes.c_uint64),
+        ("watch_end", ctypes.c_uint64),
         ("states", ctypes.c_int64),
         ("state_slots", ctypes.c_uint64),  # int64 slot of each state
         ("x", ctypes.c_uint64),  # first state, where the states stand in a row
@@ -52,6 +55,10 @@ class WorkMemory(ctypes.Structure):
         ("limit", ctypes.c_uint64),
         ("follow", ctypes.c_uint64),
         ("depart", ctypes.c_uint64),
+        ("mode_count", ctypes.c_int64),
+        ("modes_frozen", ctypes.c_uint64),  # rows of modes (`lowered.switching.ModeSlots`)
+        ("modes_first", ctypes.c_uint64),
+        ("modes_second", ctypes.c_uint64),
     )
 
 

@@ -181,6 +181,23 @@ class ArrayStorage:
         all_in_all = text.op(f"load double, ptr {total}")
         return lanes.compare("uno", all_in_all, all_in_all)
 
+    def switched(self) -> str:
+        """Whether some mode may have switched."""
+        text = self.text
+        frozen, first, second = (self.context.load(f"modes_{row}") for row in ("frozen", "first", "second"))
+        found = text.alloca("i1")
+        text.do(f"store i1 0, ptr {found}")
+
+        def one(i: str) -> None:
+            now = fetch(self.lanes, frozen, i)
+            differ = [self.lanes.compare("une", fetch(self.lanes, row, i), now) for row in (first, second)]
+            before = text.op(f"load i1, ptr {found}")
+            either = text.op(f"or i1 {differ[0]}, {differ[1]}")
+            text.do(f"store i1 {text.op(f'or i1 {before}, {either}')}, ptr {found}")
+
+        loop(text, "0", self.context.load("mode_count"), 1, one)
+        return text.op(f"load i1, ptr {found}")
+
     def keep_first_stage(self) -> None:
         """k1 stays in its array."""
 

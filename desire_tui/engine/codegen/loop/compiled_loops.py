@@ -10,8 +10,9 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
-from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
+from desire_tui.engine.codegen.loop.register_storage import ModeRows, RegisterStorage
 from desire_tui.engine.codegen.loop.run_loop import Driver
+from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
 from desire_tui.engine.integration.tableaus import TABLEAUS
 
 if TYPE_CHECKING:
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 
 
 @functools.cache
-def array_loop(rule: int, *, contiguous: bool, watched: bool = False) -> Piece:
-    """Write the loop over arrays: the same for all models of a rule; `watched`: those that switch."""
+def array_loop(rule: int, *, contiguous: bool, watched: Watched = NOTHING) -> Piece:
+    """Write the loop over arrays: the same for all models of a rule that watch the same."""
     text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
@@ -36,13 +37,14 @@ def register_loop(
     columns: list[int],
     vital: list[int],
     *,
-    watched: bool = False,
+    watched: Watched = NOTHING,
+    modes: ModeRows | None = None,
 ) -> Piece:
     """Write the loop of a small model, its passes in line; all are slots, `vital` some of the columns'."""
     text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
-    storage = RegisterStorage(text, passes, states, columns, vital, stages)
+    storage = RegisterStorage(text, passes, states, columns, vital, stages, modes)
     Driver(text, storage, tableau, watched=watched).write()
     return named(text)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.ir.cells import RegisterCells
 from desire_tui.engine.codegen.ir.lanes import Lanes
@@ -20,6 +20,15 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
 
 
+class ModeRows(NamedTuple):
+    """First slots of rows of `lowered.switching.ModeSlots`, and the number of modes."""
+
+    frozen: int
+    first: int
+    second: int
+    total: int
+
+
 class RegisterStorage:
     """Implements `storage.Storage`; passes are written in line."""
 
@@ -31,8 +40,10 @@ class RegisterStorage:
         columns: list[int],
         vital: list[int],
         stages: int,
+        modes: ModeRows | None = None,
     ) -> None:
         self.text = text
+        self.modes = modes
         self.passes = passes
         self.states = states
         self.columns = columns
@@ -44,6 +55,10 @@ class RegisterStorage:
         usage = survey(passes.values())
         self._changed = sorted((usage.written | {T, DT, ERRMAX, *states}) - usage.pinned)
         slots = usage.read | usage.written | {T, DT, ERRMAX, *states, *columns}
+        if modes is not None:
+            slots |= {
+                row + i for row in (modes.frozen, modes.first, modes.second) for i in range(modes.total)
+            }
         self.cells = RegisterCells(text, slots, usage.pinned)
         self.statements = ScalarStatements(text, self.cells)
         for number in range(len(states)):
@@ -155,6 +170,17 @@ class RegisterStorage:
     def vital_wild(self) -> str:
         """Whether some column that states depend on is inf or nan."""
         return self._is_wild([self.cells.load(slot) for slot in self.vital])
+
+    def switched(self) -> str:
+        """Whether some mode may have switched."""
+        found = "0"
+        if self.modes is not None:
+            for number in range(self.modes.total):
+                now = self.cells.load(self.modes.frozen + number)
+                for row in (self.modes.first, self.modes.second):
+                    differs = self.lanes.compare("une", self.cells.load(row + number), now)
+                    found = self.text.op(f"or i1 {found}, {differs}")
+        return found
 
     def keep_first_stage(self) -> None:
         """Put k1 into the context's array."""

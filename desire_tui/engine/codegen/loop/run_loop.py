@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE, FixedStep
 from desire_tui.engine.codegen.loop.frame import LoopFrame
-from desire_tui.engine.codegen.loop.switched_steps import SwitchedStep, write_departure
+from desire_tui.engine.codegen.loop.switched_steps import NOTHING, SwitchedStep, Watched, write_departure
 from desire_tui.engine.codegen.loop.variable_steps import VariableStep
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
@@ -32,15 +32,16 @@ if TYPE_CHECKING:
 class Driver(LoopFrame):
     """Writes the function `i32 @run(ptr memory, ptr context)`; `tableau` None: rule 0, no steps.
 
-    `watched`: something may switch inside a step (`loop.switched_steps`).
+    `watched`: what may switch inside a step (`loop.switched_steps`).
     """
 
     def __init__(
-        self, text: IrText, storage: Storage, tableau: Tableau | None, *, watched: bool = False
+        self, text: IrText, storage: Storage, tableau: Tableau | None, *, watched: Watched = NOTHING
     ) -> None:
         super().__init__(text, storage)
         self.tableau = tableau
-        self.watched = watched
+        self.watches = watched
+        self.watched = any(watched)
 
     def write(self) -> None:
         """Write the whole body."""
@@ -187,7 +188,7 @@ class Driver(LoopFrame):
         self.text.begin("step")
         self.storage.save()
         if self.watched:
-            SwitchedStep(self, tableau).write()
+            SwitchedStep(self, tableau, self.watches).write()
             return
         step = VariableStep if tableau.variable else FixedStep
         step(self, tableau).write()

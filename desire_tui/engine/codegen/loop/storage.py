@@ -59,6 +59,10 @@ class Storage(Protocol):
         """Return an i1: some column that states depend on is inf or nan."""
         ...
 
+    def switched(self) -> str:
+        """Return an i1: what the passes `watch_stage` and `watch_end` have found is not all in force."""
+        ...
+
     def keep_first_stage(self) -> None:
         """Put k1 where the next call finds it."""
 

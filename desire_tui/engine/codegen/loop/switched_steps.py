@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.loop.variable_steps import VariableStep
 from desire_tui.engine.integration.switching.memory import CHATTERS
@@ -11,6 +11,17 @@ from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.loop.frame import LoopFrame
+    from desire_tui.engine.integration.tableaus import Tableau
+
+
+class Watched(NamedTuple):
+    """What may switch inside a step: something that depends on t alone, modes."""
+
+    clocks: bool
+    modes: bool
+
+
+NOTHING = Watched(clocks=False, modes=False)
 
 
 def write_departure(driver: LoopFrame) -> None:
@@ -31,8 +42,15 @@ def write_departure(driver: LoopFrame) -> None:
 class SwitchedStep(VariableStep):
     """Writes a step that ends on the next switch of t, and is cut where a mode switches."""
 
+    def __init__(self, driver: LoopFrame, tableau: Tableau, watched: Watched) -> None:
+        super().__init__(driver, tableau)
+        self.watched = watched
+
     def _stop(self, here: str) -> str:
         context, text = self.driver.context, self.text
+        if not self.watched.clocks:
+            self.driver.put("t_stop", self.driver.get("t_next"))
+            return self.driver.get("t_stop")
         self.storage.leave()
         t_next = self.driver.get("t_next")
         arguments = f"ptr {context.load('watch')}, double {here}, double {t_next}"
@@ -48,9 +66,22 @@ class SwitchedStep(VariableStep):
             return t
         return self.lanes.choose(self.driver.get("lands"), self.driver.get("t_stop"), t)
 
+    def _stage_done(self, stage: int) -> None:
+        """See what the modes are where the tangents of the step's ends meet."""
+        if stage == 1 and self.watched.modes:
+            self.storage.run_pass("watch_stage", stage + 1)
+
     def _end(self, lands: str) -> None:
+        """Call for help where something may have switched; everything has to be in memory for that."""
         text, driver, storage = self.text, self.driver, self.storage
         context = driver.context
+        short = self.lanes.compare("olt", driver.get("t_stop"), driver.get("t_next"))
+        looked = text.op(f"and i1 {lands}, {short}")
+        if self.watched.modes:
+            storage.run_pass("watch_end", 2)
+            looked = text.op(f"or i1 {looked}, {storage.switched()}")
+        text.branch(looked, "look", "followed")
+        text.begin("look")
         storage.leave()
         storage.keep_start()
         storage.keep_first_stage()

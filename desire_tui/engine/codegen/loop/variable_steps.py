@@ -64,6 +64,10 @@ class VariableStep:
             part = dt if c == 1.0 else lanes.mul(lanes.const(c), dt)
             self.storage.store(T, self._stage_time(c, lanes.add(driver.get("t_here"), part)))
             driver.run_pass("derivative", stage + 1)
+            self._stage_done(stage)
+
+    def _stage_done(self, stage: int) -> None:
+        """Go on behind a stage's pass, from 1."""
 
     def _stage_time(self, c: float, t: str) -> str:  # noqa: ARG002
         """Return a stage's time, `t` but for rounding; `c`: its place in the step."""

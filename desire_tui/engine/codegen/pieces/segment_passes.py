@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
 
 
-NO_MORE: dict[str, tuple[Action, ...]] = {"tail": (), "renewal": (), "step_renewal": ()}
+NO_MORE: dict[str, tuple[Action, ...]] = dict.fromkeys(
+    ("tail", "renewal", "step_renewal", "watch_stage", "watch_end"), ()
+)
 
 
 def passes_of(segment: Segment, *, variable: bool = False) -> dict[str, tuple[Action, ...]]:
@@ -22,7 +24,7 @@ def passes_of(segment: Segment, *, variable: bool = False) -> dict[str, tuple[Ac
     if all(type(action) is Deriv for action in segment.body):
         return dict.fromkeys(("derivative", "step", "full"), segment.body) | NO_MORE
     point, step = renewals(segment) if variable else ((), ())
-    return {
+    return NO_MORE | {
         "renewal": point,
         "step_renewal": step,
         "derivative": derivative_slice(segment),

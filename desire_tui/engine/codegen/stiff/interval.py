@@ -127,14 +127,14 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
     values[DT] = size
     record_step(memory, size)
     if problem.watch != 0:
-        problem.settled = 0
-        if problem.look(problem.watch, t_from, t) != 0:
+        found: int = problem.look(problem.watch, t_from, t)
+        if found >= 0:
+            problem.settled = 0
+        if found > 0:
             gather(problem)
             problem.t_step = values[T]
             problem.anew = 1
-            leave(problem, problem.t_step, states)
-        else:
-            leave(problem, t, states)
+        leave(problem, problem.t_step, states)
     return 0
 
 

@@ -129,7 +129,7 @@ class StiffModel:
         if self._watcher is not None:
             watching = watch_functions()
             problem.watch = self._watcher.address
-            problem.limit, problem.look = watching.limit, watching.look
+            problem.limit, problem.look = watching.limit, watching.look_back
             problem.settle, problem.depart = watching.settle, watching.depart
             self._watcher.connect(
                 watching.begin, self._modes, self._derivatives, natives.state_at, ctypes.addressof(problem)

@@ -15,14 +15,15 @@ from desire_tui.engine.codegen.plain_python.kinds import of_function
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
 from desire_tui.engine.integration import halving
-from desire_tui.engine.integration.switching import ahead, bounds, memory, operations, watch
+from desire_tui.engine.integration.switching import ahead, bounds, margins, memory, operations, watch
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
+from desire_tui.engine.lowered import switching as lowered_switching
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.linker import MachineCode
 
-_MODULES = (bounds, ahead, watch)
+_MODULES = (bounds, ahead, margins, watch)
 _ENGINE = files("desire_tui.engine")
 
 
@@ -31,8 +32,8 @@ def _source(name: str) -> bytes:
 
 
 _TEXTS = {module: _source(module.__name__) for module in _MODULES}
-_OTHERS = b"".join(_source(module.__name__) for module in (memory, operations, halving))
-_PUBLIC = ("begin", "limit", "look", "look_at_step", "place_on_step", "settle", "depart", "follow")
+_OTHERS = b"".join(_source(module.__name__) for module in (memory, operations, halving, lowered_switching))
+_PUBLIC = ("begin", "limit", "look_back", "place_on_step", "settle", "depart", "follow")
 _BEGIN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_double)
 _making = Lock()
 _made: list[WatchFunctions] = []
@@ -43,8 +44,7 @@ class WatchFunctions(NamedTuple):
 
     begin_at: int
     limit: int
-    look: int
-    look_at_step: int
+    look_back: int
     place_on_step: int
     settle: int
     depart: int

@@ -20,7 +20,7 @@ class Watch(ctypes.Structure):
     """A model's switches in a run.
 
     Modes: numbers that are constant while a step lasts. `frozen` are those in force, `live` what `modes`
-    computes from t and the states in the values; both stand in a row there.
+    computes from t and the states in the values, of `arguments`; each stand in a row there.
 
     Switches of t: a program (see `program`) over registers `low` and `high`.
     """
@@ -33,8 +33,11 @@ class Watch(ctypes.Structure):
         ("place", Place),
         ("owner", _ADDRESS),  # what `place` is called with
         ("count", _INT),  # of modes
-        ("frozen", _INT), ("live", _INT),  # first slots
+        ("frozen", _INT), ("live", _INT), ("arguments", _INT),  # first slots
         ("rising", _INTS),  # of each mode: 1 where only 0 → 1 counts (`term`, `event`)
+        ("thresholds", _INTS),  # of each mode: a `lowered.switching.Threshold`
+        ("at_start", _REALS),  # arguments at the step's start, and what they changed by in a unit of t
+        ("slopes", _REALS),
         ("switched", _INT),  # the mode that switched last; -1 - k: switch of t number k
         # states, and the step's polynomial for rules that have none of their own
         ("n", _INT),

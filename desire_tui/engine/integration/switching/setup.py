@@ -9,6 +9,7 @@ import numpy as np
 
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
 from desire_tui.engine.integration.switching.program import as_arrays, write
+from desire_tui.engine.lowered.switching import THRESHOLDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -32,9 +33,16 @@ class Watcher:
         self._program = program = write((clock for clock, _ in switching.clocks), switching.definitions)
         order = sum(count for _, _, count in ranges)
         watch.values = ctypes.cast(values.address, _REALS)
-        watch.count, watch.frozen, watch.live = switching.count, switching.frozen, switching.live
-        rising = [int(mode.rising) for mode in switching.modes for _ in range(mode.count)]
-        self._ints("rising", np.array(rising or [0], dtype=np.int64))
+        slots, each = switching.slots, [mode for mode in switching.modes for _ in range(mode.count)]
+        watch.count, watch.frozen, watch.live = switching.count, slots.frozen, slots.live
+        watch.arguments = slots.arguments
+        for name, numbers in (
+            ("rising", [int(mode.rising) for mode in each]),
+            ("thresholds", [int(THRESHOLDS[mode.operation]) for mode in each]),
+        ):
+            self._ints(name, np.array(numbers or [0], dtype=np.int64))
+        for name in ("at_start", "slopes"):
+            self._reals(name, np.zeros(max(len(each), 1)))
         self._ints("ranges", np.array(ranges, dtype=np.int64).reshape(-1))
         watch.n, watch.range_count = order, len(ranges)
         for name in ("x0", "f0", "x1", "f1"):

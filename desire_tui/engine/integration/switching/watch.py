@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.integration.switching.ahead import begin_ahead, inputs_changed, look_ahead
+from desire_tui.engine.integration.switching.margins import are_far, begin_margins
 from desire_tui.engine.integration.switching.memory import CHATTERS, JUMPED
 from desire_tui.engine.values import T
 
@@ -27,8 +28,8 @@ def begin(w: Watch, t: float) -> Int32:
     w.switched = 0
     if w.count != 0:
         w.modes(w.memory, w.f1_address)
-        for i in range(w.count):
-            w.values[w.frozen + i] = w.values[w.live + i]
+        accept_modes(w)
+        begin_margins(w)
     return 0
 
 
@@ -83,6 +84,25 @@ def look(w: Watch, t0: float, t1: float) -> Int32:
     w.place(w.owner, right)
     has_switched(w)
     return 1
+
+
+def look_back(w: Watch, t0: float, t1: float) -> Int32:
+    """Look at a step from t0 to t1, whose states are in the values, of a solver with an interpolant.
+
+    1: as `look`. 0: no mode has switched, but it is time to `settle`. -1: nothing has switched at all.
+    """
+    if w.count != 0 and t1 > t0:
+        w.modes(w.memory, w.f1_address)
+        if are_far(w, t1 - t0) == 0 and look(w, t0, t1) != 0:
+            return 1
+        accept_modes(w)
+    return 0 if w.found != 0 and w.last <= t1 else -1
+
+
+def accept_modes(w: Watch) -> None:
+    """Put into force what the modes are now."""
+    for i in range(w.count):
+        w.values[w.frozen + i] = w.values[w.live + i]
 
 
 def has_switched(w: Watch) -> int:
@@ -143,6 +163,7 @@ def take_modes(w: Watch, jumps: int) -> int:
                 result = JUMPED
     if result == 0:
         return 0
+    begin_margins(w)
     return result + chatter(w)
 
 
@@ -209,8 +230,7 @@ def follow(w: Watch, t0: float, t1: float, t_next: float) -> Int32:
     Where something has, t and the states in the values are other ones than before.
     """
     if look_at_step(w, t0, t1) == 0 and (w.found == 0 or w.last > t1):
-        for i in range(w.count):  # `live` is that at the end
-            w.values[w.frozen + i] = w.values[w.live + i]
+        accept_modes(w)
         return -1
     return settle(w, t_next)
 
