@@ -9,7 +9,7 @@ import numpy as np
 
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
-from desire_tui.engine.codegen.loop.register_storage import ModeRows
+from desire_tui.engine.codegen.loop.looks import looks
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
 from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.jit.background import Improver
     from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
+    from desire_tui.engine.codegen.loop.looks import Looks
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.switching import Switching
     from desire_tui.engine.values import Values
@@ -81,7 +82,7 @@ class NativeModel:
         self._stage_memory()
         self._watcher: Watcher | None = None
         self._watched = NOTHING
-        self._modes: ModeRows | None = None
+        self._looks: Looks | None = None
         if switching is not None:
             self._watch(switching)
         contiguous = bool((np.diff(self._states) == 1).all())
@@ -115,7 +116,7 @@ class NativeModel:
         values, segment, context = self._values, self._segment, self.context
         self._watched = Watched(bool(switching.clocks), bool(switching.modes))
         slots = switching.slots
-        self._modes = ModeRows(slots.frozen, slots.first, slots.second, switching.count)
+        self._looks = looks(switching)
         context.mode_count = switching.count
         for row in ("frozen", "first", "second"):
             setattr(context, f"modes_{row}", values.address + 8 * getattr(slots, row))
@@ -141,7 +142,7 @@ class NativeModel:
         if small:
             states, columns = self._states.tolist(), self._columns.tolist()
             self._loop = register_loop(self._passes, self._rule, states, columns, self._vital_slots.tolist(),
-                                       watched=self._watched, modes=self._modes)  # fmt: skip
+                                       watched=self._watched, looks=self._looks)  # fmt: skip
         self._better = self._store.fast(self._loop, slp=not small or self._segment.order >= PAIRED_LEAST)
         self.context.hurry = 1
         yield

@@ -4,7 +4,8 @@ Such a step is looked at on the parabola through its start, with the slope there
 lies within the triangle of its ends and of the point where their tangents meet, t + h/2 and x + h·x'/2: the
 second stage of rules 4 and 8 (that of rule 7, t + h and x + h·x', makes a wider triangle). An affine argument
 takes its largest and smallest values on the triangle's corners; what is constant between two thresholds is
-the same all over the triangle if it is so there. Other arguments are given twice the room that they move in.
+the same all over the triangle if it is so there. Other arguments are given twice the room that they move in,
+or must be three times as far from 0 as they have moved.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Const, Op
 from desire_tui.engine.lowered.statements import Guard, Set, SetMat, SetVec
+from desire_tui.engine.lowered.switching import THRESHOLDS, Threshold
 from desire_tui.engine.lowered.walk import with_bodies
 
 if TYPE_CHECKING:
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.lowered.switching import Mode, ModeSlots
 
-_ROOM = Const(2.0)
+_ROOM, _TIMES = Const(2.0), Const(3.0)
 
 
 def assignment(mode: Mode, row: int, value: Value) -> Action:
@@ -44,7 +46,7 @@ def stage_pass(live: Sequence[Action], modes: Iterable[Mode], slots: ModeSlots) 
         return [assignment(mode, slots.live, Op(mode.operation, (mode.at(slots.stage),)))]
 
     unsure: list[Action] = []  # where an `if` leaves a mode out, nothing has switched
-    for mode in _under_conditions(live, modes, slots):
+    for mode in conditional(live, modes, slots):
         unsure += [assignment(mode, row, mode.at(slots.frozen)) for row in (slots.first, slots.second)]
     return (*unsure, *_rewrite(live, _Places(modes, slots, argument, found)))
 
@@ -59,6 +61,17 @@ def end_pass(live: Sequence[Action], modes: Iterable[Mode], slots: ModeSlots) ->
         if is_bounded(mode):
             return [action, assignment(mode, slots.second, mode.at(slots.live))]
         start, stage, end = (mode.at(row) for row in (slots.arguments, slots.stage, slots.second))
+        if has_margin(mode):
+            moved = Op("add", tuple(Op("abs", (Op("sub", (end, other)),)) for other in (start, stage)))
+            margin = Op("sub", (Op("abs", (end,)), Op("mul", (_TIMES, moved))))
+            near = Op("swtch", (Op("neg", (mode.at(slots.stage),)),))
+            return [
+                assignment(mode, slots.live, Op(mode.operation, (end,))),
+                assignment(mode, slots.stage, margin),
+                assignment(mode, slots.arguments, end),
+                assignment(mode, slots.first, Op("add", (mode.at(slots.frozen), near))),
+                assignment(mode, slots.second, mode.at(slots.live)),
+            ]
         least = Op("min", (Op("min", (start, stage)), end))
         most = Op("max", (Op("max", (start, stage)), end))
         room = Op("mul", (_ROOM, Op("sub", (most, least))))
@@ -82,6 +95,11 @@ def end_pass(live: Sequence[Action], modes: Iterable[Mode], slots: ModeSlots) ->
 def is_bounded(mode: Mode) -> bool:
     """Whether a mode is the same between two places where it is, if its argument is so there."""
     return mode.is_affine and mode.operation != "rect"
+
+
+def has_margin(mode: Mode) -> bool:
+    """Whether `stage` is below 0 behind the step if a mode that is not bounded may have switched."""
+    return not is_bounded(mode) and THRESHOLDS[mode.operation] is Threshold.ZERO
 
 
 class _Places:
@@ -130,7 +148,7 @@ def _moved(action: Action, by: int) -> Action:
     raise AssertionError(action)
 
 
-def _under_conditions(live: Iterable[Action], modes: Iterable[Mode], slots: ModeSlots) -> list[Mode]:
+def conditional(live: Sequence[Action], modes: Iterable[Mode], slots: ModeSlots) -> list[Mode]:
     """Return the modes that are not computed in every pass."""
     always = {slot for action in live if not isinstance(action, Guard) for slot, _ in writes(action)}
     return [mode for mode in modes if slots.live + mode.first not in always]

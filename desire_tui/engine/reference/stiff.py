@@ -285,7 +285,8 @@ class StiffReferenceModel(ReferenceModel):
             if found > 0:
                 self._solution()[:] = self._states()
                 problem.t_step, problem.anew = cells[T], 1
-            self._leave(problem.t_step, self._solution())
+            if found >= 0:
+                self._leave(problem.t_step, self._solution())
         return 0
 
     def _take_up(self, bits: int, memory: RunMemory) -> Ended | None:

@@ -10,12 +10,14 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
-from desire_tui.engine.codegen.loop.register_storage import ModeRows, RegisterStorage
+from desire_tui.engine.codegen.loop.looks import no_looks
+from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
 from desire_tui.engine.codegen.loop.run_loop import Driver
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
 from desire_tui.engine.integration.tableaus import TABLEAUS
 
 if TYPE_CHECKING:
+    from desire_tui.engine.codegen.loop.looks import Looks
     from desire_tui.engine.lowered.statements import Action
 
 
@@ -38,13 +40,13 @@ def register_loop(
     vital: list[int],
     *,
     watched: Watched = NOTHING,
-    modes: ModeRows | None = None,
+    looks: Looks | None = None,
 ) -> Piece:
     """Write the loop of a small model, its passes in line; all are slots, `vital` some of the columns'."""
     text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
-    storage = RegisterStorage(text, passes, states, columns, vital, stages, modes)
+    storage = RegisterStorage(text, passes, states, columns, vital, stages, looks or no_looks())
     Driver(text, storage, tableau, watched=watched).write()
     return named(text)
 

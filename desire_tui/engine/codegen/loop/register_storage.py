@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.cells import RegisterCells
 from desire_tui.engine.codegen.ir.lanes import Lanes
@@ -16,17 +16,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.codegen.ir.text import IrText
+    from desire_tui.engine.codegen.loop.looks import Glance, Looks
     from desire_tui.engine.integration.tableaus import Row
     from desire_tui.engine.lowered.statements import Action
-
-
-class ModeRows(NamedTuple):
-    """First slots of rows of `lowered.switching.ModeSlots`, and the number of modes."""
-
-    frozen: int
-    first: int
-    second: int
-    total: int
 
 
 class RegisterStorage:
@@ -40,10 +32,10 @@ class RegisterStorage:
         columns: list[int],
         vital: list[int],
         stages: int,
-        modes: ModeRows | None = None,
+        looks: Looks,
     ) -> None:
         self.text = text
-        self.modes = modes
+        self.looks = looks.at
         self.passes = passes
         self.states = states
         self.columns = columns
@@ -53,12 +45,9 @@ class RegisterStorage:
         self.memory = memory_fields(text)
         self.context = context_fields(text)
         usage = survey(passes.values())
-        self._changed = sorted((usage.written | {T, DT, ERRMAX, *states}) - usage.pinned)
+        self._changed = sorted((usage.written | {T, DT, ERRMAX, *states}) - usage.pinned - looks.scratch)
         slots = usage.read | usage.written | {T, DT, ERRMAX, *states, *columns}
-        if modes is not None:
-            slots |= {
-                row + i for row in (modes.frozen, modes.first, modes.second) for i in range(modes.total)
-            }
+        slots |= {slot for glances in looks.at.values() for _, *pair in glances for slot in pair}
         self.cells = RegisterCells(text, slots, usage.pinned)
         self.statements = ScalarStatements(text, self.cells)
         for number in range(len(states)):
@@ -171,16 +160,23 @@ class RegisterStorage:
         """Whether some column that states depend on is inf or nan."""
         return self._is_wild([self.cells.load(slot) for slot in self.vital])
 
-    def switched(self) -> str:
+    def switched(self, kind: str) -> str:
         """Whether some mode may have switched."""
         found = "0"
-        if self.modes is not None:
-            for number in range(self.modes.total):
-                now = self.cells.load(self.modes.frozen + number)
-                for row in (self.modes.first, self.modes.second):
-                    differs = self.lanes.compare("une", self.cells.load(row + number), now)
-                    found = self.text.op(f"or i1 {found}, {differs}")
+        for look in self.looks[kind]:
+            found = self.text.op(f"or i1 {found}, {self._look(*look)}")
         return found
+
+    def _look(self, kind: Glance, slot: int, frozen: int) -> str:
+        lanes, zero = self.lanes, self.lanes.const(0.0)
+        value = self.cells.load(slot)
+        if kind == "margin":
+            return lanes.compare("ult", value, zero)
+        now = self.cells.load(frozen)
+        if kind == "differs":
+            return lanes.compare("une", value, now)
+        sides = [lanes.compare("ogt", each, zero) for each in (value, now)]
+        return self.text.op(f"xor i1 {sides[0]}, {sides[1]}")
 
     def keep_first_stage(self) -> None:
         """Put k1 into the context's array."""

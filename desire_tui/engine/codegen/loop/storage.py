@@ -59,8 +59,8 @@ class Storage(Protocol):
         """Return an i1: some column that states depend on is inf or nan."""
         ...
 
-    def switched(self) -> str:
-        """Return an i1: what the passes `watch_stage` and `watch_end` have found is not all in force."""
+    def switched(self, kind: str) -> str:
+        """Return an i1: by what `watch_stage` or `watch_end` has found, some mode may have switched."""
         ...
 
     def keep_first_stage(self) -> None:

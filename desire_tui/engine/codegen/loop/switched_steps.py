@@ -70,6 +70,7 @@ class SwitchedStep(VariableStep):
         """See what the modes are where the tangents of the step's ends meet."""
         if stage == 1 and self.watched.modes:
             self.storage.run_pass("watch_stage", stage + 1)
+            self.driver.put("looks", self.storage.switched("watch_stage"))
 
     def _end(self, lands: str) -> None:
         """Call for help where something may have switched; everything has to be in memory for that."""
@@ -79,7 +80,8 @@ class SwitchedStep(VariableStep):
         looked = text.op(f"and i1 {lands}, {short}")
         if self.watched.modes:
             storage.run_pass("watch_end", 2)
-            looked = text.op(f"or i1 {looked}, {storage.switched()}")
+            inside = text.op(f"or i1 {driver.get('looks')}, {storage.switched('watch_end')}")
+            looked = text.op(f"or i1 {looked}, {inside}")
         text.branch(looked, "look", "followed")
         text.begin("look")
         storage.leave()

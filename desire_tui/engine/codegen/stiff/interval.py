@@ -128,13 +128,13 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
     record_step(memory, size)
     if problem.watch != 0:
         found: int = problem.look(problem.watch, t_from, t)
-        if found >= 0:
-            problem.settled = 0
         if found > 0:
             gather(problem)
             problem.t_step = values[T]
             problem.anew = 1
-        leave(problem, problem.t_step, states)
+        if found >= 0:
+            problem.settled = 0
+            leave(problem, problem.t_step, states)
     return 0
 
 

@@ -70,7 +70,7 @@ def _compiled() -> MachineCode:
     outside = Outside({"Watch": Watch}, pointers)
     modules = [Module(_TEXTS[module], vars(module)) for module in _MODULES]
     text = write_program(modules, outside, "watch_", frozenset(_PUBLIC))
-    return compile_and_keep(text, _name(), level=1, vectorize=False)
+    return compile_and_keep(text, _name(), level=2, vectorize=True)
 
 
 def _name() -> str:

@@ -14,32 +14,50 @@ from desire_tui.engine.integration.switching.mathematics import floor
 from desire_tui.engine.lowered.switching import Threshold
 
 if TYPE_CHECKING:
+    from desire_tui.engine.integration.plain_types import Reals
     from desire_tui.engine.integration.switching.memory import Watch
 
 _TIMES = 3.0
 
 
 def are_far(w: Watch, h: float) -> int:
-    """Whether no argument has come near; `modes` has been computed at the end of a step of h."""
-    far = 1
-    for i in range(w.count):
-        argument: float = w.values[w.arguments + i]
-        live: float = w.values[w.live + i]
-        frozen: float = w.values[w.frozen + i]
-        change = abs(argument - w.at_start[i])
-        moved = change + h * w.slopes[i]
-        w.at_start[i] = argument
-        w.slopes[i] = change / h
-        if live != frozen or not distance(w.thresholds[i], argument) >= _TIMES * moved:
-            far = 0
-    return far
+    """Whether no argument has come near; `modes` has been computed at the end of a step of h.
+
+    A mode that is another one at the step's end has a threshold no farther off than its argument has moved.
+    """
+    values: Reals = w.values
+    at_start: Reals = w.at_start
+    changes: Reals = w.changes
+    count: int = w.count
+    arguments: int = w.arguments
+    times = _TIMES * (h / w.h_before)
+    w.h_before = h
+    near = 0
+    if w.thresholds_are_0 != 0:  # nearly always: without branches, as fast as it may be
+        for i in range(count):
+            argument: float = values[arguments + i]
+            change = abs(argument - at_start[i])
+            room = _TIMES * change + times * changes[i]
+            at_start[i] = argument
+            changes[i] = change
+            near += not abs(argument) >= room
+        return near == 0
+    for i in range(count):
+        argument = values[arguments + i]
+        change = abs(argument - at_start[i])
+        room = _TIMES * change + times * changes[i]
+        at_start[i] = argument
+        changes[i] = change
+        near += not distance(w.thresholds[i], argument) >= room
+    return near == 0
 
 
 def begin_margins(w: Watch) -> None:
     """Start from the arguments in the values, of which it is not known how they move."""
+    w.h_before = 1.0
     for i in range(w.count):
         w.at_start[i] = w.values[w.arguments + i]
-        w.slopes[i] = inf
+        w.changes[i] = inf
 
 
 def distance(threshold: int, x: float) -> float:

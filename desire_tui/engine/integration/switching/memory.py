@@ -36,8 +36,10 @@ class Watch(ctypes.Structure):
         ("frozen", _INT), ("live", _INT), ("arguments", _INT),  # first slots
         ("rising", _INTS),  # of each mode: 1 where only 0 → 1 counts (`term`, `event`)
         ("thresholds", _INTS),  # of each mode: a `lowered.switching.Threshold`
-        ("at_start", _REALS),  # arguments at the step's start, and what they changed by in a unit of t
-        ("slopes", _REALS),
+        ("thresholds_are_0", _INT),  # all of them
+        ("at_start", _REALS),  # arguments at the step's start, and what they changed by in the one before …
+        ("changes", _REALS),
+        ("h_before", _REAL),  # … of this size
         ("switched", _INT),  # the mode that switched last; -1 - k: switch of t number k
         # states, and the step's polynomial for rules that have none of their own
         ("n", _INT),

@@ -9,7 +9,7 @@ import numpy as np
 
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
 from desire_tui.engine.integration.switching.program import as_arrays, write
-from desire_tui.engine.lowered.switching import THRESHOLDS
+from desire_tui.engine.lowered.switching import THRESHOLDS, Threshold
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -41,7 +41,8 @@ class Watcher:
             ("thresholds", [int(THRESHOLDS[mode.operation]) for mode in each]),
         ):
             self._ints(name, np.array(numbers or [0], dtype=np.int64))
-        for name in ("at_start", "slopes"):
+        watch.thresholds_are_0 = all(THRESHOLDS[mode.operation] is Threshold.ZERO for mode in each)
+        for name in ("at_start", "changes"):
             self._reals(name, np.zeros(max(len(each), 1)))
         self._ints("ranges", np.array(ranges, dtype=np.int64).reshape(-1))
         watch.n, watch.range_count = order, len(ranges)

@@ -11,7 +11,7 @@ from desire_tui.engine.integration.switching.memory import CHATTERS, JUMPED
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.integration.plain_types import Int32
+    from desire_tui.engine.integration.plain_types import Int32, Reals
     from desire_tui.engine.integration.switching.memory import Watch
 
 _PLACES = 4
@@ -89,20 +89,24 @@ def look(w: Watch, t0: float, t1: float) -> Int32:
 def look_back(w: Watch, t0: float, t1: float) -> Int32:
     """Look at a step from t0 to t1, whose states are in the values, of a solver with an interpolant.
 
-    1: as `look`. 0: no mode has switched, but it is time to `settle`. -1: nothing has switched at all.
+    1: as `look`. 0: no mode has switched, but it is time to `settle`, and the values are those near t1.
+    -1: nothing has switched at all, and the values are as they were.
     """
     if w.count != 0 and t1 > t0:
         w.modes(w.memory, w.f1_address)
-        if are_far(w, t1 - t0) == 0 and look(w, t0, t1) != 0:
-            return 1
-        accept_modes(w)
+        if are_far(w, t1 - t0) == 0:
+            return look(w, t0, t1)
     return 0 if w.found != 0 and w.last <= t1 else -1
 
 
 def accept_modes(w: Watch) -> None:
     """Put into force what the modes are now."""
-    for i in range(w.count):
-        w.values[w.frozen + i] = w.values[w.live + i]
+    values: Reals = w.values
+    frozen: int = w.frozen
+    live: int = w.live
+    count: int = w.count
+    for i in range(count):
+        values[frozen + i] = values[live + i]
 
 
 def has_switched(w: Watch) -> int:
