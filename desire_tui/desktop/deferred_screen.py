@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from textual.screen import Screen
 
+from desire_tui.desktop.banded_compositor import BandedCompositor
+
 if TYPE_CHECKING:
     from textual import events
     from textual.widget import Widget
@@ -20,6 +22,10 @@ class DeferredScreen(Screen[None]):
     is_held = True
     """Whether nothing is laid out and sent."""
     _has_begun = False
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._compositor = BandedCompositor()
 
     def hold(self) -> None:
         """Keep what changes from now on."""

@@ -287,7 +287,9 @@ class EditorPane(Vertical):
         area.marks.set_problems(diagnostics)
         if area.marks.problems != before:
             area.marks_changed()
-            self._status_row.show(self.front)
+        elif self._status_row.rows == 1:
+            return
+        self._status_row.show(self.front, checked=True)
 
     @on(TextArea.Changed)
     def _changed(self, event: TextArea.Changed) -> None:

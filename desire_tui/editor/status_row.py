@@ -40,7 +40,9 @@ class StatusRow(Horizontal):
     class Accepted(Message):
         """The OK button was pressed."""
 
-    _rows = 1
+    rows = 1
+    """How many rows of the screen it takes."""
+    _grown_at: tuple[CodeArea, int] | None = None
 
     def compose(self) -> ComposeResult:
         """Problem, place, button."""
@@ -48,8 +50,12 @@ class StatusRow(Horizontal):
         yield Label("", id="place")
         yield Label(" OK ", id="ok")
 
-    def show(self, area: CodeArea) -> None:
-        """Show the cursor's place in a text, and the problem there or how many there are."""
+    def show(self, area: CodeArea, *, checked: bool = False) -> None:
+        """Show the cursor's place in a text, and the problem there or how many there are.
+
+        `checked`: the problems are those of the text as it stands. Else a problem that is gone from the line
+        that is being typed is likely to come back: it keeps its room, or the text would move with every key.
+        """
         row, column = area.cursor_location
         problems = area.marks.problems
         marks = problems.get(row, [])
@@ -68,16 +74,19 @@ class StatusRow(Horizontal):
         label = self._set_label("#problem", sentence)
         label.set_class(mark is not None and mark.style == "error", "-error")
         label.tooltip = Content(mark.text) if mark else None
-        self._make_room(area, sentence if mark is not None else "", label.size.width)
+        self._make_room(area, sentence if mark is not None else "", label.size.width, checked=checked)
 
-    def _make_room(self, area: CodeArea, sentence: str, width: int) -> None:
+    def _make_room(self, area: CodeArea, sentence: str, width: int, *, checked: bool) -> None:
         """Show a problem whole: over several rows where one is too short."""
-        rows = 1
+        rows, place = 1, (area, area.cursor_location[0])
         if width and cell_len(sentence) > width:
             rows = min(len(wrap(sentence, width)), ROWS_MOST)
-        if rows != self._rows:
-            self._rows = self.styles.height = rows
-            area.call_after_refresh(area.scroll_cursor_visible)
+        if rows > self.rows:
+            self._grown_at = place
+        elif rows == self.rows or (not checked and place == self._grown_at):
+            return
+        self.rows = self.styles.height = rows
+        area.call_after_refresh(area.scroll_cursor_visible)
 
     def _set_label(self, place: str, text: str) -> Label:
         """Show a text in the row below; a key that changes nothing there draws nothing, lays out nothing."""

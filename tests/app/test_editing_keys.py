@@ -119,3 +119,22 @@ async def test_a_problem_is_shown_whole_at_the_cursor_and_the_cursor_stays_in_si
         assert area.scroll_offset.y <= area.cursor_location[0] < area.scroll_offset.y + area.size.height
         await desk.press("up")
         await desk.until(lambda: row.size.height == 1)
+
+
+async def test_a_problem_keeps_its_room_while_its_line_is_typed(program):
+    """Else the text above would move with every key: the problem goes, and comes back when the line is checked."""
+    async with desktop(program(OSCILLATOR + "-- end\n" * 30), size=(80, 24)) as desk:
+        area, row = desk.app.editor.front, desk.app.editor.query_one(StatusRow)
+        await desk.press("alt+e")
+        area.go_to(9, 0)
+        await desk.press(*"d/dt zz = some", "underscore", *"name")
+        await desk.until(lambda: row.rows > 1)
+        heights = set()
+        for key in "abcd":
+            await desk.press(key)
+            heights.add(row.rows)
+            await desk.until(lambda: area.marks.problems)
+            heights.add(row.rows)
+        assert 1 not in heights
+        await desk.press("home", *"-- ")
+        await desk.until(lambda: row.rows == 1)
