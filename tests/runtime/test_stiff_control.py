@@ -19,7 +19,7 @@ from tests.runtime.test_run_control import PATIENCE
 
 RULES = rules_of("multistep")
 
-MODEL = """irule {rule} | ERMAX = 1E-6 | x = 1 | v = 0 | DT = 0.001 | TMAX = 20 | NN = 401
+MODEL = """irule {rule} | ERMAX = 1E-6 | x = 1 | v = 0 | DT = 0.001 | TMAX = 5 | NN = 101
 drun
 DYNAMIC
 d/dt x = v
@@ -76,7 +76,7 @@ def test_a_paused_run_gives_exactly_what_an_undisturbed_one_gives(rule):
     paused, error = steered(MODEL.format(rule=rule), pause_for_a_moment, 3)
     assert error is None
     one, other = undisturbed.runs[-1], paused.runs[-1]
-    assert other.rows[:401].tolist() == one.rows[:401].tolist()
+    assert other.rows[:101].tolist() == one.rows[:101].tolist()
     counts = (
         "count",
         "steps",
@@ -93,7 +93,7 @@ def test_a_paused_run_gives_exactly_what_an_undisturbed_one_gives(rule):
 @pytest.mark.parametrize("rule", [9, 10, 12, 14, 15, 16])
 def test_a_run_held_inside_a_communication_interval_goes_on_as_if_nothing_had_been(rule):
     """One interval with thousands of steps; the stop flag is raised again and again from another thread."""
-    t_max = 400 if running.BACKEND == "native" else 60  # long enough for the other thread to come by
+    t_max = 400 if running.BACKEND == "native" else 30  # long enough for the other thread to come by
     undisturbed, held, disturbed = _held_inside_an_interval(rule, t_max)
     while not held:  # it did not come by: a busy machine
         t_max *= 4
@@ -104,7 +104,7 @@ def test_a_run_held_inside_a_communication_interval_goes_on_as_if_nothing_had_be
 
 def _held_inside_an_interval(rule, t_max):
     """Run undisturbed and held again and again; return both sessions, and how often between them."""
-    text = MODEL.format(rule=rule).replace("TMAX = 20 | NN = 401", f"TMAX = {t_max} | NN = 2 | DTMAX = 0.02")
+    text = MODEL.format(rule=rule).replace("TMAX = 5 | NN = 101", f"TMAX = {t_max} | NN = 2 | DTMAX = 0.02")
     undisturbed, _ = ran(text)
     session = Session(Kept(), backend=running.BACKEND)
     nudging = threading.Event()
@@ -134,13 +134,13 @@ def test_an_ended_run_keeps_its_samples_and_the_next_one_goes_on_from_there(rule
     assert error.diagnostics[0].code == 301
     record = session.runs[-1]
     assert record.ended == "stopped"
-    assert 9 <= record.count < 401
+    assert 9 <= record.count < 101
     assert record.rows[: record.count].tolist() == undisturbed.runs[-1].rows[: record.count].tolist()
     where = value(session, "t"), value(session, "x"), value(session, "v")
     assert where[0] == record.end_time
-    session.execute("TMAX = 20 - t | NN = 2")
+    session.execute("TMAX = 5 - t | NN = 2")
     session.execute("drun")
-    assert value(session, "t") == pytest.approx(20, rel=1e-12)
+    assert value(session, "t") == pytest.approx(5, rel=1e-12)
     assert value(session, "x") == pytest.approx(undisturbed.runs[-1].values("x")[-1], abs=2e-3)
 
 
@@ -371,7 +371,7 @@ dispt x, y
 
 def test_step_statements_switch_under_a_stiff_rule():
     """A thermostat behind `step`: the relay turns at the first step end beyond the band."""
-    text = """irule 15 | ERMAX = 1E-6 | DT = 0.0001 | DTMAX = 0.01 | TMAX = 20 | NN = 201 | on = 1 | x = 0
+    text = """irule 15 | ERMAX = 1E-6 | DT = 0.0001 | DTMAX = 0.01 | TMAX = 8 | NN = 81 | on = 1 | x = 0
 drun
 DYNAMIC
 d/dt x = 2*on - x
@@ -389,7 +389,7 @@ on = comp(on - 0.5, swtch(0.9 - x), swtch(1.1 - x))
     period = log((2 - 0.9) / (2 - 1.1)) + log(1.1 / 0.9)  # up to 1.1 and down to 0.9 again
     on = record.values("on")
     turns = int((np.diff(on) > 0).sum())
-    assert turns == pytest.approx((20 - log(2 / 0.9)) / period, abs=3)  # each turn up to a step late
+    assert turns == pytest.approx((8 - log(2 / 0.9)) / period, abs=3)  # each turn up to a step late
 
 
 def x_of(record):
