@@ -15,7 +15,7 @@ run: $(STAMP)  ## install if needed, open the IDE with an example loaded
 	$(BIN)/desire examples/ch1/step_response.src
 
 test: $(STAMP)  ## install what the tests need and run them all
-	$(BIN)/python -m pytest -n 4 --dist worksteal
+	$(BIN)/python -m pytest -n 3 --dist worksteal
 
 check: $(STAMP) lint  ## lint + types + import contracts + tests
 	@# tests wait for a part of their time: types and contracts use it, and report when the tests are over
