@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.cancellation import OutOfTime, handing_over
 from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.check.foreign_forms import foreign_forms
-from desire_tui.engine.check.recursions import recursions
+from desire_tui.engine.check.rules import known_rule
 from desire_tui.engine.check.unknown import misplaced, unknown_names
 from desire_tui.engine.check.uses import unfit_uses
 from desire_tui.engine.diagnostics.spelling import few_hints
@@ -47,10 +47,11 @@ def _all_problems(program: Program) -> list[Diagnostic]:
         for text in program.segments:
             at = text.at
             scope = survey.scope_for(text)
-            segment, of_it = lower_segment(text, scope, program.source, functions, found)
+            rule = known_rule(program.script, text.label)
+            segment, of_it = lower_segment(text, scope, program.source, functions, found, rule)
             problems.extend(of_it)
             if not of_it:
-                problems.extend(recursions(segment, scope))
+                problems.extend(segment.warnings)
         at = len(program.source.text)
         problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
         problems.extend(unfit_uses(program, found))

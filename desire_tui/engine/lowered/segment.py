@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from desire_tui.engine.nodes.record import node
 
 if TYPE_CHECKING:
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action, Terminate, Where
     from desire_tui.engine.source import Source
@@ -118,8 +119,8 @@ class Segment:
     `levels` are the slots of what its `term` statements must exceed, `constants` the script's numbers (slot,
     value) from which subscripts and the like were computed.
     `row_chosen` is the place of a `P#` whose row the script must choose (iRow above 0). `breakpoints` must
-    not fall when a run begins. `events` happen at moments; `delays` are by number. `noise`: where a random
-    number is drawn that derivatives read afresh at each stage of a step.
+    not fall when a run begins. `events` happen at moments; `delays` are by number. `warnings` are to be shown
+    once, before a run or by the check.
     """
 
     label: str | None
@@ -140,7 +141,7 @@ class Segment:
     breakpoints: tuple[Breakpoints, ...] = ()
     events: tuple[Event, ...] = ()
     delays: tuple[DelayedValue, ...] = ()
-    noise: Where | None = None
+    warnings: tuple[Diagnostic, ...] = ()
     names: dict[int, str] = field(default_factory=dict)
 
     @property

@@ -22,6 +22,7 @@ from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
 from desire_tui.engine.lowering.expressions import ExpressionLowering
 from desire_tui.engine.lowering.jacobian import lower_jacobian
+from desire_tui.engine.lowering.recursions import recursions
 from desire_tui.engine.lowering.scope import UNKNOWN, size_of
 from desire_tui.engine.lowering.states import StateTable
 from desire_tui.engine.lowering.submodels import expand
@@ -52,7 +53,7 @@ from desire_tui.engine.passes.noise import noisy_derivative
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from desire_tui.engine.lowered.segment import Breakpoints
     from desire_tui.engine.lowered.statements import Action
@@ -126,21 +127,23 @@ def lower_segment(
         breakpoints=_filled_by_script(context.breakpoints, body), events=tuple(builder.events),
         delays=tuple(context.delays),
     )  # fmt: skip
-    return _with_noise(context, segment), context.problems
+    warnings = [*_noise(context, segment), *recursions(segment, scope)]
+    return replace(segment, warnings=tuple(warnings)), context.problems
 
 
-def _with_noise(context: LoweringContext, segment: Segment) -> Segment:
-    """Say where derivatives read random numbers. Error 489 under a rule that tests its steps."""
+def _noise(context: LoweringContext, segment: Segment) -> Iterator[Diagnostic]:
+    """Warn where derivatives read random numbers. Error 489 under a rule that tests its steps."""
     text = context.source.text
     if not segment.states or not ("ran" in text or "gauss" in text):  # the search takes its time
-        return segment
+        return
     noise = noisy_derivative(segment)
     if noise is None:
-        return segment
+        return
     rule = context.rule
     if rule is not None and rule in RULES and RULES[rule].controls_error:
         context.add(Diagnostic("noise-under-rule", noise.span, {"rule": rule}, context.source))
-    return replace(segment, noise=noise)
+    else:
+        yield Diagnostic("noise-in-step", noise.span, {}, context.source, "warning")
 
 
 def _sound(context: LoweringContext, lines: list[Line], faults: Mapping[int, Diagnostic]) -> list[Line]:

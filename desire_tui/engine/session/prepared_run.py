@@ -17,7 +17,6 @@ from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.session.checkpoint import Checkpoint
 from desire_tui.engine.session.fault_place import with_part
 from desire_tui.engine.session.recorded_segment import recording
-from desire_tui.engine.session.runs import noise_warnings
 from desire_tui.engine.values import TMAX, T
 
 if TYPE_CHECKING:
@@ -125,7 +124,7 @@ class PreparedRun:
         model = workspace.segments.model(segment, plan.rule)
         self.warnings += [
             *self._runs.advice(model, segment, again=self.advises_always),
-            *noise_warnings(segment),
+            *segment.warnings,
         ]
         self._runs.count += 1
         made = RunRecord(

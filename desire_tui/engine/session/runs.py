@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,6 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic, internal_erro
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
-from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
 from desire_tui.engine.runtime.start_values import StartQuantities
@@ -164,10 +162,7 @@ class Runs:
         problems = self.advice(model, segment)
         if problems:
             self._listener.problems(problems)
-        noise = segment.noise
-        if noise is not None and noise.span not in self._gaps:
-            self._gaps.add(noise.span)
-            self._listener.problems(noise_warnings(segment))
+        self._warn_once(segment.warnings)
 
     def _start_values(self, segment: Segment, start: Checkpoint | None) -> StartValues:
         if self._starts is None or self._starts[0] is not segment:
@@ -252,11 +247,3 @@ class Runs:
             self.start.restore(self._values, self.simulator)
         else:
             self.simulator.reset()
-
-
-def noise_warnings(segment: Segment) -> tuple[Diagnostic, ...]:
-    """Return a warning if derivatives read random numbers within a step."""
-    if segment.noise is None:
-        return ()
-    problem = at_statement("noise-in-step", {}, segment, segment.noise)
-    return (replace(problem, severity="warning"),)
