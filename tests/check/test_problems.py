@@ -48,6 +48,9 @@ CASES = [
     ("y = x1\nz1 = x1", [(200, 1)]),
     ("q = q + 1\nd/dt x = q", [(200, 1)]),  # how fast it counts depends on the rule
     ("q = sgn(q - x)\nd/dt x = q", []),
+    ("d/dt x = ran() - x", [(489, 1)]),  # a warning: which rule it will be, the text does not tell
+    ("e = gauss(0)\nd/dt x = e - x", [(489, 1)]),
+    ("d/dt x = e - x\nstep\ne = ran()", [(200, 1)]),  # of e, which has no first value; the noise stands still
     ("y = q\nq = q + 1", [(200, 1)]),
     ("y = z", [(218, 1)]),
     ("y = Z[1]", [(218, 1)]),
