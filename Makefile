@@ -58,6 +58,10 @@ pictures: $(STAMP)  ## the screenshots in docs/
 dist: $(STAMP)  ## build source archive and wheel in dist/, try the wheel in an empty folder
 	$(BIN)/python -m tests.package
 
+docs: $(STAMP)  ## the documentation as a site in site/, with a gallery of all examples
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'mkdocs-material>=9.5,<10'
+	PYTHONPATH=. NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+
 clean:  ## remove the environment and caches
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache
 

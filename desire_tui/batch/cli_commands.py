@@ -62,7 +62,7 @@ def run_file(
         report(runner.problems)
         status = _EXIT[runner.status]
         known = len(runner.problems)
-        problems = outputs.write(runner.session, runner.result)
+        problems = [problem.within(source) for problem in outputs.write(runner.session, runner.result)]
         report([*runner.problems[known:], *problems])
         status = _EXIT[runner.status]
         if status == DONE and any(problem.severity == "error" for problem in problems):

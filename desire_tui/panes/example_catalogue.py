@@ -82,7 +82,7 @@ class Example:
     def answers(self) -> list[str]:
         """What the program's `--? answers` line types where it asks."""
         found = _ANSWERS.search(self.text)
-        return [answer.strip() for answer in found[1].split(",")] if found else []
+        return [answer.strip() for answer in found[1].split(" | ")] if found else []
 
     @cached_property
     def words(self) -> tuple[str, str, str]:

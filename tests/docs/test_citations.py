@@ -21,7 +21,7 @@ FOLDERS = ("desire_tui", "tests", "benchmarks", "examples", "docs", ".ci", ".git
 KINDS = {".py", ".md", ".src", ".lark", ".toml", ".tcss", ".yml", ".yaml"}
 FILES = sorted(
     [p for folder in FOLDERS for p in (ROOT / folder).rglob("*") if p.suffix in KINDS]
-    + [p for p in ROOT.iterdir() if p.suffix in KINDS or p.name == "Makefile"]
+    + [p for p in ROOT.iterdir() if (p.suffix in KINDS and p.name != "mkdocs.yml") or p.name == "Makefile"]
 )
 
 NUMBER = r"(?:\d+|A)(?:\.\d+)*"

@@ -14,7 +14,11 @@ from docs.generate import PAGES
 from tests.programs.execution import execute
 
 ROOT = Path(__file__).parents[2]
-WRITTEN = [ROOT / "README.md", *(p for p in sorted((ROOT / "docs").glob("*.md")) if p.name not in PAGES)]
+DOCS = ROOT / "docs"
+WRITTEN = [
+    ROOT / "README.md",
+    *(p for p in sorted([*DOCS.glob("*.md"), *DOCS.glob("tutorial/*.md")]) if p.name not in PAGES),
+]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -93,6 +97,29 @@ def test_links_lead_somewhere(path):
     text = re.sub(r"`[^`\n]*`", "", text)
     links = re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", text)
     assert [link for link in links if not (path.parent / link).exists()] == []
+
+
+def test_the_cookbook_has_25_tasks_with_a_program_each_that_prints():
+    text = (DOCS / "cookbook.md").read_text(encoding="utf-8")
+    tasks = [int(number) for number in re.findall(r"^### (\d+)\. ", text, re.MULTILINE)]
+    assert tasks == list(range(1, 26))
+    programs = blocks(DOCS / "cookbook.md", "desire")
+    assert len(programs) == len(tasks)
+    assert all(shown for _, shown in programs)
+
+
+@pytest.mark.parametrize("name", [name for name in PAGES if name.endswith(".md")])
+def test_no_braces_of_templates_are_left(name):
+    """Doubled braces and names in braces are what a sentence's template is written with."""
+    text = FENCE.sub("", (DOCS / name).read_text(encoding="utf-8"))
+    assert re.findall(r"\{\{|\}\}|\{[a-z]{2,}[^{}]*\}", text) == []
+
+
+def test_the_site_names_pages_that_are_there():
+    listed = re.findall(r"([\w/-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.MULTILINE)
+    made = {"index.md", "gallery.md"}  # by docs/site_hooks.py
+    assert len(listed) > 30
+    assert [page for page in listed if page not in made and not (DOCS / page).is_file()] == []
 
 
 def test_the_originals_error_numbers_are_those_of_the_messages():

@@ -154,7 +154,7 @@ MESSAGES: dict[str, Wording] = {
         85,
         "the target would be read after some of its elements are replaced",
         "compute it into another array first",
-        "Elements are assigned from the last to the first. `Vector x = A * x` and `Vector x = x{{1}}` would "
+        "Elements are assigned from the last to the first. `Vector x = A * x` and `Vector x = x{1}` would "
         "use new values in place of old ones.",
     ),
     "matrix-needs-vector": Wording(
