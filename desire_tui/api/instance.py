@@ -40,11 +40,13 @@ class Way(NamedTuple):
     """How settings of certain names take effect in one instance.
 
     `slots`: the numbers are put there when a run begins, then `follow` computes again what depends on them.
-    No slots: the script has to run again with the values in place of its own.
+    No slots: the script has to run again with the values in place of its own. `computed` are the slots that
+    `follow` may change.
     """
 
     slots: tuple[int, ...] | None
     follow: Callable[[], None] | None
+    computed: tuple[int, ...] = ()
 
 
 class Instance:

@@ -44,10 +44,10 @@ def way_of(names: tuple[str, ...], instance: Instance) -> Way:
     found = tuple(slot for slot in slots if slot is not None)
     targets = (target for placed in following for target in assigned(placed.node).targets)
     computed = (session.values.names[target.name] for target in targets)
-    changed = set(found).union(*(range(q.slot, q.slot + q.slots) for q in computed))
-    if not changed.isdisjoint(slot for slot, _ in prepared.segment.constants):
+    follows = set[int]().union(*(range(q.slot, q.slot + q.slots) for q in computed))
+    if not follows.union(found).isdisjoint(slot for slot, _ in prepared.segment.constants):
         return Way(None, None)  # a subscript, a SAMPLE's m: the segment itself becomes another
-    return Way(found, session.repeated(following) if following else None)
+    return Way(found, session.repeated(following) if following else None, tuple(sorted(follows)))
 
 
 def _shapes_the_code(names: set[str], following: Iterable[Placed], instance: Instance) -> bool:

@@ -11,12 +11,13 @@ from desire_tui.api.settings import way_of
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.session.prepared_run import RunStart
 from desire_tui.studies.keep import kept
+from desire_tui.studies.lock_step import LockStep
 from desire_tui.studies.reductions import reduce
 from desire_tui.studies.streams import first_state, stream
 from desire_tui.studies.task import Chunk
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -45,6 +46,18 @@ class PreparedProgram:
         )
         self.instance = Instance(task.source, options)
         self.way = way_of(self._names, self.instance)
+        self.lock_step: LockStep | None = None
+        """Makes several runs at a time."""
+        self.hindrance = "" if task.lanes else "not wanted"
+        """Why there is none."""
+        if task.lanes:
+            try:
+                self.lock_step = LockStep(
+                    self.instance.prepared, self.way, way_of(task.names, self.instance), self._expressions.names,
+                    fast=task.fast,
+                )
+            except ValueError as reason:
+                self.hindrance = str(reason)
 
     def settings(self, rows: Floats) -> Floats:
         """Return the values of everything that is set: what varies, then what is fixed."""
@@ -57,12 +70,39 @@ class PreparedProgram:
     def chunk(self, first: int, rows: Floats, stopped: Callable[[], bool]) -> Chunk:
         """Make runs one after the other."""
         made = Chunk.empty(first, len(rows), self.kept.size)
-        self._one_by_one(made, range(len(rows)), self.settings(rows), stopped)
+        settings = self.settings(rows)
+        alone: Sequence[int] = range(len(rows))
+        if self.lock_step is not None:
+            alone = self._in_lock_step(self.lock_step, made, settings, stopped)
+        self._one_by_one(made, alone, settings, stopped)
         return made
+
+    def _in_lock_step(
+        self, lock_step: LockStep, made: Chunk, settings: Floats, stopped: Callable[[], bool]
+    ) -> list[int]:
+        """Make runs side by side; return the places of those that have to be made alone."""
+        alone: list[int] = []
+        first = 0
+        while first < len(settings) and not stopped():
+            count = min(lock_step.runs_most, len(settings) - first)
+            numbers = range(made.first + first, made.first + first + count)
+            random = [stream(self.first_state(), number) for number in numbers] if lock_step.draws else None
+            table, counts, left = lock_step.run(settings[first : first + count], random)
+            good = np.flatnonzero(~left)
+            if len(good) == count:
+                made.numbers[first : first + count] = reduce(self.kept.items, table[0], list(table[1:]), counts)
+            elif len(good):
+                some = table[:, :, good]
+                made.numbers[first + good] = reduce(self.kept.items, some[0], list(some[1:]), counts[good])
+            alone += (first + np.flatnonzero(left)).tolist()
+            first += count
+        return alone
 
     def end(self) -> None:
         """End the run that goes on; from any thread."""
         self.instance.prepared.end()
+        if self.lock_step is not None:
+            self.lock_step.end()
 
     def _one_by_one(
         self, made: Chunk, places: Iterable[int], settings: Floats, stopped: Callable[[], bool]

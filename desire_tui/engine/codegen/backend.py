@@ -13,6 +13,9 @@ from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.integration.rules import rule_numbered
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.codegen.lanes.lane_model import LaneModel
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.runtime.backend import Model
     from desire_tui.engine.runtime.equations import Equations
@@ -57,6 +60,17 @@ class NativeBackend:
 
         with self._compiler.improver.held(), undisturbed_allocation:
             return NativeEquations(self._compiler.code, self._compiler.improver, segment, values)
+
+    def lanes(
+        self, segment: Segment, rule: int, values: Values, given: Sequence[int], columns: Sequence[int], *, fast: bool
+    ) -> LaneModel:
+        """Prepare `segment` for runs in lock step that differ in the `given` slots.
+
+        ValueError: what keeps them from it.
+        """
+        from desire_tui.engine.codegen.lanes.lane_model import LaneModel
+
+        return LaneModel(self._compiler.code, segment, rule, values, given, columns, fast=fast)
 
     def forget(self) -> None:
         """Drop all models: their segments will not come again. What was compiled for them may."""

@@ -14,20 +14,23 @@ from desire_tui.engine.runtime.gap_warnings import gap_warnings
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.start_values import StartQuantities
 from desire_tui.engine.runtime.tables import check_tables
+from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.session.checkpoint import Checkpoint
 from desire_tui.engine.session.fault_place import with_part
 from desire_tui.engine.session.recorded_segment import recording
 from desire_tui.engine.values import TMAX, T
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
+    from desire_tui.engine.codegen.lanes.lane_model import LaneModel
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Placed
     from desire_tui.engine.runtime.equations import Equations
     from desire_tui.engine.runtime.pause_and_stop import Control
+    from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.runtime.simulator import Observer
     from desire_tui.engine.runtime.start_values import StartValues
     from desire_tui.engine.session.runs import Runs
@@ -159,6 +162,32 @@ class PreparedRun:
         """Put everything where a run begins."""
         (base or self.base).restore(self.values, self._runs.simulator)
         self._assign(start)
+
+    def lanes(self, given: Sequence[int], columns: Sequence[str], *, fast: bool) -> LaneModel:
+        """Return the run compiled for several at a time, which differ in the `given` slots.
+
+        `columns` are sampled. ValueError: what keeps the runs from going in lock step.
+        """
+        backend = self._workspace.segments.backend
+        make = getattr(backend, "lanes", None)
+        if make is None:
+            raise ValueError("the back end compiles nothing")
+        if self.base.history.positions is not None:
+            raise ValueError("the run continues another")
+        slots = {column.name: column.slot for column in self.segment.columns}
+        model: LaneModel = make(
+            self.segment, self._rule, self.values, given, [slots[name] for name in columns], fast=fast
+        )
+        return model
+
+    def planned(self, start: RunStart) -> RunPlan:
+        """Make everything as it is when a run begins; return the run's plan. DesireError: it cannot begin."""
+        self.begin(start)
+        plan = self._runs.simulator.defaults.plan(self.segment, self._rule, self._source, self._span)
+        check_tables(self.segment, self.values)
+        for level in self.segment.levels:
+            self.values.cells[level] = 0.0
+        return plan
 
     def state_slots(self) -> NDArray[np.intp]:
         """Return where all states stand, in their order."""

@@ -14,6 +14,8 @@ from desire_tui.engine.random_sequence import MASK, RADIUS_FACTOR, SCALE, TWO_PI
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.lanes import Lanes
 
+_BITS_OF_2_52 = 0x4330000000000000
+
 
 def advance(lanes: Lanes, state: str, count: int) -> str:
     """Write a jump of `count` draws from the integer state(s); return the new one(s)."""
@@ -26,7 +28,12 @@ def advance(lanes: Lanes, state: str, count: int) -> str:
 
 def fraction(lanes: Lanes, state: str) -> str:
     """Write u = X / 2⁴⁸ (exact)."""
-    real = lanes.text.op(f"sitofp {lanes.integers} {state} to {lanes.kind}")
+    text = lanes.text
+    if lanes.width == 1:
+        return lanes.mul(text.op(f"sitofp i64 {state} to double"), lanes.const(SCALE))
+    # few machines convert vectors of 64-bit integers: X below 2⁵² are the last bits of 2⁵² + X
+    bits = text.op(f"or {lanes.integers} {state}, {lanes.integer(_BITS_OF_2_52)}")
+    real = lanes.sub(text.op(f"bitcast {lanes.integers} {bits} to {lanes.kind}"), lanes.const(2.0**52))
     return lanes.mul(real, lanes.const(SCALE))
 
 

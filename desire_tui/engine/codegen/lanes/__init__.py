@@ -1,0 +1,1 @@
+"""Runs in lock step: one lane of vector code for each run (`passes.replication` says what differs)."""

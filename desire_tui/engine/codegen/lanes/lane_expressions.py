@@ -1,0 +1,93 @@
+"""Values of lowered segments for runs in lock step: once where all runs have the same, else as vectors."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir import random
+from desire_tui.engine.codegen.ir.functions import apply, power
+from desire_tui.engine.codegen.ir.lanes import Lanes
+from desire_tui.engine.codegen.ir.table_lookup import table1, table2
+from desire_tui.engine.codegen.lanes.lane_cells import Number
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
+from desire_tui.engine.random_sequence import DRAWS
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.lanes.lane_cells import LaneCells
+    from desire_tui.engine.codegen.lanes.replicas import Replicas
+    from desire_tui.engine.lowered.expressions import ElementOperand, Value
+
+
+class LaneExpressions:
+    """Evaluates one statement's values; an object met again is the same number (`engine.lowered`).
+
+    `mask`: flags of the runs that draw random numbers; None: all do.
+    """
+
+    def __init__(self, runs: Replicas, cells: LaneCells) -> None:
+        self.text = runs.text
+        self.one, self.runs = Lanes(runs.text), runs
+        self.cells = cells
+        self.mask: str | None = None
+        self._known: dict[int, Number] = {}
+
+    def forget(self) -> None:
+        """Begin a new statement."""
+        self._known.clear()
+
+    def value(self, node: Value) -> Number:
+        """Write what computes `node`, left to right."""
+        if isinstance(node, Const):
+            return Number(self.one.const(node.value), wide=False)
+        known = self._known.get(id(node))
+        if known is None:
+            known = self._known[id(node)] = self._write(node)
+        return known
+
+    def _write(self, node: Load | Op | Table1 | Table2 | ElementOperand) -> Number:
+        match node:
+            case Load():
+                return self.cells.load(node.slot)
+            case Op():
+                return self._operation(node)
+            case Table1():
+                lanes, (x,) = self._alike(self.value(node.x))
+                return Number(table1(lanes, node, x), lanes.width > 1)
+            case Table2():
+                lanes, (x, y) = self._alike(self.value(node.x), self.value(node.y))
+                return Number(table2(lanes, node, x, y), lanes.width > 1)
+            case _:
+                raise TypeError(f"{type(node).__name__} in runs in lock step")
+
+    def _operation(self, node: Op) -> Number:
+        if node.name in DRAWS:
+            return self._draw(node.name)
+        if node.name == "ipow":
+            lanes, (x,) = self._alike(self.value(node.args[0]))
+            exponent = node.args[1]
+            assert isinstance(exponent, Const)
+            return Number(power(lanes, x, int(exponent.value)), lanes.width > 1)
+        lanes, names = self._alike(*(self.value(arg) for arg in node.args))
+        return Number(apply(lanes, node.name, names), lanes.width > 1)
+
+    def _alike(self, *values: Number) -> tuple[Lanes, list[str]]:
+        """Return all values as numbers or, if one of them is a vector, as vectors."""
+        if any(value.wide for value in values):
+            return self.runs, [self.cells.wide(value) for value in values]
+        return self.one, [value.name for value in values]
+
+    def _draw(self, name: str) -> Number:
+        first = self._next_state()
+        if name == "ran":
+            return Number(random.uniform(self.runs, first), wide=True)
+        return Number(random.normal(self.runs, first, self._next_state()), wide=True)
+
+    def _next_state(self) -> str:
+        kind = self.runs.integers
+        before = self.text.op(f"load {kind}, ptr %l.random")
+        after = random.advance(self.runs, before, 1)
+        kept = after
+        if self.mask is not None:
+            kept = self.text.op(f"select {self.runs.flags} {self.mask}, {kind} {after}, {kind} {before}")
+        self.text.do(f"store {kind} {kept}, ptr %l.random")
+        return after

@@ -1,0 +1,350 @@
+"""The run loop of `loop.run_loop` for runs in lock step under a rule with fixed steps.
+
+All runs have the same times, so there is one t, one count of steps, one way through the loop. A run that has
+ended is frozen: its samples are no longer written. One in which something irregular shows (an inf or nan in a
+state, a fault) is flagged: whoever called makes that run again alone, for its message.
+
+    point  ── full pass, sample ──► step                   (a communication point)
+    again  ── step pass; `term`? tail pass, sample ──► step
+    step   ── the rule: stages, new states, t ──► attend where something is to be looked at, else again
+    attend ── stop flag, inf and nan ──► point or again
+"""
+
+from __future__ import annotations
+
+import ctypes
+from hashlib import blake2b
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir.lanes import Lanes
+from desire_tui.engine.codegen.ir.text import IrText
+from desire_tui.engine.codegen.ir.work_memory import Fields
+from desire_tui.engine.codegen.jit.piece import Piece
+from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
+from desire_tui.engine.codegen.lanes.lane_statements import LaneStatements
+from desire_tui.engine.codegen.lanes.replicas import Replicas
+from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE
+from desire_tui.engine.codegen.loop.stage_sums import scaled, weighted
+from desire_tui.engine.codegen.scalar.slot_usage import survey
+from desire_tui.engine.passes.final_sample import holds_term
+from desire_tui.engine.values import DT, T
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from desire_tui.engine.integration.tableaus import Row, Tableau
+    from desire_tui.engine.lowered.statements import Action
+
+_CHECK_EVERY = 1024
+"""Steps between two looks for inf and nan inside a communication interval, as in `loop.fixed_steps`."""
+
+
+class LaneMemory(ctypes.Structure):
+    """What compiled code is called with. Arrays hold numbers for each run of a group side by side."""
+
+    _fields_ = (
+        ("values", ctypes.c_uint64),  # address of slot 0
+        ("starts", ctypes.c_uint64),  # (groups, given slots, width)
+        ("random", ctypes.c_uint64),  # int64 (groups, width): where the random numbers begin
+        ("rows", ctypes.c_uint64),  # (groups, samples, 1 + columns, width): t, then the columns
+        ("counts", ctypes.c_uint64),  # int64 (groups, width): samples
+        ("flagged", ctypes.c_uint64),  # int64 (groups, width): not 0: to be made again alone
+        ("groups", ctypes.c_int64),
+        ("samples", ctypes.c_int64),  # room for so many
+        ("t_start", ctypes.c_double),
+        ("t_max", ctypes.c_double),
+        ("comint", ctypes.c_double),
+        ("dt", ctypes.c_double),
+        ("every", ctypes.c_int64),  # MM
+        ("stop", ctypes.c_int64),  # polled at communication points; set from another thread
+    )
+
+
+class LaneLoop:
+    """Writes the function `i32 NAME(ptr LaneMemory)`. `given` are the slots with a start for each run."""
+
+    def __init__(
+        self,
+        passes: Mapping[str, tuple[Action, ...]],
+        tableau: Tableau,
+        states: Sequence[int],
+        columns: Sequence[int],
+        vital: Sequence[int],
+        given: Sequence[int],
+        differing: frozenset[int],
+        faults: frozenset[int],
+        width: int,
+        piece: int,
+    ) -> None:
+        self.text = IrText()
+        self.one, self.runs = Lanes(self.text), Replicas(self.text, width, piece)
+        usage = survey(passes.values())
+        slots = usage.read | usage.written | {T, DT, *states, *columns, *vital}
+        self.cells = LaneCells(self.text, self.runs, slots, differing, states, tableau.stages)
+        self.statements = LaneStatements(self.runs, self.cells, faults)
+        self.memory = Fields(self.text, LaneMemory, "%a")
+        self.passes, self.tableau = passes, tableau
+        self.states, self.columns, self.vital, self.given = states, columns, vital, given
+        self.may_end = holds_term(passes["step"]) or holds_term(passes["full"])
+
+    def piece(self) -> Piece:
+        """Return the code, named by its content."""
+        self._write()
+        width = self.runs.width
+        body = self.text.body()
+        whole = "\n".join((body, *sorted(self.text.declarations)))  # what it calls depends on `piece`
+        name = "l" + blake2b(whole.encode(), digest_size=10).hexdigest()
+        frame = _FRAME.format(
+            name=name, width=width, given=len(self.given) * width, row=(1 + len(self.columns)) * width, **_OFFSETS
+        )
+        group = (
+            f"define internal i32 @{name}.group(ptr %a, ptr noalias %v, ptr noalias %in, ptr noalias %seeds,"
+            f" ptr noalias %rows, ptr noalias %counts, ptr noalias %flags) #0 {{\n{body}\n}}"
+        )
+        return Piece(name, f"{group}\n{frame}", frozenset(self.text.declarations))
+
+    # ------------------------------------------------------------------ small things
+
+    def _get(self, kind: str, name: str) -> str:
+        return self.text.op(f"load {kind}, ptr %l.{name}")
+
+    def _put(self, kind: str, name: str, value: str) -> None:
+        self.text.do(f"store {kind} {value}, ptr %l.{name}")
+
+    def _flags(self, name: str) -> str:
+        return self._get(self.runs.flags, name)
+
+    def _put_flags(self, name: str, value: str) -> None:
+        self._put(self.runs.flags, name, value)
+
+    def _run_pass(self, kind: str, stage: int, mask: str | None = None) -> None:
+        self.cells.stage = stage
+        self.statements.write(self.passes[kind], mask)
+
+    def _t(self) -> str:
+        return self.cells.load(T).name
+
+    def _clear_fired(self) -> None:
+        if self.may_end:
+            self._put_flags("fired", "zeroinitializer")
+
+    def _next_point(self) -> None:
+        index = self.text.op(f"sitofp i64 {self._get('i64', 'point')} to double")
+        span = self.one.mul(index, self.memory.load("comint"))
+        self._put("double", "t_next", self.one.add(self.memory.load("t_start"), span))
+
+    def _freeze(self, which: str) -> None:
+        self._put_flags("alive", self.runs.but(self._flags("alive"), which))
+
+    def _flag(self, bad: str) -> None:
+        bad = self.runs.both(bad, self._flags("alive"))
+        self._put_flags("flagged", self.runs.either(self._flags("flagged"), bad))
+        self._freeze(bad)
+
+    def _wild(self, slots: Sequence[int]) -> str:
+        """X - x is 0 for every finite x, and not a number else; so is the sum."""
+        total = self.runs.const(0.0)
+        for slot in slots:
+            value = self.cells.wide(self.cells.load(slot))
+            total = self.runs.add(total, self.runs.sub(value, value))
+        return self.runs.compare("uno", total, total)
+
+    # ------------------------------------------------------------------ the loop
+
+    def _write(self) -> None:
+        text, runs = self.text, self.runs
+        for name, kind in (("k", "i64"), ("steps", "i64"), ("point", "i64"), ("row", "i64"), ("t_next", "double")):
+            text.alloca(kind, f"%l.{name}")
+        for name in ("alive", "fired", "flagged"):
+            text.alloca(runs.flags, f"%l.{name}")
+        for name in ("random", "taken"):
+            text.alloca(runs.integers, f"%l.{name}")
+        for name in ("k", "steps", "point", "row"):
+            self._put("i64", name, "0")
+        self._put_flags("alive", "splat (i1 true)")
+        self._put_flags("fired", "zeroinitializer")
+        self._put_flags("flagged", "zeroinitializer")
+        self._put(runs.integers, "taken", "zeroinitializer")
+        self._put(runs.integers, "random", text.op(f"load {runs.integers}, ptr %seeds, align 8"))
+        self.cells.fetch(self.given)
+        self._next_point()
+        text.jump("point")
+        self._point()
+        self._again()
+        self._step()
+        self._attend()
+        self._exit()
+
+    def _point(self) -> None:
+        text, memory = self.text, self.memory
+        text.begin("point")
+        self._clear_fired()
+        self._run_pass("full", 1)
+        index = self._get("i64", "point")
+        self._put("i64", "point", text.op(f"add i64 {index}, 1"))
+        slack = self.one.mul(self.one.const(TOLERANCE), self.cells.load(DT).name)
+        end = self.one.add(memory.load("t_start"), memory.load("t_max"))
+        last = self.one.compare("oge", self._t(), self.one.sub(end, slack))
+        beyond = text.op(f"srem i64 {index}, {memory.load('every')}")
+        take = text.op(f"or i1 {last}, {text.op(f'icmp eq i64 {beyond}, 0')}")
+        if self.may_end:
+            fired = self.runs.both(self._flags("fired"), self._flags("alive"))
+            wanted = self.runs.both(self._flags("alive"), self.runs.either(fired, self.runs.splat_flag(take)))
+            text.branch(self.runs.any(wanted), "sample", "sampled")
+            text.begin("sample")
+            self._sample(wanted)
+            text.jump("sampled")
+            text.begin("sampled")
+            self._freeze(fired)
+        else:
+            text.branch(take, "sample", "sampled")
+            text.begin("sample")
+            self._sample(self._flags("alive"))
+            text.jump("sampled")
+            text.begin("sampled")
+        grown = text.op(f"zext i1 {take} to i64")
+        self._put("i64", "row", text.op(f"add i64 {self._get('i64', 'row')}, {grown}"))
+        self._next_point()
+        text.branch(last, "exit", "onward")
+        text.begin("onward")
+        text.branch(self.runs.any(self._flags("alive")), "step", "exit")
+
+    def _sample(self, mask: str) -> None:
+        """Write a row for the runs that have their flag set; inf or nan in what states depend on flags them."""
+        text, runs = self.text, self.runs
+        row, width = self._get("i64", "row"), 1 + len(self.columns)
+        at = text.op(f"getelementptr double, ptr %rows, i64 {text.op(f'mul i64 {row}, {width * runs.width}')}")
+        for number, slot in enumerate((T, *self.columns)):
+            place = text.op(f"getelementptr double, ptr {at}, i64 {number * runs.width}")
+            value = self.cells.wide(self.cells.load(slot))
+            if self.may_end:
+                value = runs.choose(mask, value, text.op(f"load {runs.kind}, ptr {place}, align 8"))
+            text.do(f"store {runs.kind} {value}, ptr {place}, align 8")
+        count = text.op(f"add i64 {row}, 1")
+        one = text.op(f"insertelement {runs.integers} poison, i64 {count}, i64 0")
+        zeros = f"<{runs.width} x i32> zeroinitializer"
+        counts = text.op(f"shufflevector {runs.integers} {one}, {runs.integers} poison, {zeros}")
+        before = self._get(runs.integers, "taken")
+        taken = text.op(f"select {runs.flags} {mask}, {runs.integers} {counts}, {runs.integers} {before}")
+        self._put(runs.integers, "taken", taken)
+        if self.vital:
+            self._flag(runs.both(mask, self._wild(self.vital)))
+
+    def _again(self) -> None:
+        text = self.text
+        text.begin("again")
+        self._clear_fired()
+        self._run_pass("step", 1)
+        if not self.may_end:
+            text.jump("step")
+            return
+        fired = self.runs.both(self._flags("fired"), self._flags("alive"))
+        text.branch(self.runs.any(fired), "tail", "step")
+        text.begin("tail")
+        self._run_pass("tail", 1, fired)
+        self._sample(fired)
+        self._freeze(fired)
+        text.branch(self.runs.any(self._flags("alive")), "step", "exit")
+
+    def _step(self) -> None:
+        text, cells, tableau = self.text, self.cells, self.tableau
+        text.begin("step")
+        for number, slot in enumerate(self.states):
+            cells.keep("x0", number, cells.load(slot))
+        dt = self.memory.load("dt")
+        for stage in range(1, tableau.stages):
+            self._advance(tableau.a[stage], dt)
+            cells.store(T, Number(self._counted_time(float(tableau.c[stage]), dt), wide=False))
+            self._run_pass("derivative", stage + 1)
+        self._advance(tableau.b, dt)
+        cells.store(T, Number(self._counted_time(1.0, dt), wide=False))
+        for name in ("k", "steps"):
+            self._put("i64", name, text.op(f"add i64 {self._get('i64', name)}, 1"))
+        slack = self.one.mul(self.one.const(TOLERANCE), dt)
+        reached = self.one.compare("oge", self._t(), self.one.sub(self._get("double", "t_next"), slack))
+        since = text.op(f"and i64 {self._get('i64', 'steps')}, {_CHECK_EVERY - 1}")
+        due = text.op(f"icmp eq i64 {since}, 0")
+        text.alloca("i1", "%l.reached")
+        self._put("i1", "reached", reached)
+        text.branch(text.op(f"or i1 {due}, {reached}"), "attend", "again")
+
+    def _counted_time(self, c: float, dt: str) -> str:
+        k = self.text.op(f"sitofp i64 {self._get('i64', 'k')} to double")
+        return self.one.add(self.memory.load("t_start"), self.one.mul(self.one.add(k, self.one.const(c)), dt))
+
+    def _advance(self, row: Row, dt: str) -> None:
+        """States ← saved states + dt·Σ row·k."""
+        factor = scaled(self.one, row, dt)
+        for number, slot in enumerate(self.states):
+            wide = slot in self.cells.differing
+            lanes = self.runs if wide else self.one
+            total = weighted(lanes, row, lambda stage, n=number: self.cells.kept(f"k{stage}", n).name)  # type: ignore[misc]  # n=: bound now
+            by = self.runs.splat(factor) if wide else factor
+            moved = lanes.add(self.cells.kept("x0", number).name, lanes.mul(by, total))
+            self.cells.store(slot, Number(moved, wide))
+
+    def _attend(self) -> None:
+        text = self.text
+        text.begin("attend")
+        self._flag(self._wild(self.states))
+        stop = text.op(f"icmp ne i64 {self.memory.load('stop', volatile=True)}, 0")
+        none = text.op(f"xor i1 {self.runs.any(self._flags('alive'))}, true")
+        text.branch(text.op(f"or i1 {stop}, {none}"), "exit", "attend.on")
+        text.begin("attend.on")
+        text.branch(self._get("i1", "reached"), "point", "again")
+
+    def _exit(self) -> None:
+        text, runs = self.text, self.runs
+        text.begin("exit")
+        text.do(f"store {runs.integers} {self._get(runs.integers, 'taken')}, ptr %counts, align 8")
+        flags = text.op(f"zext {runs.flags} {self._flags('flagged')} to {runs.integers}")
+        text.do(f"store {runs.integers} {flags}, ptr %flags, align 8")
+        text.do("ret i32 0")
+
+
+_FRAME = """
+define i32 @{name}(ptr %a) #0 {{
+entry:
+  %pv = getelementptr i8, ptr %a, i64 {values}
+  %v = load ptr, ptr %pv
+  %pin = getelementptr i8, ptr %a, i64 {starts}
+  %in = load ptr, ptr %pin
+  %prandom = getelementptr i8, ptr %a, i64 {random}
+  %seeds = load ptr, ptr %prandom
+  %prows = getelementptr i8, ptr %a, i64 {rows}
+  %rows = load ptr, ptr %prows
+  %pcounts = getelementptr i8, ptr %a, i64 {counts}
+  %counts = load ptr, ptr %pcounts
+  %pflagged = getelementptr i8, ptr %a, i64 {flagged}
+  %flags = load ptr, ptr %pflagged
+  %pgroups = getelementptr i8, ptr %a, i64 {groups}
+  %groups = load i64, ptr %pgroups
+  %psamples = getelementptr i8, ptr %a, i64 {samples}
+  %samples = load i64, ptr %psamples
+  %room = mul i64 %samples, {row}
+  %pstop = getelementptr i8, ptr %a, i64 {stop}
+  br label %next
+next:
+  %g = phi i64 [ 0, %entry ], [ %g1, %work ]
+  %stop = load volatile i64, ptr %pstop
+  %ended = icmp ne i64 %stop, 0
+  %all = icmp sge i64 %g, %groups
+  %over = or i1 %ended, %all
+  br i1 %over, label %done, label %work
+work:
+  %oin = mul i64 %g, {given}
+  %orow = mul i64 %g, %room
+  %olane = mul i64 %g, {width}
+  %gin = getelementptr double, ptr %in, i64 %oin
+  %gseeds = getelementptr i64, ptr %seeds, i64 %olane
+  %grows = getelementptr double, ptr %rows, i64 %orow
+  %gcounts = getelementptr i64, ptr %counts, i64 %olane
+  %gflags = getelementptr i64, ptr %flags, i64 %olane
+  %unused = call i32 @{name}.group(ptr %a, ptr %v, ptr %gin, ptr %gseeds, ptr %grows, ptr %gcounts, ptr %gflags)
+  %g1 = add i64 %g, 1
+  br label %next
+done:
+  ret i32 0
+}}
+"""
+_OFFSETS = {entry[0]: getattr(LaneMemory, entry[0]).offset for entry in LaneMemory._fields_}

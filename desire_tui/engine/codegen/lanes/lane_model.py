@@ -1,0 +1,109 @@
+"""A segment compiled for runs in lock step."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.lanes.lane_loop import LaneLoop, LaneMemory
+from desire_tui.engine.codegen.pieces.segment_passes import passes_of
+from desire_tui.engine.integration.rules import rule_numbered
+from desire_tui.engine.integration.tableaus import TABLEAUS
+from desire_tui.engine.lowered.effects import count_draws, expressions
+from desire_tui.engine.lowered.walk import walk_actions
+from desire_tui.engine.passes.assigned_states import stepped_segment
+from desire_tui.engine.passes.replication import differing, hindrance
+from desire_tui.engine.passes.vital_columns import vital_columns
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.codegen.jit.cache import CodeCache
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.runtime.plan import RunPlan
+    from desire_tui.engine.values import Values
+
+    Floats = NDArray[np.float64]
+    Integers = NDArray[np.int64]
+
+_RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
+_STATES_MOST = 200
+"""Larger models leave the registers anyway."""
+
+
+class LaneRows(NamedTuple):
+    """What runs gave: `table` (1 + columns, samples, runs), t first; samples of each; which to make again."""
+
+    table: Floats
+    counts: Integers
+    flagged: NDArray[np.bool_]
+
+
+class LaneModel:
+    """Runs side by side, `width` in a group. Lives on one thread at a time."""
+
+    def __init__(
+        self,
+        code: CodeCache,
+        segment: Segment,
+        rule: int,
+        values: Values,
+        given: Sequence[int],
+        columns: Sequence[int],
+        *,
+        fast: bool,
+    ) -> None:
+        """`given` are the slots with a start for each run. ValueError: what keeps runs from lock step."""
+        if rule_numbered(rule).kind != "fixed":
+            raise ValueError("the rule varies its steps")
+        reason = hindrance(segment, given)
+        if reason is not None:
+            raise ValueError(reason)
+        if segment.order > _STATES_MOST or len(segment.body) > _STATES_MOST:
+            raise ValueError("the model is large")
+        vital = [segment.columns[number].slot for number in vital_columns(segment)]
+        faults = frozenset(fault.number for fault in segment.faults)
+        segment, _ = stepped_segment(segment, values.room, variable=False)
+        passes = passes_of(segment)
+        states = [slot for s in segment.states for slot in range(s.slot, s.slot + s.count)]
+        self._values, self._given, self._columns = values, list(given), list(columns)
+        self.width = 2 * machine().width
+        self.draws = any(
+            count_draws(*expressions(action)) for actions in passes.values() for action in walk_actions(actions)
+        )
+        """Whether the model takes random numbers."""
+        varies = differing(passes, dict(enumerate(states)), given)
+        piece = machine().width if fast else 1
+        loop = LaneLoop(passes, TABLEAUS[rule], states, columns, vital, given, varies, faults, self.width, piece)
+        self._compiled = code.fast(loop.piece(), slp=False)
+        self._run = _RUN(self._compiled.address)
+        self.memory = LaneMemory(values=values.address)
+
+    def run(self, plan: RunPlan, starts: Floats, random: NDArray[np.uint64]) -> LaneRows:
+        """Make runs; `starts` (runs, given slots), `random` where each one's random numbers begin.
+
+        Everything else begins as the values say.
+        """
+        runs, width = starts.shape[0], self.width
+        groups = -(-runs // width)
+        lanes = np.minimum(np.arange(groups * width), runs - 1)  # the last group is filled up
+        own = np.ascontiguousarray(starts[lanes].reshape(groups, width, -1).transpose(0, 2, 1))
+        seeds = random[lanes].astype(np.int64)
+        samples = plan.rows_most
+        rows = np.empty((groups, samples, 1 + len(self._columns), width))
+        counts, flagged = np.zeros(groups * width, dtype=np.int64), np.zeros(groups * width, dtype=np.int64)
+        memory = self.memory
+        memory.starts, memory.random, memory.rows = own.ctypes.data, seeds.ctypes.data, rows.ctypes.data
+        memory.counts, memory.flagged = counts.ctypes.data, flagged.ctypes.data
+        memory.groups, memory.samples, memory.stop = groups, samples, 0
+        memory.t_start, memory.t_max, memory.comint = plan.t0, plan.t_max, plan.comint
+        memory.dt, memory.every = plan.dt, plan.every
+        self._run(ctypes.addressof(memory))
+        used = max(int(counts.max()), 1)
+        table = rows[:, :used].transpose(2, 1, 0, 3).reshape(1 + len(self._columns), used, groups * width)
+        return LaneRows(table[:, :, :runs], counts[:runs], (flagged[:runs] != 0) | (counts[:runs] == 0))

@@ -1,0 +1,83 @@
+"""What of a segment differs between runs whose parameters, initial values and random numbers differ.
+
+Model replication (Korn's central idea) done by the compiler: what depends on these gets a number for each run,
+what does not is computed once for all of them.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered.effects import ArrayPiece, count_draws, expressions, memory, reads, writes
+from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
+from desire_tui.engine.lowered.statements import Deriv, Guard, Set, Terminate, UpdateTrackHold
+from desire_tui.engine.lowered.walk import walk_actions, walk_values
+from desire_tui.engine.values import SYSTEM_SLOTS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
+
+_PLAIN_STATEMENTS = (Set, Deriv, Guard, Terminate, UpdateTrackHold)
+_PLAIN_NODES = (Const, Load, Table1, Table2)
+
+
+def hindrance(segment: Segment, varied: Iterable[int]) -> str | None:
+    """Return what keeps runs of a segment from going in lock step; None: nothing does.
+
+    `varied` are the slots whose values differ at the start.
+    """
+    differs = set(varied)
+    if not segment.order:
+        return "there are no states"
+    if segment.events or segment.delays or segment.recover:
+        return "events, delays or recovered values"
+    if any(slot < SYSTEM_SLOTS for slot in differs):
+        return "times or settings of the run vary"
+    written, tables = set[int](), set[int]()
+    for action in walk_actions(segment.body):
+        if not isinstance(action, _PLAIN_STATEMENTS):
+            return f"{type(action).__name__} statements"
+        for slot, _ in writes(action):
+            written.add(slot)
+        for node in walk_values(*expressions(action)):
+            if not isinstance(node, _PLAIN_NODES) and not (isinstance(node, Op) and node.name != "delayed"):
+                return f"{type(node).__name__} operands"
+            for piece in memory(node):
+                if isinstance(piece, ArrayPiece):
+                    tables.update(range(piece.slot, piece.slot + piece.length))
+    if any(slot < SYSTEM_SLOTS for slot in written):
+        return "the program sets times or settings"
+    return "tables vary" if tables & (differs | written) else None
+
+
+def differing(
+    passes: Mapping[str, Iterable[Action]], states: Mapping[int, int], varied: Iterable[int]
+) -> frozenset[int]:
+    """Return the slots of numbers that differ between the runs. `states`: slots by number."""
+    found = set(varied)
+    while True:
+        before = len(found)
+        for kind, actions in passes.items():
+            for action in actions:  # `tail`: only runs that end carry it out
+                _spread(action, states, found, under=kind == "tail")
+        if len(found) == before:
+            return frozenset(found)
+
+
+def _spread(action: Action, states: Mapping[int, int], found: set[int], *, under: bool) -> None:
+    """Add what a statement makes different; `under`: it stands under a condition that differs."""
+    if isinstance(action, Guard):
+        inner = under or (action.condition is not None and _differs(action, found))
+        for held in (*action.body, *action.orelse):
+            _spread(held, states, found, under=inner)
+    elif under or _differs(action, found):
+        found.update(slot for slot, _ in writes(action))
+        if isinstance(action, Deriv):
+            found.add(states[action.state])
+
+
+def _differs(action: Action, found: set[int]) -> bool:
+    return bool(count_draws(*expressions(action))) or any(slot in found for slot, _ in reads(action))

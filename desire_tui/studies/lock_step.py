@@ -1,0 +1,92 @@
+"""Runs of a prepared program side by side in vector code, where nothing keeps them from going in lock step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.codegen.lanes.lane_model import LaneRows
+from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.session.prepared_run import RunStart
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from desire_tui.api.instance import Way
+    from desire_tui.engine.runtime.plan import RunPlan
+    from desire_tui.engine.session.prepared_run import PreparedRun
+
+    Floats = NDArray[np.float64]
+
+_NUMBERS_MOST = 1 << 17
+"""Samples of runs made together: they stay in the cache until they are reduced."""
+
+
+class LockStep:
+    """Lives on one thread at a time. ValueError: what keeps the runs from going in lock step."""
+
+    def __init__(
+        self, prepared: PreparedRun, way: Way, varied: Way, columns: Sequence[str], *, fast: bool
+    ) -> None:
+        """`way` is that of all settings, `varied` that of those which differ: they come first."""
+        if way.slots is None or varied.slots is None:
+            raise ValueError("the script has to run for each run")
+        self._prepared, self._way, self._follow = prepared, way, varied.follow
+        self._given = list(dict.fromkeys((*varied.slots, *varied.computed)))
+        self._places = [self._given.index(slot) for slot in varied.slots]
+        self._model = prepared.lanes(self._given, columns, fast=fast)
+        self.draws = self._model.draws
+        """Whether the model takes random numbers."""
+        width = self._model.width
+        self._row = (1 + len(columns)) * width
+        self.runs_most = width
+        """Runs to be made at a time."""
+
+    def end(self) -> None:
+        """End the runs that go on; from any thread."""
+        self._model.memory.stop = 1
+
+    def run(self, settings: Floats, random: Sequence[int] | None) -> LaneRows:
+        """Make runs; those flagged have to be made alone. `random`: where their random numbers begin."""
+        runs = len(settings)
+        seeds = np.zeros(runs, dtype=np.uint64) if random is None else np.array(random, dtype=np.uint64)
+        try:
+            starts, plan, failed = self._starts(settings)
+        except DesireError:
+            nothing = np.zeros((1, 1, runs))
+            return LaneRows(nothing, np.ones(runs, dtype=np.int64), np.ones(runs, dtype=np.bool_))
+        self.runs_most = self._model.width * max(1, min(64, _NUMBERS_MOST // (plan.rows_most * self._row)))
+        made = self._model.run(plan, starts, seeds)
+        return made._replace(flagged=made.flagged | failed)
+
+    def _assign(self, row: Sequence[float]) -> None:
+        assert self._way.slots is not None
+        for slot, value in zip(self._way.slots, row, strict=True):
+            self._prepared.values.assign(slot, value)
+
+    def _starts(self, settings: Floats) -> tuple[Floats, RunPlan, NDArray[np.bool_]]:
+        """Return what each run begins with, the plan of all, and whose script fails on its way there."""
+        prepared, way = self._prepared, self._way
+        assert way.slots is not None
+        failed = np.zeros(len(settings), dtype=np.bool_)
+        first = tuple(zip(way.slots, settings[0].tolist(), strict=True))
+        plan = prepared.planned(RunStart(first, way.follow))
+        data = prepared.values.data
+        if plan.backward:
+            return np.empty((len(settings), len(self._given))), plan, ~failed
+        starts = np.repeat(data[None, self._given], len(settings), axis=0)
+        if self._follow is not None:
+            for number, row in enumerate(settings.tolist()):
+                self._assign(row)
+                try:
+                    self._follow()
+                except DesireError:
+                    failed[number] = True
+                    continue
+                self._assign(row)
+                starts[number] = data[self._given]
+        starts[:, self._places] = settings[:, : len(self._places)]
+        return starts, plan, failed
