@@ -19,9 +19,9 @@ int main(void) {{
     struct timespec begun, ended;
     for (int repeat = 0; repeat < {repeats}; repeat++) {{
         {before}
-        clock_gettime(CLOCK_MONOTONIC, &begun);
+        clock_gettime({clock}, &begun);
         {work}
-        clock_gettime(CLOCK_MONOTONIC, &ended);
+        clock_gettime({clock}, &ended);
         printf("%.9f %.17g\\n", (ended.tv_sec - begun.tv_sec) + 1e-9*(ended.tv_nsec - begun.tv_nsec),
         {result});
     }}
@@ -29,9 +29,17 @@ int main(void) {{
 """
 
 
-def run_c(declarations: str, before: str, work: str, result: str, *, repeats: int = 5) -> tuple[float, float]:
-    """Return the median seconds of `work` and the value of the expression `result` after it."""
-    text = _FRAME.format(declarations=declarations, before=before, work=work, result=result, repeats=repeats)
+def run_c(
+    declarations: str, before: str, work: str, result: str, *, repeats: int = 5, cpu: bool = False
+) -> tuple[float, float]:
+    """Return the median seconds of `work` and the value of the expression `result` after it.
+
+    `cpu`: seconds of the processor, which other programs on the machine do not lengthen.
+    """
+    clock = "CLOCK_PROCESS_CPUTIME_ID" if cpu else "CLOCK_MONOTONIC"
+    text = _FRAME.format(
+        declarations=declarations, before=before, work=work, result=result, repeats=repeats, clock=clock
+    )
     with tempfile.TemporaryDirectory() as folder:
         source, program = Path(folder, "yardstick.c"), Path(folder, "yardstick")
         source.write_text(text, encoding="ascii")

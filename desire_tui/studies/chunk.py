@@ -87,9 +87,9 @@ _PROGRAMS = _Programs()
 
 
 def prepare(task: Task) -> str:
-    """Make a program ready and keep it for `run_chunk`; return the way its runs are made. DesireError."""
+    """Make a program ready and keep it for `run_chunk`; say in words how its runs are made. DesireError."""
     with _PROGRAMS.one(task) as program:
-        return "prepared" if isinstance(program, PreparedProgram) else "script"
+        return program.way_taken
 
 
 def end_runs(task: Task) -> None:

@@ -1,4 +1,4 @@
-"""Runs of a prepared program side by side in vector code, where nothing keeps them from going in lock step."""
+"""Runs of a prepared program side by side in vector code, where nothing keeps them from lock step."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from desire_tui.engine.codegen.lanes.lane_model import LaneRows
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.passes.replication import LockStepError
 from desire_tui.engine.session.prepared_run import RunStart
 
 if TYPE_CHECKING:
@@ -26,14 +27,14 @@ _NUMBERS_MOST = 1 << 17
 
 
 class LockStep:
-    """Lives on one thread at a time. ValueError: what keeps the runs from going in lock step."""
+    """Lives on one thread at a time. LockStepError: what keeps the runs from going in lock step."""
 
     def __init__(
         self, prepared: PreparedRun, way: Way, varied: Way, columns: Sequence[str], *, fast: bool
     ) -> None:
         """`way` is that of all settings, `varied` that of those which differ: they come first."""
         if way.slots is None or varied.slots is None:
-            raise ValueError("the script has to run for each run")
+            raise LockStepError("the script has to run for each run")
         self._prepared, self._way, self._follow = prepared, way, varied.follow
         self._given = list(dict.fromkeys((*varied.slots, *varied.computed)))
         self._places = [self._given.index(slot) for slot in varied.slots]

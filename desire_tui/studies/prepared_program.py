@@ -9,6 +9,7 @@ import numpy as np
 from desire_tui.api.instance import Instance, LoadOptions
 from desire_tui.api.settings import way_of
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.passes.replication import LockStepError
 from desire_tui.engine.session.prepared_run import RunStart
 from desire_tui.studies.keep import kept
 from desire_tui.studies.lock_step import LockStep
@@ -53,11 +54,19 @@ class PreparedProgram:
         if task.lanes:
             try:
                 self.lock_step = LockStep(
-                    self.instance.prepared, self.way, way_of(task.names, self.instance), self._expressions.names,
+                    self.instance.prepared,
+                    self.way,
+                    way_of(task.names, self.instance),
+                    self._expressions.names,
                     fast=task.fast,
                 )
-            except ValueError as reason:
+            except LockStepError as reason:
                 self.hindrance = str(reason)
+
+    @property
+    def way_taken(self) -> str:
+        """How runs are made, in words."""
+        return "in lock step" if self.lock_step is not None else f"one by one ({self.hindrance})"
 
     def settings(self, rows: Floats) -> Floats:
         """Return the values of everything that is set: what varies, then what is fixed."""
@@ -90,7 +99,9 @@ class PreparedProgram:
             table, counts, left = lock_step.run(settings[first : first + count], random)
             good = np.flatnonzero(~left)
             if len(good) == count:
-                made.numbers[first : first + count] = reduce(self.kept.items, table[0], list(table[1:]), counts)
+                made.numbers[first : first + count] = reduce(
+                    self.kept.items, table[0], list(table[1:]), counts
+                )
             elif len(good):
                 some = table[:, :, good]
                 made.numbers[first + good] = reduce(self.kept.items, some[0], list(some[1:]), counts[good])

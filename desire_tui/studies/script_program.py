@@ -58,6 +58,11 @@ class ScriptProgram:
         self._session.graphs.pages_max = 1
         self._session.keep(self._expressions)
 
+    @property
+    def way_taken(self) -> str:
+        """How runs are made, in words."""
+        return "each by the whole script"
+
     def chunk(self, first: int, rows: Floats, stopped: Callable[[], bool]) -> Chunk:
         """Run the script once for each row."""
         made = Chunk.empty(first, len(rows), self.kept.size)

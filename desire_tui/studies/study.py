@@ -40,6 +40,7 @@ class Study:
         _check_libraries(store)
         self.plan = Plan(task, design, kept(task.keep))
         self.way = prepare(task)
+        """How its runs are made, in words."""
         self.plan.check_room(store)
         self.store: Store = (
             MemoryStore(self.plan) if store is None else ZarrStore(self.plan, store, resume=resume)

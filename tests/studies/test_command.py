@@ -64,7 +64,7 @@ def test_files_of_each_kind(study, tmp_path):
 
 def test_the_summary(study):
     result = study("--sample", "k=uniform(1,2)", "--runs", "50", "--seed", "7", "--keep", "x@0, t[x<-5]")
-    assert "50 runs (50 run), 0 failed" in result.output
+    assert "50 runs (50 run), 0 failed; made in lock step" in result.output
     assert [line.split() for line in result.output.splitlines()[1:]] == [
         ["min", "mean", "max"], ["x@0", "1", "1", "1"], ["t[x<-5]", "–", "–", "–"],
     ]  # fmt: skip

@@ -12,6 +12,7 @@ and the threads that compile it, is one `compiler_state`. The rooms, from text t
     `loop`    the run loop of language.md 8.2, written once over a `storage`, its steps fixed or variable:
               `register_storage` small models of scalars: states, parameters and passes in one function
               `array_storage`    all others: tables of pieces, one loop for all models of a rule
+    `lanes`   many runs in lock step, a lane of vector code for each: the passes and the loop once more
     `stiff`   rules 9 … 16: CVODE's callbacks and interval loop as native functions
     `equations` right-hand side and Jacobian as C functions of t and x, for other people's solvers
     `moments` models with events or delays: `runtime.moments` in the place of a step

@@ -62,11 +62,18 @@ class NativeBackend:
             return NativeEquations(self._compiler.code, self._compiler.improver, segment, values)
 
     def lanes(
-        self, segment: Segment, rule: int, values: Values, given: Sequence[int], columns: Sequence[int], *, fast: bool
+        self,
+        segment: Segment,
+        rule: int,
+        values: Values,
+        given: Sequence[int],
+        columns: Sequence[int],
+        *,
+        fast: bool,
     ) -> LaneModel:
         """Prepare `segment` for runs in lock step that differ in the `given` slots.
 
-        ValueError: what keeps them from it.
+        LockStepError: what keeps them from it.
         """
         from desire_tui.engine.codegen.lanes.lane_model import LaneModel
 

@@ -1,7 +1,7 @@
 """What of a segment differs between runs whose parameters, initial values and random numbers differ.
 
-Model replication (Korn's central idea) done by the compiler: what depends on these gets a number for each run,
-what does not is computed once for all of them.
+Model replication (Korn's central idea) done by the compiler: what depends on these gets a number for each
+run, what does not is computed once for all of them.
 """
 
 from __future__ import annotations
@@ -19,6 +19,11 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Action
+
+
+class LockStepError(Exception):
+    """What keeps runs from going in lock step."""
+
 
 _PLAIN_STATEMENTS = (Set, Deriv, Guard, Terminate, UpdateTrackHold)
 _PLAIN_NODES = (Const, Load, Table1, Table2)

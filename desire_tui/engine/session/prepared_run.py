@@ -10,10 +10,10 @@ import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY
+from desire_tui.engine.passes.replication import LockStepError
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.start_values import StartQuantities
-from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.session.checkpoint import Checkpoint
 from desire_tui.engine.session.fault_place import with_part
@@ -166,14 +166,14 @@ class PreparedRun:
     def lanes(self, given: Sequence[int], columns: Sequence[str], *, fast: bool) -> LaneModel:
         """Return the run compiled for several at a time, which differ in the `given` slots.
 
-        `columns` are sampled. ValueError: what keeps the runs from going in lock step.
+        `columns` are sampled. LockStepError: what keeps the runs from going in lock step.
         """
         backend = self._workspace.segments.backend
         make = getattr(backend, "lanes", None)
         if make is None:
-            raise ValueError("the back end compiles nothing")
+            raise LockStepError("the back end compiles nothing")
         if self.base.history.positions is not None:
-            raise ValueError("the run continues another")
+            raise LockStepError("the run continues another")
         slots = {column.name: column.slot for column in self.segment.columns}
         model: LaneModel = make(
             self.segment, self._rule, self.values, given, [slots[name] for name in columns], fast=fast

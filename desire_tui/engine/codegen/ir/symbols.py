@@ -12,6 +12,7 @@ import functools
 from desire_tui.engine.codegen.ir.functions import C_FUNCTIONS
 
 _MVEC_LETTER = {2: "b", 4: "d", 8: "e"}
+_COMPARED = 300
 TWO_ARGUMENTS = frozenset(("pow", "atan2"))
 
 
@@ -49,6 +50,26 @@ def vector_addresses(width: int) -> dict[str, int]:
         except AttributeError:
             continue
     return found
+
+
+@functools.cache
+def sine_and_cosine() -> int | None:
+    """Return the address of the library's `sincos`; None: it is not there, or its bits are others."""
+    library = _mathematical_library()
+    try:
+        both = library.sincos
+    except AttributeError:
+        return None
+    both.argtypes, both.restype = (ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p), None
+    sine, cosine = ctypes.c_double(), ctypes.c_double()
+    for alone in (library.sin, library.cos):
+        alone.argtypes, alone.restype = (ctypes.c_double,), ctypes.c_double
+    for k in range(_COMPARED):
+        x = (-1.37) ** (k % 60) * (1 + 0.37 * k)
+        both(x, ctypes.addressof(sine), ctypes.addressof(cosine))
+        if (sine.value, cosine.value) != (library.sin(x), library.cos(x)):
+            return None
+    return _address(library, "sincos")
 
 
 def lane_by_lane(name: str, width: int) -> str:

@@ -84,6 +84,9 @@ def _machine() -> TargetMachine:
     found = TargetMachine(llvm, llvm.Target.from_default_triple(), width)
     for name, address in symbols.scalar_addresses().items():
         found.add_symbol(f"desire.{name}.1", address)
+    both = symbols.sine_and_cosine()
+    if both is not None:
+        found.add_symbol("desire.sincos.1", both)
     for name, address in symbols.vector_addresses(width).items():
         found.add_symbol(f"desire.{name}.{width}", address)
     return found

@@ -22,7 +22,13 @@ class LaneCells:
     """Scalars by slot; those in `differing` are wide. LLVM promotes the cells to registers."""
 
     def __init__(
-        self, text: IrText, runs: Replicas, slots: Iterable[int], differing: frozenset[int], states: Sequence[int], stages: int
+        self,
+        text: IrText,
+        runs: Replicas,
+        slots: Iterable[int],
+        differing: frozenset[int],
+        states: Sequence[int],
+        stages: int,
     ) -> None:
         self.text, self.runs = text, runs
         self.slots = sorted(set(slots))

@@ -17,6 +17,7 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.lanes import Lanes
+from desire_tui.engine.codegen.ir.symbols import sine_and_cosine
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.ir.work_memory import Fields
 from desire_tui.engine.codegen.jit.piece import Piece
@@ -26,11 +27,14 @@ from desire_tui.engine.codegen.lanes.replicas import Replicas
 from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE
 from desire_tui.engine.codegen.loop.stage_sums import scaled, weighted
 from desire_tui.engine.codegen.scalar.slot_usage import survey
+from desire_tui.engine.lowered.effects import expressions
+from desire_tui.engine.lowered.expressions import Op
+from desire_tui.engine.lowered.walk import walk_actions, walk_values
 from desire_tui.engine.passes.final_sample import holds_term
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from desire_tui.engine.integration.tableaus import Row, Tableau
     from desire_tui.engine.lowered.statements import Action
@@ -77,7 +81,8 @@ class LaneLoop:
         piece: int,
     ) -> None:
         self.text = IrText()
-        self.one, self.runs = Lanes(self.text), Replicas(self.text, width, piece)
+        together = sine_and_cosine() is not None and _takes_both(passes["derivative"])
+        self.one, self.runs = Lanes(self.text), Replicas(self.text, width, piece, together=together)
         usage = survey(passes.values())
         slots = usage.read | usage.written | {T, DT, *states, *columns, *vital}
         self.cells = LaneCells(self.text, self.runs, slots, differing, states, tableau.stages)
@@ -95,7 +100,11 @@ class LaneLoop:
         whole = "\n".join((body, *sorted(self.text.declarations)))  # what it calls depends on `piece`
         name = "l" + blake2b(whole.encode(), digest_size=10).hexdigest()
         frame = _FRAME.format(
-            name=name, width=width, given=len(self.given) * width, row=(1 + len(self.columns)) * width, **_OFFSETS
+            name=name,
+            width=width,
+            given=len(self.given) * width,
+            row=(1 + len(self.columns)) * width,
+            **_OFFSETS,
         )
         group = (
             f"define internal i32 @{name}.group(ptr %a, ptr noalias %v, ptr noalias %in, ptr noalias %seeds,"
@@ -153,7 +162,13 @@ class LaneLoop:
 
     def _write(self) -> None:
         text, runs = self.text, self.runs
-        for name, kind in (("k", "i64"), ("steps", "i64"), ("point", "i64"), ("row", "i64"), ("t_next", "double")):
+        for name, kind in (
+            ("k", "i64"),
+            ("steps", "i64"),
+            ("point", "i64"),
+            ("row", "i64"),
+            ("t_next", "double"),
+        ):
             text.alloca(kind, f"%l.{name}")
         for name in ("alive", "fired", "flagged"):
             text.alloca(runs.flags, f"%l.{name}")
@@ -210,10 +225,12 @@ class LaneLoop:
         text.branch(self.runs.any(self._flags("alive")), "step", "exit")
 
     def _sample(self, mask: str) -> None:
-        """Write a row for the runs that have their flag set; inf or nan in what states depend on flags them."""
+        """Write a row for the runs that have their flag set; inf or nan in vital columns is noted."""
         text, runs = self.text, self.runs
         row, width = self._get("i64", "row"), 1 + len(self.columns)
-        at = text.op(f"getelementptr double, ptr %rows, i64 {text.op(f'mul i64 {row}, {width * runs.width}')}")
+        at = text.op(
+            f"getelementptr double, ptr %rows, i64 {text.op(f'mul i64 {row}, {width * runs.width}')}"
+        )
         for number, slot in enumerate((T, *self.columns)):
             place = text.op(f"getelementptr double, ptr {at}, i64 {number * runs.width}")
             value = self.cells.wide(self.cells.load(slot))
@@ -302,6 +319,16 @@ class LaneLoop:
         text.do("ret i32 0")
 
 
+def _takes_both(actions: Iterable[Action]) -> bool:
+    """Whether statements take sine and cosine of the same expression."""
+    taken: dict[str, set[str]] = {"sin": set(), "cos": set()}
+    for action in walk_actions(actions):
+        for node in walk_values(*expressions(action)):
+            if isinstance(node, Op) and node.name in taken:
+                taken[node.name].add(repr(node.args))
+    return not taken["sin"].isdisjoint(taken["cos"])
+
+
 _FRAME = """
 define i32 @{name}(ptr %a) #0 {{
 entry:
@@ -340,7 +367,8 @@ work:
   %grows = getelementptr double, ptr %rows, i64 %orow
   %gcounts = getelementptr i64, ptr %counts, i64 %olane
   %gflags = getelementptr i64, ptr %flags, i64 %olane
-  %unused = call i32 @{name}.group(ptr %a, ptr %v, ptr %gin, ptr %gseeds, ptr %grows, ptr %gcounts, ptr %gflags)
+  %unused = call i32 @{name}.group(ptr %a, ptr %v, ptr %gin, ptr %gseeds, ptr %grows, ptr %gcounts,
+                                   ptr %gflags)
   %g1 = add i64 %g, 1
   br label %next
 done:

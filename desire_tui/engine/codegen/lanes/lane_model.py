@@ -15,7 +15,7 @@ from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.lowered.effects import count_draws, expressions
 from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.passes.assigned_states import stepped_segment
-from desire_tui.engine.passes.replication import differing, hindrance
+from desire_tui.engine.passes.replication import LockStepError, differing, hindrance
 from desire_tui.engine.passes.vital_columns import vital_columns
 
 if TYPE_CHECKING:
@@ -58,14 +58,14 @@ class LaneModel:
         *,
         fast: bool,
     ) -> None:
-        """`given` are the slots with a start for each run. ValueError: what keeps runs from lock step."""
+        """`given` are the slots with a start for each run. LockStepError: what keeps runs from it."""
         if rule_numbered(rule).kind != "fixed":
-            raise ValueError("the rule varies its steps")
+            raise LockStepError("the rule varies its steps")
         reason = hindrance(segment, given)
         if reason is not None:
-            raise ValueError(reason)
+            raise LockStepError(reason)
         if segment.order > _STATES_MOST or len(segment.body) > _STATES_MOST:
-            raise ValueError("the model is large")
+            raise LockStepError("the model is large")
         vital = [segment.columns[number].slot for number in vital_columns(segment)]
         faults = frozenset(fault.number for fault in segment.faults)
         segment, _ = stepped_segment(segment, values.room, variable=False)
@@ -74,12 +74,16 @@ class LaneModel:
         self._values, self._given, self._columns = values, list(given), list(columns)
         self.width = 2 * machine().width
         self.draws = any(
-            count_draws(*expressions(action)) for actions in passes.values() for action in walk_actions(actions)
+            count_draws(*expressions(action))
+            for actions in passes.values()
+            for action in walk_actions(actions)
         )
         """Whether the model takes random numbers."""
         varies = differing(passes, dict(enumerate(states)), given)
         piece = machine().width if fast else 1
-        loop = LaneLoop(passes, TABLEAUS[rule], states, columns, vital, given, varies, faults, self.width, piece)
+        loop = LaneLoop(
+            passes, TABLEAUS[rule], states, columns, vital, given, varies, faults, self.width, piece
+        )
         self._compiled = code.fast(loop.piece(), slp=False)
         self._run = _RUN(self._compiled.address)
         self.memory = LaneMemory(values=values.address)

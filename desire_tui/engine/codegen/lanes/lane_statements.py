@@ -84,7 +84,7 @@ class LaneStatements:
         self.text.begin(done)
 
     def _masked(self, actions: tuple[Action, ...], mask: str) -> None:
-        """Write statements for the runs that have their flag set; where there are none they are jumped over."""
+        """Write statements for the runs that have their flag set; where none has, they are jumped over."""
         if not actions:
             return
         some, done = (f"{stem}{self.text.fresh()}" for stem in ("some", "done"))
@@ -107,8 +107,13 @@ class LaneStatements:
             before = cells.load(action.level)
             level = cells.wide(before)
             lanes = runs if before.wide else self.values.one
-            own, own_level, nothing = (wide, level, zero) if before.wide else (value.name, before.name, lanes.const(0.0))
-            positive, set_before = lanes.compare("ogt", own, nothing), lanes.compare("oge", own_level, nothing)
+            own, own_level, nothing = (
+                (wide, level, zero) if before.wide else (value.name, before.name, lanes.const(0.0))
+            )
+            positive, set_before = (
+                lanes.compare("ogt", own, nothing),
+                lanes.compare("oge", own_level, nothing),
+            )
             above = self.text.op(f"and {lanes.flags} {positive}, {set_before}")
             cells.store(action.level, Number(lanes.choose(above, own, nothing), before.wide), mask)
         fires = runs.compare("ogt", wide, level)

@@ -1,4 +1,4 @@
-"""Vectors with an element for each run: the C library's functions are called so that no bit depends on the width."""
+"""Vectors with an element for each run; library functions are called so that the width changes no bit."""
 
 from __future__ import annotations
 
@@ -17,14 +17,18 @@ class Replicas(Lanes):
     Else they are the vector library's for so many elements, whose last two bits may differ.
     """
 
-    __slots__ = ("piece",)
+    __slots__ = ("piece", "together")
 
-    def __init__(self, text: IrText, width: int, piece: int) -> None:
+    def __init__(self, text: IrText, width: int, piece: int, *, together: bool = False) -> None:
+        """`together`: of many arguments both sine and cosine are wanted, which one call gives for less."""
         super().__init__(text, width)
         self.piece = piece
+        self.together = together and piece == 1
 
     def call_library(self, name: str, *args: str) -> str:
         """Call a function of the mathematical library for each run."""
+        if self.together and name in ("sin", "cos"):
+            return self._sine_or_cosine(name, args[0])
         count = 2 if name in TWO_ARGUMENTS else 1
         kind = "double" if self.piece == 1 else f"<{self.piece} x double>"
         kinds = ", ".join([kind] * count)
@@ -32,11 +36,20 @@ class Replicas(Lanes):
         needs.add(f"declare {kind} @desire.{name}.{self.piece}({kinds}) #1")
         function = f"runs.{name}.{self.width}"
         if self.piece == 1:
-            needs.add(lane_by_lane(name, self.width).replace(f"@desire.{name}.{self.width}(", f"@{function}("))
+            needs.add(
+                lane_by_lane(name, self.width).replace(f"@desire.{name}.{self.width}(", f"@{function}(")
+            )
         else:
             needs.add(_in_pieces(name, count, self.width, self.piece, function))
         listed = ", ".join(f"{self.kind} {a}" for a in args)
         return self.text.op(f"call {self.kind} @{function}({listed})")
+
+    def _sine_or_cosine(self, name: str, x: str) -> str:
+        """Ask for both: LLVM leaves one of two calls with the same argument away."""
+        self.text.declarations.update((_SINCOS, _both_for_each(self.width)))
+        pair = f"{{ {self.kind}, {self.kind} }}"
+        both = self.text.op(f"call {pair} @runs.sincos.{self.width}({self.kind} {x})")
+        return self.text.op(f"extractvalue {pair} {both}, {0 if name == 'sin' else 1}")
 
     def any(self, flags: str) -> str:
         """Return an i1: some flag is set."""
@@ -53,7 +66,7 @@ class Replicas(Lanes):
 
     def but(self, a: str, b: str) -> str:
         """Return the flags of `a` that `b` does not have."""
-        ones = f"splat (i1 true)"
+        ones = "splat (i1 true)"
         return self.both(a, self.text.op(f"xor {self.flags} {b}, {ones}"))
 
     def splat_flag(self, flag: str) -> str:
@@ -61,6 +74,28 @@ class Replicas(Lanes):
         one = self.text.op(f"insertelement {self.flags} poison, i1 {flag}, i64 0")
         zeros = f"<{self.width} x i32> zeroinitializer"
         return self.text.op(f"shufflevector {self.flags} {one}, {self.flags} poison, {zeros}")
+
+
+_SINCOS = "declare void @desire.sincos.1(double, ptr, ptr) nounwind"
+
+
+def _both_for_each(width: int) -> str:
+    """Return the text of a function that calls the library's `sincos` for each element."""
+    kind = f"<{width} x double>"
+    lines = [f"%s = alloca {kind}", f"%c = alloca {kind}"]
+    for lane in range(width):
+        lines.append(f"%x{lane} = extractelement {kind} %x, i64 {lane}")
+        lines += [f"%{at}{lane} = getelementptr double, ptr %{at}, i64 {lane}" for at in "sc"]
+        lines.append(f"call void @desire.sincos.1(double %x{lane}, ptr %s{lane}, ptr %c{lane})")
+    lines += [f"%{at}.all = load {kind}, ptr %{at}" for at in "sc"]
+    pair = f"{{ {kind}, {kind} }}"
+    lines += [
+        f"%first = insertvalue {pair} poison, {kind} %s.all, 0",
+        f"%both = insertvalue {pair} %first, {kind} %c.all, 1",
+        f"ret {pair} %both",
+    ]
+    head = f"define internal {pair} @runs.sincos.{width}({kind} %x) noinline #1"
+    return f"{head} {{\n" + "\n".join(lines) + "\n}"
 
 
 def _in_pieces(name: str, count: int, width: int, piece: int, function: str) -> str:
@@ -72,7 +107,9 @@ def _in_pieces(name: str, count: int, width: int, piece: int, function: str) -> 
         places = ", ".join(f"i32 {first + k}" for k in range(piece))
         listed = []
         for k in range(count):
-            lines.append(f"%a{first}.{k} = shufflevector {whole} %x{k}, {whole} poison, <{piece} x i32> <{places}>")
+            lines.append(
+                f"%a{first}.{k} = shufflevector {whole} %x{k}, {whole} poison, <{piece} x i32> <{places}>"
+            )
             listed.append(f"{part} %a{first}.{k}")
         lines.append(f"%r{first} = call {part} @desire.{name}.{piece}({', '.join(listed)})")
         parts.append(f"%r{first}")
@@ -80,7 +117,7 @@ def _in_pieces(name: str, count: int, width: int, piece: int, function: str) -> 
     while len(parts) > 1:
         kind = f"<{size} x double>"
         places = ", ".join(f"i32 {k}" for k in range(2 * size))
-        joined = []
+        joined: list[str] = []
         for a, b in zip(parts[::2], parts[1::2], strict=True):
             made = f"%j{size}.{len(joined)}"
             lines.append(f"{made} = shufflevector {kind} {a}, {kind} {b}, <{2 * size} x i32> <{places}>")

@@ -1,0 +1,158 @@
+"""Runs in lock step give the bits of runs made alone, whatever differs between them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from desire_tui.engine.codegen.lanes.lane_cells import Number
+from desire_tui.studies import chunk as chunks
+from desire_tui.studies.chunk import run_chunk
+from desire_tui.studies.prepared_program import PreparedProgram
+from desire_tui.studies.task import Task
+
+HEAD = "k = 3 | r = 0.1 | DT = 0.01 | TMAX = 2 | NN = 21 | x = 1 | v = 0 | SEED 3\n"
+SPRING = "d/dt x = v\nd/dt v = -k*x - r*v\n"
+FUNCTIONS = [
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "ln",
+    "log",
+    "sqrt",
+    "abs",
+    "sat",
+    "SAT",
+    "lim",
+    "deadz",
+    "deadc",
+    "swtch",
+    "sgn",
+    "rect",
+    "tri",
+    "sinc",
+    "sigmoid",
+    "SIGMOID",
+    "round",
+    "trnc",
+    "recip",
+]
+
+MODELS = {
+    "RK2": "drun\nDYNAMIC\n" + SPRING,
+    "Euler": "irule 2\ndrun\nDYNAMIC\n" + SPRING,
+    "RK4": "irule 3\ndrun\nDYNAMIC\n" + SPRING,
+    "rule 5": "irule 5\ndrun\nDYNAMIC\n" + SPRING,
+    "follows": "w = 2*k + r | TMAX = 1\ndrun\nDYNAMIC\nd/dt x = v\nd/dt v = -w*x\n",
+    "a state that all share": "s = 1\ndrun\nDYNAMIC\nd/dt s = -s*cos(t)\n" + SPRING + "y = s + x\n",
+    "every function": "drun\nDYNAMIC\n"
+    + SPRING
+    + "y = 0\n"
+    + "".join(f"y = y + {name}(0.9*x)\n" for name in FUNCTIONS)
+    + "y = y + max(x, v) + min(x, k) + comp(x, v, k) + atan2(v, k) + abs(x)^1.7 + x^3 + x^(-2) + k^x\n",
+    "tables": "ARRAY f[8] | data -1, 0, 0.5, 1, 3, 1, -2, 0 | read f | ARRAY F[2,2], X[2], Y[2]\n"
+    "F[1,1] = 1 | F[1,2] = 3 | X[2] = 1 | Y[2] = 2\n"
+    "drun\nDYNAMIC\n" + SPRING + "y = func1(x; f) + func1(sin(t); f)\nz = func2(x, v; F, X, Y)\n",
+    "if": "c = 0 | f = 0\ndrun\nDYNAMIC\nd/dt x = v\nif x > 0\nf = -k*x\nelse\nf = -2*k*x\nif v > 0 | c = c + 1 | end if\n"
+    "end if\nif t > 1 | c = c + 0.5 | end if\nd/dt v = f - r*v^3\n",
+    "what is remembered": "big = 0 | h = 0 | g = 0 | p = 0 | u = 0\ndrun\nDYNAMIC\n"
+    + SPRING
+    + "big = max(big, x)\ntrkhld h, g = v, x\ntrkhld p, u = sin(5*t), t\nOUT\nn = n + 1\n",
+    "step and SAMPLE": "q = 0 | s = 0\ndrun\nDYNAMIC\n" + SPRING + "step\nq = q + x\nSAMPLE 3\ns = x + t\n",
+    "noise": "q = 0 | n = 0\ndrun\nDYNAMIC\n"
+    + SPRING
+    + "if x > 0 | n = ran() | end if\nOUT\nq = q + gauss(0) + n\n",
+    "term at steps": "n = 0\ndrun\nDYNAMIC\n"
+    + SPRING
+    + "term t - 0.3*k - 0.2345\nterm x - 0.99*k\nOUT\nn = n + 1 | y = x + v\n",
+    "term for all at once": "drun\nDYNAMIC\n" + SPRING + "term t - 1.234\n",
+    "seldom samples": "MM = 4\ndrun\nDYNAMIC\n" + SPRING + "term t - 0.3*k - 0.2345\n",
+    "runs that fail": "drun\nDYNAMIC\nd/dt x = (k - 2)*x*x*x*x\nd/dt v = ln(x - k)\n",
+    "gaps": "drun\nDYNAMIC\n" + SPRING + "y = 1/(x*x - x*x) + ln(x)\n",
+    "nothing random differs but noise": "k = 1 | n = 0\ndrun\nDYNAMIC\nd/dt x = n\nOUT\nn = gauss(0)\n",
+}
+
+
+def names_of(text: str) -> list[str]:
+    body = text.partition("DYNAMIC\n")[2].replace(" | ", "\n")
+    assigned = [
+        line.partition("=")[0].strip().removeprefix("d/dt ") for line in body.split("\n") if "=" in line
+    ]
+    return [name for name in dict.fromkeys(assigned) if name.isidentifier()]
+
+
+def both(text: str, rows: np.ndarray, keep: str, **settings) -> tuple[chunks.Chunk, chunks.Chunk]:
+    task = Task(text, "<text>", None, keep, ("k",), seed=5, **settings)
+    with chunks._PROGRAMS.one(task) as program:
+        assert isinstance(program, PreparedProgram)
+        assert program.lock_step is not None, program.hindrance
+    return run_chunk(task, 0, rows), run_chunk(replace(task, lanes=False), 0, rows)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_bits_of_runs_made_alone(name):
+    text = HEAD + MODELS[name]
+    if "n = n + 1" in text:
+        text = text.replace("drun\n", "n = 0\ndrun\n", 1)
+    names = names_of(text)
+    keep = (
+        ", ".join(f"{each}[end], mean({each})" for each in names)
+        + ", t[end], max(x), x@0:2:0.25, t[x<0.5], integral(x)"
+    )
+    rows = np.linspace(0.5, 4, 21)[:, None]
+    found, alone = both(text + f"dispt {names[0]}\n", rows, keep)
+    assert np.array_equal(found.numbers, alone.numbers, equal_nan=True)
+    assert np.array_equal(found.errors, alone.errors)
+    assert found.failures.by_code == alone.failures.by_code
+    assert found.errors.any() == (name == "runs that fail")
+
+
+def test_functions_of_the_vector_library_are_near():
+    text = HEAD + MODELS["every function"] + "dispt x\n"
+    found, alone = both(text, np.linspace(0.5, 4, 21)[:, None], "x[end], y@1", fast=True)
+    assert found.numbers == pytest.approx(alone.numbers, rel=1e-12, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("text", "names", "why"),
+    [
+        ("irule 4\ndrun\nDYNAMIC\n" + SPRING, ("k",), "the rule varies its steps"),
+        ("drun\nDYNAMIC\n" + SPRING, ("TMAX",), "times or settings of the run vary"),
+        ("DT = 0.01*k\ndrun\nDYNAMIC\n" + SPRING, ("k",), "times or settings of the run vary"),
+        ("irule 2\ndrun\nDYNAMIC\n" + SPRING + "step\nDT = 0.01\n", ("k",), "the program sets times or settings"),
+        ("STATE y[3]\ndrun\nDYNAMIC\nVectr d/dt y = -k*y\n" + SPRING, ("k",), "DerivVec statements"),
+        ("ARRAY f[4] | f[1] = k | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("k",), "script has to run"),
+        ("ARRAY f[4] | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("f[3]",), "tables vary"),
+        ("drun\nDYNAMIC\n" + SPRING + "y = delay(x, 0.1)\n", ("k",), "events, delays"),
+        ("drun\nDYNAMIC\ny = k\n", ("k",), "there are no states"),
+        ("m = 2 | s = 0\ndrun\nDYNAMIC\n" + SPRING + "SAMPLE m\ns = t\n", ("m",), "the script has to run"),
+    ],
+)  # fmt: skip
+def test_what_keeps_runs_from_lock_step(text, names, why):
+    program = PreparedProgram(
+        Task(HEAD + text + "dispt x\n" * ("d/dt x" in text), "<text>", None, "t[end]", names)
+    )
+    assert program.lock_step is None
+    assert why in program.hindrance
+
+
+def test_settings_of_all_runs_do_not_keep_them_from_it():
+    text = HEAD + "w = 2*k | d = TMAX/2\ndrun\nDYNAMIC\nd/dt x = v - d\nd/dt v = -w*x\ndispt x\n"
+    rows = np.linspace(1, 2, 9)[:, None]
+    fixed = (("TMAX", 1.0), ("NN", 11.0), ("v", 2.0))
+    found, alone = both(text, rows, "x[end], t[end], d[end], v@0", fixed=fixed)
+    assert np.array_equal(found.numbers, alone.numbers)
+    assert found.numbers[0, 1:].tolist() == [1, 0.5, 2]
+
+
+def test_numbers_say_whether_they_are_wide():
+    assert Number("%x", wide=True).wide
