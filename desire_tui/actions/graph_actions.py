@@ -10,7 +10,6 @@ from desire_tui.common.dialogs import LineDialog
 from desire_tui.common.paths import full
 from desire_tui.engine.atomic_file import replacing
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.graph.axes import AXIS_WORDS
 from desire_tui.engine.outputs.formats import CSV, PICTURES, PNG, endings
 from desire_tui.engine.outputs.picture_options import name_and_options
 
@@ -77,6 +76,8 @@ class GraphActions(Controller):
         if graph.page is None:
             self.app.notify("No graph yet: press F5.", timeout=2)
             return
+        from desire_tui.engine.graph.axes import AXIS_WORDS  # with it NumPy, which a start does without
+
         axes = graph.page.axes
         word = f"log{argument}" if argument in ("x", "y") else argument
         if word not in AXIS_WORDS:
