@@ -29,9 +29,10 @@ class HelpActions(Controller):
     async def keys(self, argument: str = "") -> None:
         """Show all keys on a sheet; carry out what is chosen there."""
         del argument
-        from desire_tui.panes.key_sheet import KeySheet, entries, keys_of
+        from desire_tui.panes.key_sheet import KeySheet, entries
+        from desire_tui.panes.own_keys import OWN_KEYS
 
-        rows = entries(self.app.settings.keys, keys_of(self.app.graph.BINDINGS))
+        rows = entries(self.app.settings.keys, OWN_KEYS)
         if command_id := await self.app.push_screen_wait(KeySheet(rows)):
             self.app.do(command_id)
 

@@ -7,6 +7,7 @@ _NAMES = {
     "underscore": "_", "at": "@", "equals_sign": "=", "plus": "+", "minus": "-", "left": "←", "right": "→",
     "up": "↑", "down": "↓", "space": "Space", "escape": "Esc", "enter": "Enter", "tab": "Tab", "delete":
     "Del", "slash": "/", "full_stop": ".", "comma": ",", "semicolon": ";", "apostrophe": "'",
+    "home": "Home", "end": "End", "insert": "Ins", "backspace": "Backspace",
 }  # fmt: skip
 
 

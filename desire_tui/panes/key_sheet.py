@@ -13,7 +13,7 @@ from textual.widgets import Input, Static
 from desire_tui.commands import BY_ID, COMMANDS
 from desire_tui.common.command_search import is_described
 from desire_tui.common.dialogs import Question
-from desire_tui.common.key_names import key_name, key_names
+from desire_tui.common.key_names import key_names
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -28,7 +28,10 @@ KEY_CELLS, COLUMN_CELLS = 17, 42
 
 
 class Entry(NamedTuple):
-    """An action and its keys; `part` is the heading it stands under."""
+    """An action and its keys; `part` is the heading it stands under.
+
+    `command_id` is empty for what only a pane's own keys do, and only there.
+    """
 
     part: str
     command_id: str
@@ -36,18 +39,33 @@ class Entry(NamedTuple):
     title: str
 
 
-def entries(keys: Mapping[str, str], in_graph: Mapping[str, str]) -> list[Entry]:
-    """Return all that has a key. `keys`: those the user changed; `in_graph`: the graph's own by action."""
+def entries(keys: Mapping[str, str], of_panes: Mapping[str, Sequence[BindingType]]) -> list[Entry]:
+    """Return all that has a key. `keys`: those the user changed; `of_panes`: panes' own, by heading."""
     rows = [
         Entry(command.id.partition(".")[0], command.id, shown, command.title)
         for command in COMMANDS
         if (shown := key_names(keys.get(command.id) or command.keys))
     ]
-    rows += [
-        Entry("while the graph has the focus", command_id, keys_there, BY_ID[command_id].title)
-        for command_id, keys_there in in_graph.items()
-    ]
+    for heading, bindings in of_panes.items():
+        rows += [Entry(heading, *own) for own in keys_of(bindings)]
     return rows
+
+
+def keys_of(bindings: Sequence[BindingType]) -> list[tuple[str, str, str]]:
+    """Return what a pane's own keys do: the action of the table or an empty text, keys, title."""
+    shown = []
+    for binding in bindings:
+        if not isinstance(binding, Binding):
+            continue
+        is_of_table = binding.action.startswith(_DO)
+        command_id = binding.action[len(_DO) : -2] if is_of_table else ""
+        title = binding.description or (BY_ID[command_id].title if command_id else "")
+        if title:
+            shown.append((command_id, key_names(binding.key), title[0].upper() + title[1:]))
+    return shown
+
+
+_DO = "app.do('"
 
 
 def found(rows: Sequence[Entry], query: str) -> list[Entry]:
@@ -58,7 +76,8 @@ def found(rows: Sequence[Entry], query: str) -> list[Entry]:
         for row in rows
         if not wanted
         or any(wanted in key.casefold() for key in row.keys.replace(",", " ").split())
-        or is_described(BY_ID[row.command_id], query)
+        or all(word in f"{row.part} {row.title}".casefold() for word in query.casefold().split())
+        or (row.command_id and is_described(BY_ID[row.command_id], query))
     ]
 
 
@@ -151,7 +170,7 @@ class KeySheet(Question[str]):
             for row in range(high)
         )
         self.query_one("#keys-sheet", Static).update(text if pieces else "Nothing found. Esc closes.")
-        about = BY_ID[self._found[self._at].command_id] if self._at is not None else None
+        about = BY_ID.get(self._found[self._at].command_id) if self._at is not None else None
         words = f"  ·  {' '.join(about.words)}" if about is not None and about.words else ""
         self.query_one("#keys-about", Static).update(f"{about.help}{words}" if about is not None else "")
         at = next((n for n, (_, number) in enumerate(pieces) if number is not None and number == self._at), 0)
@@ -179,12 +198,3 @@ class KeySheet(Question[str]):
                 line.stylize(f"not bold {theme.background} on {theme.primary}")
             pieces.append((line, number))
         return pieces
-
-
-def keys_of(bindings: Sequence[BindingType]) -> dict[str, str]:
-    """Return the actions of the table that a pane's own keys carry out, with these keys."""
-    shown = {}
-    for binding in bindings:
-        if isinstance(binding, Binding) and binding.action.startswith("app.do('"):
-            shown[binding.action[len("app.do('") : -2]] = ", ".join(map(key_name, binding.key.split(",")))
-    return shown

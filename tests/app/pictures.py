@@ -18,7 +18,22 @@ def keys_page() -> str:
 Made by `make pictures` from the table in `desire_tui/commands.py`. Keys can be changed in the configuration file
 (`desire config` prints where it is): `[keys]`, then a line such as `"run.start" = "f5"`.
 
-{keys_table()}"""
+{keys_table()}
+{own_keys()}"""
+
+
+def own_keys() -> str:
+    """Return the keys that panes have for themselves, a Markdown table each."""
+    from desire_tui.panes.key_sheet import keys_of
+    from desire_tui.panes.own_keys import OWN_KEYS
+
+    tables = []
+    for heading, bindings in OWN_KEYS.items():
+        rows = [f"| {keys} | {title} |" for _, keys, title in keys_of(bindings)]
+        tables.append(
+            "\n".join([f"## {heading.capitalize()}", "", "| key | action |", "| --- | --- |", *rows, ""])
+        )
+    return "\n".join(tables)
 
 
 def keys_table() -> str:

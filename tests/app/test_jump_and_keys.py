@@ -9,8 +9,8 @@ from desire_tui.actions.jump import JumpScreen
 from desire_tui.commands import COMMANDS
 from desire_tui.desktop.themed_app import remembered
 from desire_tui.editor.tab_strip import TabStrip
-from desire_tui.panes.graph_pane import GraphPane
-from desire_tui.panes.key_sheet import KeySheet, entries, found, keys_of
+from desire_tui.panes.key_sheet import KeySheet, entries, found
+from desire_tui.panes.own_keys import OWN_KEYS
 
 from .conftest import OSCILLATOR, desktop
 
@@ -63,12 +63,16 @@ async def test_the_sheet_of_keys_is_searched_and_carries_out(program):
 
 
 def test_the_sheet_has_every_key_and_those_the_user_changed():
-    rows = entries({"run.start": "alt+1"}, keys_of(GraphPane.BINDINGS))
+    rows = entries({"run.start": "alt+1"}, OWN_KEYS)
     assert {row.command_id for row in rows} >= {command.id for command in COMMANDS if command.keys}
     assert any(row.keys == "Alt+1" and row.command_id == "run.start" for row in rows)
     assert [row.title for row in found(rows, "alt+j")] == ["Jump"]
     assert {row.keys for row in found(rows, "crosshair")} == {"Alt+R", "R"}
     assert found(rows, "no such key") == []
+    assert [(row.part, row.keys) for row in found(rows, "wider range")] == [("on a slider", "+, =")]
+    slider = {row.title: row.keys for row in rows if row.part == "on a slider"}
+    assert slider["Write into the program"] == "W"
+    assert slider["Back to the program's value"] == "Home, 0"
 
 
 async def test_the_palette_shows_a_theme_while_it_is_marked(program):
