@@ -274,6 +274,7 @@ class AppBase(ThemedApp):
 
     def follow_theme(self) -> None:
         """Take over the colours of a new theme where they are not CSS's."""
+        super().follow_theme()
         self.editor.follow_theme()
         self.list_problems()
 

@@ -10,6 +10,7 @@ from textual.command import CommandPalette
 
 from desire_tui.common import themes
 from desire_tui.common.remembered import remember, remembered
+from desire_tui.desktop.palette_colours import PaletteColours
 
 if TYPE_CHECKING:
     from textual.theme import Theme
@@ -24,6 +25,8 @@ class ThemedApp(App[None]):
     def __init__(self) -> None:
         self._completed: dict[str, Theme] = {}
         self._has_few_colours = False
+        self._palette_colours: PaletteColours | None = None
+        """Those that an open palette was filled with."""
         self._chosen_theme = self._configured_theme = UNCHOSEN
         super().__init__()
         for theme in themes.THEMES:
@@ -74,7 +77,15 @@ class ThemedApp(App[None]):
     @on(CommandPalette.OptionHighlighted)
     def _marked_in_palette(self, event: CommandPalette.OptionHighlighted) -> None:
         choice = getattr(getattr(event.highlighted_event.option, "hit", None), "command", None)
+        if isinstance(self.screen, CommandPalette):
+            self._palette_colours = PaletteColours.of(self.screen)
         self.try_theme(choice.name if isinstance(choice, themes.ThemeChoice) else None)
+
+    def follow_theme(self) -> None:
+        """Take over the colours of a new theme where they are not CSS's."""
+        if isinstance(self.screen, CommandPalette) and self._palette_colours is not None:
+            self._palette_colours.give_way(self.screen)
+            self._palette_colours = PaletteColours.of(self.screen)
 
     @on(CommandPalette.Closed)
     def _palette_closed(self) -> None:

@@ -7,6 +7,7 @@ from textual.widgets import Label, OptionList
 
 from desire_tui.actions.jump import JumpScreen
 from desire_tui.commands import COMMANDS
+from desire_tui.desktop.palette_colours import PaletteColours
 from desire_tui.desktop.themed_app import remembered
 from desire_tui.editor.tab_strip import TabStrip
 from desire_tui.panes.key_sheet import KeySheet, entries, found
@@ -75,6 +76,14 @@ def test_the_sheet_has_every_key_and_those_the_user_changed():
     assert slider["Back to the program's value"] == "Home, 0"
 
 
+def shown_colours(palette):
+    """Return how the letters found and the descriptions are drawn."""
+    spans = [s for o in palette.query_one(OptionList).options for s in o.prompt.spans]
+    found, described = palette.query_one(OptionList).options[0].prompt.spans[0].style, None
+    described = next((s.style for s in spans if s.style != found), PaletteColours.of(palette).described)
+    return PaletteColours(found, described)
+
+
 async def test_the_palette_shows_a_theme_while_it_is_marked(program):
     async with desktop(program("x = 1\n")) as desk:
         app = desk.app
@@ -83,6 +92,7 @@ async def test_the_palette_shows_a_theme_while_it_is_marked(program):
             await desk.until(lambda: app.screen.query_one(OptionList).option_count)
             await desk.press("down")
             await desk.until(lambda: app.theme == "nord")
+            await desk.until(lambda: shown_colours(app.screen) == PaletteColours.of(app.screen))
             await desk.press(ending)
             await desk.until(lambda: app.screen is app.main_screen and app.theme == theme)  # noqa: B023
         await desk.until(lambda: remembered().get("theme") == "nord")
