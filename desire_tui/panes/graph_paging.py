@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from desire_tui.engine.graph.color_keys import Key
     from desire_tui.engine.graph.curve import Curve
     from desire_tui.engine.graph.model import Graph
 
@@ -88,7 +89,18 @@ class GraphPaging:
         ):  # the same ones as long as may be
             self._pale = self.ghost, [replace(curve, color=GHOST) for curve in ghost]
         above = [curve for graph in (*self.under, page) for curve in graph.curves]
+        if self.under and page.has_keys:
+            from desire_tui.engine.graph.run_colors import in_run_colors
+
+            above = in_run_colors(above)
         return replace(page, curves=[*self._pale[1], *above])
+
+    @property
+    def keys(self) -> tuple[Key, ...]:
+        """The colour keys of everything that is drawn, but for a ghost."""
+        if self.page is None:
+            return ()
+        return self.with_all_under(self.page).keys if self.under else self.page.keys
 
     @property
     def curves_behind(self) -> int:

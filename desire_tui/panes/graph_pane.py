@@ -80,7 +80,7 @@ class GraphPane(MouseGestures, can_focus=True):
             yield self.sliders
 
     def _key_row_content(self) -> KeyRowContent:
-        keys = self.page.keys if self.page is not None and self.keys_shown else ()
+        keys = self.paging.keys if self.keys_shown else ()
         readout = self.readout
         color = readout.picked.color if readout.picked is not None else 0
         return KeyRowContent(*self.paper, keys, readout.reading, readout.told, color)
@@ -115,7 +115,7 @@ class GraphPane(MouseGestures, can_focus=True):
 
     def show_keys(self) -> None:
         """Have the colour keys drawn if they are others than before."""
-        keys = (self.page.keys if self.page is not None else (), self.paper)
+        keys = (self.paging.keys, self.paper)
         if keys != self._keys:
             self._keys = keys
             self.query_one(KeyRow).refresh()

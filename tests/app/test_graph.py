@@ -123,9 +123,15 @@ async def test_pages_and_overlay(program):
         await desk.press("alt+pagedown", "alt+pagedown")
         assert graph.page is pages[2]
         await desk.press("alt+o")
-        assert len(graph._painter.graph.curves) == 4
+        graph.tick()
+        drawn = graph._painter.graph.curves
+        assert len(drawn) == 4
+        assert len({curve.color for curve in drawn}) == 4  # each run has its shades of the curves' own hues
+        assert {curve.hue for curve in drawn[:2]} == {curve.hue for curve in drawn[2:]}
+        assert {key.color for key in graph.paging.keys} >= {curve.color for curve in drawn[2:]}
         await desk.press("alt+o")
-        assert len(graph._painter.graph.curves) == 2
+        graph.tick()
+        assert graph._painter.graph.curves == pages[2].curves
 
 
 async def test_what_is_drawn_does_not_depend_on_when_it_was_drawn(program):

@@ -7,6 +7,7 @@ and when the program is over.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.graph.colors import ramp_color
@@ -17,6 +18,15 @@ if TYPE_CHECKING:
     from desire_tui.engine.graph.curve import Curve
 
 SPAN_LEAST = 4
+
+
+def in_run_colors(curves: Sequence[Curve]) -> list[Curve]:
+    """Return the curves of several runs, one after the other, in ramps from the first run to the last."""
+    colors = RunColors()
+    for _, group in groupby(curves, lambda curve: curve.record):
+        colors.add(list(group))
+    colors.widen(0)
+    return colors.colored(curves, 0, own_colors=True)
 
 
 class RunColors:
