@@ -13,6 +13,7 @@ from textual.binding import Binding, BindingType
 from textual.widgets import Input
 from textual_fspicker.base_dialog import Dialog
 from textual_fspicker.file_dialog import BaseFileDialog
+from textual_fspicker.icons import Icons
 from textual_fspicker.parts import CurrentDirectory, DirectoryNavigation
 from textual_fspicker.parts.directory_navigation import DirectoryEntry, DirectoryEntryStyling
 from textual_fspicker.path_filters import Filter
@@ -31,6 +32,17 @@ if TYPE_CHECKING:
 HINT = "part of a name · ↑↓ choose · Tab completes · / ~/ ../ folder"
 MOVES = {"down": "cursor_down", "up": "cursor_up", "pagedown": "page_down", "pageup": "page_up"}
 RECENT_MOST = 5
+
+
+_FOLDER, _FILE = Text("▸"), Text(" ")
+
+
+def _sign(path: str | Path) -> Text:
+    return _FOLDER if is_dir(Path(path)) else _FILE
+
+
+Icons.set_picker(_sign)  # emoji are coloured pictures of other widths, or boxes, in many terminals
+DirectoryEntry.LINK_ICON = Text("→")  # type: ignore[misc]  # the library's own would be one, too
 
 
 class FileList(DirectoryNavigation):

@@ -43,6 +43,20 @@ async def test_a_new_program_is_saved_under_the_name_typed_at_once(tmp_path):
         assert desk.app.editor.front.buffer.name == "pendulum.src"
 
 
+async def test_entries_have_signs_that_every_terminal_shows_alike(program, tmp_path):
+    program("x = 1\n", "models/a.src")
+    program("x = 1\n", "b.src")
+    (tmp_path / "c.src").symlink_to(tmp_path / "b.src")
+    async with desktop(tmp_path / "b.src", size=(100, 30)) as desk:
+        dialog = await opened(desk, "ctrl+o")
+        files = dialog.query_one(FileList)
+        await desk.until(lambda: {"models", "c.src"} <= set(shown(dialog)))
+        text = "\n".join(files.render_line(y).text for y in range(files.size.height))
+        assert "▸  models" in text
+        assert "c.src →" in text
+        assert all(ord(character) < 0x1F000 for character in text)
+
+
 async def test_a_name_without_ending_gets_that_of_programs(tmp_path):
     async with desktop() as desk:
         await desk.do("file.new")

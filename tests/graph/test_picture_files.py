@@ -81,6 +81,13 @@ def test_size_and_dots_per_inch(tmp_path):
     assert _image((tmp_path / "g.png").read_bytes()).shape[:2] == (1200, 1800)
 
 
+@pytest.mark.parametrize("kind", ["png", "svg", "pdf"])
+def test_the_smallest_picture_is_made_without_a_word(kind, recwarn):
+    page = page_of("dispt", T, {"a long name of a curve": T, "another long name": 1 - T})
+    assert picture_of(page, kind, PictureOptions((1, 1)))
+    assert not recwarn.list
+
+
 def test_few_points_are_seen(tmp_path):
     t = np.arange(17.0)
     page = page_of("dispxy", t, {"x": 0.1 * t - 0.8, "y": 0.05 * t - 0.4}, "N12", rule=0)

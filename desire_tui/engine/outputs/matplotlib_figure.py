@@ -81,6 +81,7 @@ def picture_of(graph: Graph, kind: str, options: PictureOptions = FOR_PAPER) -> 
 def _settings() -> Iterator[None]:
     """Draw alone, under our settings: no TeX, which can read files, and a `matplotlibrc` may ask for."""
     import logging
+    import warnings
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it reports that it fills its font cache
     from matplotlib import rc_context
@@ -88,7 +89,9 @@ def _settings() -> Iterator[None]:
     fixed = rc_context({
         "svg.fonttype": "none", "pdf.fonttype": 42, "agg.path.chunksize": 20000, "text.usetex": False,
     })  # fmt: skip
-    with _drawing, fixed:
+    with _drawing, fixed, warnings.catch_warnings():
+        # labels that leave a very small picture no room for curves stand over them then
+        warnings.filterwarnings("ignore", message="constrained_layout not applied")
         yield
 
 
