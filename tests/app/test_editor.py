@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from textual.events import AppFocus
 
-from desire_tui.actions.file_actions import numbered
+from desire_tui.actions.open_and_save import numbered
 from desire_tui.common.dialogs import Choice
 from desire_tui.common.line_tokens import word_before
 from desire_tui.editor import indent

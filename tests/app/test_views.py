@@ -359,7 +359,7 @@ def shown(desk) -> list[list[tuple[str, object]]]:
 async def test_what_is_drawn_row_by_row_is_what_a_new_drawing_gives(program, monkeypatch):
     """Only rows that changed are drawn; whatever is done, none may be forgotten."""
     monkeypatch.setattr(
-        "desire_tui.editor.editor_pane.CHECK_AFTER_S", 1e6
+        "desire_tui.editor.editor_tabs.CHECK_AFTER_S", 1e6
     )  # nothing comes by itself between two looks
     text = "".join(f"y{n} = sin({n})*(x + 0.5) -- line {n}\n" for n in range(100))
     async with desktop(program(text)) as desk:
