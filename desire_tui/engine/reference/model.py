@@ -17,7 +17,7 @@ from desire_tui.engine.passes.renewal import renewals
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.states import make_states
-from desire_tui.engine.reference.steps import chattering, fixed_step, variable_step
+from desire_tui.engine.reference.steps import chattering, fixed_step, renew_in_interval, variable_step
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
@@ -65,7 +65,9 @@ class ReferenceModel:
         self.step = compile_(step_slice(segment))
         self.tail = compile_(final_sample_pass(segment))
         variable = tableau is not None and tableau.variable
-        self.renewal, self.step_renewal = map(compile_, renewals(segment) if variable else ((), ()))
+        anew = renewals(segment) if variable else ((), ())
+        self.renewal, self.step_renewal = map(compile_, anew)
+        self.renews = bool(anew[1])
         # each stage's pass writes its own k; k1 is written by the full and the step pass
         self.restage: Run | None = None if switches is None else compile_(derivative_slice(segment))
         self.stages: list[Run] = []
@@ -150,11 +152,17 @@ class ReferenceModel:
 
     def _step(self, memory: RunMemory) -> Ended | None:
         assert self.tableau is not None
-        renewal = self.step_renewal if memory.phase == Phase.IN_STEP else self.renewal
-        renewal()
+        self.renew(memory)
         memory.phase = Phase.IN_STEP
         step = variable_step if self.tableau.variable else fixed_step
         return step(self, self.tableau, memory)
+
+    def renew(self, memory: RunMemory) -> None:
+        """Make k1 anew behind a point or a step's start where the pass has changed what it depends on."""
+        if memory.phase != Phase.IN_STEP:
+            self.renewal()
+        elif self.renews:
+            renew_in_interval(self, memory)
 
     def _pass(self, statements: Run, memory: RunMemory) -> None:
         self.statements.fired = None

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.integration.switching.memory import CHATTERS
-from desire_tui.engine.integration.tableaus import STILL_MOST, whole_multiples
+from desire_tui.engine.integration.tableaus import CHANGE, LATE_HOLD, LATE_PARTS, STILL_MOST, whole_multiples
 from desire_tui.engine.passes.assigned_states import checked_state
 from desire_tui.engine.reference.states import sum_of_multiples
 from desire_tui.engine.runtime.run_memory import Ended, Phase
@@ -16,7 +16,8 @@ from desire_tui.engine.values import DT, ERRMAX, T
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from desire_tui.engine.integration.tableaus import Tableau
+    from desire_tui.engine.integration.tableaus import Row, Tableau
+    from desire_tui.engine.reference.statements import Run
     from desire_tui.engine.reference.states import States
     from desire_tui.engine.reference.switches import Switches
     from desire_tui.engine.runtime.run_memory import RunMemory
@@ -32,6 +33,7 @@ class SteppedModel(Protocol):
     nodes: list[tuple[int, float]]
     numbers: Sequence[int]
     switches: Switches | None
+    step_renewal: Run
 
     def run_stage(self, stage: int, memory: RunMemory) -> None:
         """Make a pass with both flags off; its derivatives are k[stage]."""
@@ -79,7 +81,7 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
             cells[T] = stop if switches is not None and lands and node == 1.0 else here + node * dt
             model.run_stage(stage, memory)
         checked = checked_state(memory.checked, model.numbers)
-        difference, state = _difference(model, tableau, dt, start, checked, memory.error_one)
+        difference, state = _difference(model, tableau.test, dt, start, checked, memory.error_one)
         if not difference > memory.error_max:
             break
         dt = 0.5 * dt
@@ -100,7 +102,12 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
     memory.steps += 1
     cells[T] = stop if lands else here + dt
     _note_extremes(memory, dt)
-    if difference < memory.error_min and not cut:
+    held, memory.late_hold = memory.late_hold > 0, max(memory.late_hold - 1, 0)
+    if difference < memory.error_min and not cut and not held:
+        if 2.0 * cells[DT] < memory.late_dt:
+            memory.late_hold = LATE_HOLD
+        else:
+            memory.late_dt = 0.0
         cells[DT] = min(2.0 * cells[DT], memory.dt_max)
     if switches is not None:
         bits = switches.follow(here, cells[T], next_point, start, states.k[0])
@@ -112,6 +119,20 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
     return None
 
 
+def renew_in_interval(model: SteppedModel, memory: RunMemory) -> None:
+    """Make k1 anew behind a step's start; DT is less where code there has changed it by much."""
+    cells, k = model.cells, model.states.k
+    k[1][:] = k[0]
+    model.step_renewal()
+    dt = cells[DT]
+    checked = checked_state(memory.checked, model.numbers)
+    change, _ = _difference(model, CHANGE, dt, model.states.fetch(), checked, memory.error_one)
+    if change > memory.error_max:
+        least = min(abs(memory.t_max) / LATE_PARTS, dt)
+        cells[DT] = max(dt * (memory.error_max / change), least)
+        memory.late_dt, memory.late_hold = max(dt, memory.late_dt), LATE_HOLD
+
+
 def chattering(switches: Switches, memory: RunMemory) -> Ended:
     """End a run that a switch holds up."""
     memory.culprit, memory.phase = switches.culprit(), Phase.ENDED
@@ -119,15 +140,14 @@ def chattering(switches: Switches, memory: RunMemory) -> Ended:
 
 
 def _difference(
-    model: SteppedModel, tableau: Tableau, dt: float, start: Sequence[float], checked: int, one: float
+    model: SteppedModel, test: Row, dt: float, start: Sequence[float], checked: int, one: float
 ) -> tuple[float, int]:
     """Return the largest test difference, and the number of its state.
 
     Relative to |x| + `one` with x at the step's start; absolute, and of one state, with CHECKN (0: that
     state is not integrated). A state that is nan has no difference: the run ends at it when the step is done.
     """
-    assert tableau.test is not None
-    denominator, multiples = whole_multiples(tableau.test)
+    denominator, multiples = whole_multiples(test)
     absolute = dt / denominator * np.abs(sum_of_multiples(multiples, model.states.k))
     if checked > len(absolute):
         return 0.0, 0

@@ -84,6 +84,8 @@ class RunMemory(ctypes.Structure):
         ),  # added to |x| where rules 4, 7, 8 take a test difference relative to it
         ("dt_least", ctypes.c_double),  # smallest and largest step taken
         ("dt_most", ctypes.c_double),
+        ("late_dt", ctypes.c_double),  # DT before code behind `step` made it small (rules 4, 7, 8) …
+        ("late_hold", ctypes.c_int64),  # … and for how many steps it must not grow
         ("k", ctypes.c_int64),
         ("point", ctypes.c_int64),  # index of the next communication point, 0 … nn-1
         (

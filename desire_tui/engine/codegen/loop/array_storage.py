@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 class ArrayStorage:
     """Implements `storage.Storage`. `contiguous`: the states stand side by side in the values."""
 
+    may_come_late = True
+    """Known when it runs."""
+
     def __init__(self, text: IrText, stages: int, width: int, *, contiguous: bool) -> None:
         self.text = text
         self.stages = stages
@@ -180,6 +183,17 @@ class ArrayStorage:
         loop(text, "0", count, 1, one)
         all_in_all = text.op(f"load double, ptr {total}")
         return lanes.compare("uno", all_in_all, all_in_all)
+
+    def has_pass(self, kind: str) -> str:
+        """Whether the pass has any piece."""
+        first = self.text.op(f"load volatile ptr, ptr {self.context.load(kind)}")
+        return self.text.op(f"icmp ne ptr {first}, null")
+
+    def keep_change(self) -> None:
+        """k2 ← k1."""
+        elementwise(
+            self.text, "%n", self.vector, lambda lanes, i: put(lanes, "%k2", i, fetch(lanes, "%k1", i))
+        )
 
     def switched(self, kind: str) -> str:
         """Whether some mode may have switched: all rows are looked at at the end."""

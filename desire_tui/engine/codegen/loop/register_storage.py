@@ -37,6 +37,7 @@ class RegisterStorage:
         self.text = text
         self.looks = looks.at
         self.passes = passes
+        self.may_come_late = bool(passes["step_renewal"])
         self.states = states
         self.columns = columns
         self.vital = vital
@@ -159,6 +160,15 @@ class RegisterStorage:
     def vital_wild(self) -> str:
         """Whether some column that states depend on is inf or nan."""
         return self._is_wild([self.cells.load(slot) for slot in self.vital])
+
+    def has_pass(self, kind: str) -> str:
+        """Whether the pass has any statement."""
+        return "1" if self.passes[kind] else "0"
+
+    def keep_change(self) -> None:
+        """k2 ← k1."""
+        for number in range(len(self.states)):
+            self.text.do(f"store double {self._k(1, number)}, ptr %k2.{number}")
 
     def switched(self, kind: str) -> str:
         """Whether some mode may have switched."""

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE, FixedStep
 from desire_tui.engine.codegen.loop.frame import LoopFrame
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, SwitchedStep, Watched, write_departure
-from desire_tui.engine.codegen.loop.variable_steps import VariableStep
+from desire_tui.engine.codegen.loop.variable_steps import VariableStep, write_renewal_in_interval
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
@@ -169,7 +169,10 @@ class Driver(LoopFrame):
         self.run_pass("step", 1)
         text.branch(self._fired(), "tail", "renew.step")
         self._renew("renew", "renewal")
-        self._renew("renew.step", "step_renewal")
+        text.begin("renew.step")
+        if self.tableau is not None and self.tableau.variable:
+            write_renewal_in_interval(self)
+        text.jump("step")
         text.begin("tail")
         self.storage.run_pass("tail", 1)
         self.put("last", "1")

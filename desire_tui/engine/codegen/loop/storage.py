@@ -11,6 +11,9 @@ if TYPE_CHECKING:
 class Storage(Protocol):
     """Where states, derivatives and scalars are: stack cells or arrays (`…_storage`)."""
 
+    may_come_late: bool
+    """Whether code behind `step` may change what derivatives read."""
+
     def enter(self) -> None:
         """Begin the function."""
 
@@ -58,6 +61,13 @@ class Storage(Protocol):
     def vital_wild(self) -> str:
         """Return an i1: some column that states depend on is inf or nan."""
         ...
+
+    def has_pass(self, kind: str) -> str:
+        """Return an i1: a pass does anything."""
+        ...
+
+    def keep_change(self) -> None:
+        """Put k1 in k2's place."""
 
     def switched(self, kind: str) -> str:
         """Return an i1: by what `watch_stage` or `watch_end` has found, some mode may have switched."""

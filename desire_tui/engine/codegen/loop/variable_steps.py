@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.integration.tableaus import STILL_MOST
+from desire_tui.engine.integration.tableaus import CHANGE, LATE_HOLD, LATE_PARTS, STILL_MOST
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, ERRMAX, T
 
@@ -14,6 +14,28 @@ if TYPE_CHECKING:
 
 _TOLERANCE = 1e-9
 """A step that would end this near to a communication point (relative to what is left) ends on it."""
+
+
+def write_renewal_in_interval(driver: LoopFrame) -> None:
+    """Write what makes k1 anew behind a step's start; DT is less where code there has changed it by much."""
+    text, lanes, storage, memory = driver.text, driver.lanes, driver.storage, driver.memory
+    text.branch(storage.has_pass("step_renewal"), "renew.anew", "step")
+    text.begin("renew.anew")
+    storage.save()
+    storage.keep_change()
+    storage.run_pass("step_renewal", 1)
+    dt, most = storage.load(DT), memory.load("error_max")
+    change, _ = storage.difference(CHANGE, dt)
+    length = lanes.div(lanes.intrinsic("fabs", memory.load("t_max")), lanes.const(float(LATE_PARTS)))
+    least = lanes.choose(lanes.compare("olt", length, dt), length, dt)
+    wanted = lanes.mul(dt, lanes.div(most, change))
+    wanted = lanes.choose(lanes.compare("olt", wanted, least), least, wanted)
+    late = lanes.compare("ogt", change, most)
+    storage.store(DT, lanes.choose(late, wanted, dt))
+    before, hold = memory.load("late_dt"), memory.load("late_hold")
+    larger = lanes.choose(lanes.compare("ogt", dt, before), dt, before)
+    memory.store("late_dt", lanes.choose(late, larger, before))
+    memory.store("late_hold", text.op(f"select i1 {late}, i64 {LATE_HOLD}, i64 {hold}"))
 
 
 class VariableStep:
@@ -122,10 +144,26 @@ class VariableStep:
         grows = text.op(f"and i1 {small}, {whole}")
         now = storage.load(DT)
         doubled = lanes.mul(lanes.const(2.0), now)
+        if storage.may_come_late:
+            grows = self._grows_again(grows, doubled)
         most = driver.memory.load("dt_max")
         wider = lanes.choose(lanes.compare("olt", doubled, most), doubled, most)
         storage.store(DT, lanes.choose(grows, wider, now))
         self._end(lands)
+
+    def _grows_again(self, grows: str, doubled: str) -> str:
+        """Hold DT for a while where code behind `step` has made it small."""
+        text, memory = self.text, self.driver.memory
+        hold, before = memory.load("late_hold"), memory.load("late_dt")
+        is_free = text.op(f"icmp sle i64 {hold}, 0")
+        grows = text.op(f"and i1 {grows}, {is_free}")
+        less = text.op(f"select i1 {is_free}, i64 0, i64 {text.op(f'add i64 {hold}, -1')}")
+        below = self.lanes.compare("olt", doubled, before)
+        again = text.op(f"and i1 {grows}, {below}")
+        memory.store("late_hold", text.op(f"select i1 {again}, i64 {LATE_HOLD}, i64 {less}"))
+        over = text.op(f"and i1 {grows}, {text.op(f'xor i1 {below}, 1')}")
+        memory.store("late_dt", self.lanes.choose(over, self.lanes.const(0.0), before))
+        return grows
 
     def _landing(self) -> str:
         """Return where a step ends that was made to fit."""
