@@ -28,8 +28,8 @@ CHANGE: Row = (Fraction(1), Fraction(-1))
 """What code behind `step` has changed the first derivative by: k1 against the one before, in k2's place."""
 LATE_PARTS, LATE_HOLD = 40_000, 100
 """Such a change comes late by up to a step. DT times it is kept below ERMAX by a smaller DT, down to the
-run's length divided by the first number: a relay that holds a solution on its jump would go on for ever. DT grows
-again after so many steps without a change; the next one is then late by a small part of the time since."""
+run's length divided by the first number: a relay that holds a solution on its jump would go on for ever.
+DT grows again after so many steps without a change: the next is late by a small part of the time since."""
 
 
 @dataclass(frozen=True, slots=True)
