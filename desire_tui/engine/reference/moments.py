@@ -84,7 +84,8 @@ class MomentReferenceModel(ReferenceModel):
         return super()._point(memory)
 
     def _step(self, memory: RunMemory) -> Ended | None:
-        self.renew(memory)
+        renewal = self.step_renewal if memory.phase == Phase.IN_STEP else self.renewal
+        renewal()
         memory.phase = Phase.IN_STEP
         stepper, cells = self._stepper, self.cells
         first = self.states.k[0]

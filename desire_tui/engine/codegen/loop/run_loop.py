@@ -170,13 +170,16 @@ class Driver(LoopFrame):
         text.branch(self._fired(), "tail", "renew.step")
         self._renew("renew", "renewal")
         text.begin("renew.step")
-        if self.tableau is not None and self.tableau.variable:
-            write_renewal_in_interval(self)
+        self._renew_in_interval()
         text.jump("step")
         text.begin("tail")
         self.storage.run_pass("tail", 1)
         self.put("last", "1")
         text.jump("sample")
+
+    def _renew_in_interval(self) -> None:
+        if self.tableau is not None and self.tableau.variable:
+            write_renewal_in_interval(self)
 
     def _renew(self, block: str, kind: str) -> None:
         """Write where a rule that tests its steps computes k1 anew (`passes.renewal`)."""

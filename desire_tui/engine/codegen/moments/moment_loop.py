@@ -24,6 +24,9 @@ _FAULTS = (Ended.ZENO, Ended.STALLED, Ended.DEADLOCK, Ended.FULL)
 class MomentDriver(Driver):
     """Calls `runtime.moments.steps.step` where others make a step."""
 
+    def _renew_in_interval(self) -> None:
+        self.storage.run_pass("step_renewal", 1)
+
     def _step(self, tableau: Tableau) -> None:  # noqa: ARG002 - the step knows its own
         text, lanes = self.text, self.lanes
         text.begin("step")
