@@ -11,13 +11,15 @@ from desire_tui.engine.runtime.moments.histories import (
     pass_returns,
     record,
 )
-from desire_tui.engine.values import T
+from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
     from desire_tui.engine.runtime.moments.memory import Moments
 
 FIRINGS_MOST = 200
 """So many firings within the part of a run that `span` names end it."""
+_FEW_STEPS, _SHRUNK_LEAST = 12.0, 5
+"""An event comes every few steps; before, the time between two became less so often in a row."""
 NEVER = 1.7976931348623157e308
 
 
@@ -32,6 +34,10 @@ def begin(m: Moments) -> int:
         value: float = m.values[m.now + i]
         m.values[m.due + i] = 0.0
         m.before[i] = value
+        m.came[i] = t
+        m.gap[i] = 0.0
+        m.shrunk[i] = 0
+        m.quick[i] = 0
         m.armed[i] = value < 0.0 or (value == 0.0 and m.goes_on == 0)
     if due(m, 0.0) != 0 and carry_out(m) > 1:
         return 2
@@ -132,12 +138,29 @@ def note(m: Moments, i: int) -> int:
         m.values[m.due + i] = 1.0
         m.fired[i] = value
         m.armed[i] = 0
-    elif value < 0.0:
+    elif value < 0.0 or (value == 0.0 and m.before[i] > 0.0):
         m.armed[i] = 1
     elif value > 0.0:
         m.armed[i] = 0
     m.before[i] = value
     return due
+
+
+def piles_up(m: Moments, i: int, t: float) -> int:
+    """Whether event i came ever faster, and by now has come every few steps for a long time.
+
+    Fixed steps hide that it comes faster still: what bounces is carried on by the size of DT alone.
+    """
+    gap: float = t - m.came[i]
+    m.came[i] = t
+    if gap > _FEW_STEPS * m.values[DT]:
+        m.shrunk[i] = m.shrunk[i] + 1 if gap < m.gap[i] else 0
+        m.quick[i] = 0
+    elif m.shrunk[i] >= _SHRUNK_LEAST:
+        m.quick[i] += 1
+    m.gap[i] = gap
+    times: int = m.quick[i]
+    return times >= FIRINGS_MOST
 
 
 def has_fired(m: Moments, t: float) -> int:
@@ -147,6 +170,8 @@ def has_fired(m: Moments, t: float) -> int:
         if m.period[i] == 0.0 and m.values[m.due + i] != 0.0:
             m.last_fired = i
             fired = 1
+            if m.is_variable == 0 and m.stages != 0 and piles_up(m, i, t) != 0:
+                return 1
     m.firings += fired
     if m.firings < FIRINGS_MOST:
         return 0

@@ -34,6 +34,9 @@ class Moments(ctypes.Structure):
         ("armed", _INTS),
         ("goes_on", _INT),  # 1: the run continues one, in which what stands at 0 has had its turn
         ("period", _REALS), ("start", _REALS), ("ticks", _REALS), ("next", _REALS),
+        # an event that comes ever faster, until it does every few steps
+        ("came", _REALS), ("gap", _REALS),  # of each: when it came last, and how long behind the one before
+        ("shrunk", _INTS), ("quick", _INTS),  # so often in a row the gap became less; was a few steps
         # very many events in a very short time
         ("firings", _INT), ("firings_since", _REAL), ("span", _REAL), ("last_fired", _INT),
         # states and the rule

@@ -46,9 +46,10 @@ class Stepper:
         m.count = count
         m.condition_count = sum(event.condition is not None for event in events)
         m.now, m.due = values.room(max(count, 1)), values.room(max(count, 1))
-        for name in ("before", "at_left", "at_right", "fired", "ticks", "next"):
+        for name in ("before", "at_left", "at_right", "fired", "ticks", "next", "came", "gap"):
             self._reals(name, np.zeros(count))
-        self._ints("armed", np.zeros(count, dtype=np.int64))
+        for name in ("armed", "shrunk", "quick"):
+            self._ints(name, np.zeros(count, dtype=np.int64))
         self._period, self._start = np.zeros(count), np.zeros(count)
         self._reals("period", self._period)
         self._reals("start", self._start)
