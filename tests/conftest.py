@@ -9,9 +9,16 @@ import gc
 import os
 import signal
 import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import settings
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+TAKEN_BY_DESKTOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 os.environ["XDG_STATE_HOME"] = tempfile.mkdtemp(
     prefix="desire-tests-"
@@ -45,6 +52,24 @@ def pytest_sessionfinish() -> None:
     """
     gc.collect()
     gc.freeze()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol() -> Generator[None, object, object]:
+    """Put back what a test leaves changed in the process, so that no other test depends on its having run.
+
+    Textual's pictures set COLUMNS and LINES; a desktop in this process takes signals and keeps them.
+    """
+    environment, folder = dict(os.environ), Path.cwd()
+    handlers = {number: signal.getsignal(number) for number in TAKEN_BY_DESKTOPS}
+    result = yield
+    if os.environ != environment:
+        os.environ.clear()
+        os.environ.update(environment)
+    os.chdir(folder)
+    for number, handler in handlers.items():
+        signal.signal(number, handler)
+    return result
 
 
 @pytest.fixture

@@ -55,26 +55,21 @@ def test_output_comes_in_the_order_of_the_files_with_their_names_and_files_are_n
     }  # fmt: skip
 
 
-def test_settings_reach_every_program_and_a_limit_is_status_3(programs):
-    words = (
-        "run",
-        "endless.src",
-        "p1.src",
-        "--set",
-        "x=5",
-        "--timeout",
-        "2",
-        "-j",
-        "0",
-        "--quiet",
-        "--csv",
-        "{}.csv",
+def test_settings_reach_every_program(programs):
+    words = ("run", "p1.src", "p2.src", "--set", "x=5", "-j", "0", "--quiet", "--csv", "{}.csv")
+    assert desire_process(*words, cwd=programs) == (0, "", "")
+    for name in ("p1", "p2"):
+        assert (programs / f"{name}.csv").read_text().splitlines()[1] == "1,0.0,5.0"
+
+
+def test_a_limit_is_status_3(programs):
+    (programs / "other.src").write_text("label a\nx = x + 1\ngo to a\n")
+    status, out, err = desire_process(
+        "run", "endless.src", "other.src", "--timeout", "0.2", "-j", "2", "--quiet", cwd=programs
     )
-    status, out, err = desire_process(*words, cwd=programs)
     assert (status, out) == (3, "")
     assert "endless.src: error 490" in err
-    assert err.endswith("2 programs: 1 stopped by a limit or Ctrl-C (endless.src)\n")
-    assert (programs / "p1.csv").read_text().splitlines()[1] == "1,0.0,5.0"
+    assert err.endswith("2 programs: 2 stopped by a limit or Ctrl-C (endless.src, other.src)\n")
 
 
 def test_nobody_reads_standard_input_and_a_module_beside_the_programs_is_not_ours(programs):
