@@ -35,8 +35,8 @@ iterations cost little and the runs take as long or, the steps being longer, hal
 
 _ITERATION_CONVERGENCE = 1e-2
 """The same with functional iteration, whose estimate of its own convergence is coarse: with 0.1 the ring
-modulator comes out wrong by 20 ERMAX, with this by 0.01. Smooth problems take as many steps as with 0.1, stiff
-ones, for which these rules are not made, half as many again."""
+modulator comes out wrong by 20 ERMAX, with this by 0.01. Smooth problems take as many steps as with 0.1,
+stiff ones, for which these rules are not made, half as many again."""
 
 
 @dataclass(frozen=True)
