@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from desire_tui.desktop.layout_rules import Pane
 
 WIDTH, HEIGHT = 36, 7
+GRAPH_KEYS = 2
+"""Rows of a graph that say what its curves are."""
 ROOM = Size(72, 20)
 """The smallest terminal in which the note leaves enough of what it is about."""
 
@@ -56,10 +58,11 @@ class TourNote(Static):
         self.call_after_refresh(self._place)
 
     def _place(self) -> None:
-        """Stand in the lower right corner of the pane; above it where the pane is low."""
+        """Stand in the lower right corner of the pane, over a graph's keys; above a pane that is low."""
         region, height = self.target.region, self.outer_size.height
         low = region.height < height + 2
-        y = region.y - height if low else region.bottom - height - 1
+        keys = GRAPH_KEYS if self._pane == "graph" else 0
+        y = region.y - height if low else region.bottom - height - 1 - keys
         place = Offset(max(region.right - WIDTH - 1, 0), max(y, 0))
         self.visible = bool(region.area)
         if place != self._stands_at:

@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import os
+import shutil
 import tempfile
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 KEYS = Path(__file__).parents[2] / "docs" / "keys.md"
 FOLDER = Path(__file__).parents[2] / "docs" / "pictures"
+NOON = 1_767_268_800.0
+"""When the files that dialogs show were changed."""
 
 
 def keys_page() -> str:
@@ -49,6 +57,20 @@ def keys_table() -> str:
     return "\n".join(rows) + "\n"
 
 
+@contextmanager
+def a_folder() -> Iterator[Path]:
+    """Work in a folder that is called the same each time, for dialogs that show it."""
+    outer = Path(tempfile.gettempdir()) / "desire-pictures"
+    folder = outer / "models"
+    folder.mkdir(parents=True)
+    try:
+        os.chdir(folder)
+        yield folder
+    finally:
+        os.chdir(FOLDER)
+        shutil.rmtree(outer)
+
+
 async def main() -> None:
     """Play every scene and keep its last picture."""
     from .scenes import PICTURES, app_for, play
@@ -57,8 +79,10 @@ async def main() -> None:
     FOLDER.mkdir(parents=True, exist_ok=True)
     KEYS.write_text(keys_page())
     for scene in PICTURES:
-        with tempfile.TemporaryDirectory() as name:
-            app = app_for(scene, Path(name))
+        with a_folder() as folder:
+            app = app_for(scene, folder)
+            for path in (folder.parent, *folder.iterdir()):
+                os.utime(path, (NOON, NOON))
             async with app.run_test(size=scene.size) as pilot:
                 await play(app, pilot, scene)
                 (FOLDER / f"{scene.name}.svg").write_text(tidy(app.export_screenshot(title="Desire")))

@@ -58,9 +58,29 @@ SCENES = (
     Scene("help-160x50", (160, 50), words=("help",)),
     Scene("live-100x30", (100, 30), words=("live",)),
 )
-EPIDEMIC = (Path(__file__).parents[2] / "examples" / "ch2" / "epidemic.src").read_text()
+EXAMPLES = Path(__file__).parents[2] / "examples"
+EPIDEMIC = (EXAMPLES / "ch2" / "epidemic.src").read_text()
+FIRST = """\
+x = 10 | y = 2
+TMAX = 20
+drun
+DYNAMIC
+d/dt x = x - 0.1*x*y
+d/dt y = 0.075*x*y - 1.5*y
+dispt x, y
+"""
+"""What a newcomer types: nothing about steps or scales."""
+PLANE = FIRST.replace("TMAX", "display fit\nTMAX").replace("dispt x, y", "dispxy x, y")
+FAILED = FIRST.replace("- 1.5*y", "- 1.5*y*sqrt(40 - x)/5")
 PICTURES = (
     *SCENES,
+    Scene("first-model-100x30", (100, 30), ("shift+f7",), text=FIRST, file="hares.src"),
+    Scene("phase-plane-120x34", (120, 34), text=PLANE, file="hares.src"),
+    Scene("failed-100x30", (100, 30), text=FAILED, file="hares.src"),
+    Scene("palette-100x30", (100, 30), ("ctrl+p", *"csv")),
+    Scene("save-100x30", (100, 30), ("ctrl+n", "x", "=", "1", "ctrl+s", *"my", "underscore", *"model")),
+    Scene("keys-120x40", (120, 40), ("shift+f1",)),
+    Scene("sixteen-colours-80x24", (80, 24), words=("sixteen",)),
     Scene("desktop-120x34", (120, 34), ("alt+q", "down"), text=EPIDEMIC, file="epidemic.src"),
     Scene("examples-110x34", (110, 34), (*"servo",), run=False, words=("examples",)),
 )
@@ -112,6 +132,10 @@ def app_for(scene: Scene, folder: Path) -> DesireApp:
     path.write_text(scene.text)
     app = DesireApp([path])
     app.show_status = lambda: None  # type: ignore[method-assign]
+    if "sixteen" in scene.words:
+        app._has_few_colours = True
+        app._completed.clear()
+        app.stylesheet.set_variables(app.get_css_variables())
     return app
 
 
