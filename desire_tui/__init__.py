@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from typing import Unpack
 
     from desire_tui.api.model import Model
+    from desire_tui.api.simulation import Simulation, Snapshot
     from desire_tui.api.whole_program import RunSettings
     from desire_tui.engine.diagnostics import DesireError
     from desire_tui.engine.outputs.results import Result
@@ -34,7 +35,19 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.session import Session
     from desire_tui.studies.call import StudySettings
 
-__all__ = ["DesireError", "Model", "Result", "Run", "Session", "__version__", "load", "run", "study"]
+__all__ = [
+    "DesireError",
+    "Model",
+    "Result",
+    "Run",
+    "Session",
+    "Simulation",
+    "Snapshot",
+    "__version__",
+    "load",
+    "run",
+    "study",
+]
 
 _HOMES = {
     "DesireError": "desire_tui.engine.diagnostics",
@@ -42,6 +55,8 @@ _HOMES = {
     "Result": "desire_tui.engine.outputs.results",
     "Run": "desire_tui.engine.outputs.run",
     "Session": "desire_tui.engine.session.session",
+    "Simulation": "desire_tui.api.simulation",
+    "Snapshot": "desire_tui.api.simulation",
 }
 """Where the exported classes are; imported when they are first asked for."""
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.runtime.moments.setup import Stepper
+    from desire_tui.engine.runtime.moments.setup import Remembered, Stepper
     from desire_tui.engine.values import Values
 
 
@@ -25,7 +25,7 @@ class Positions:
     """
 
     counters: NDArray[np.int64]
-    stepper: Stepper | None = None
+    stepper: Stepper | Remembered | None = None
     """What holds the histories of `delay(x, tau)`."""
     points: int = 0
     end: float = float("nan")
@@ -33,7 +33,8 @@ class Positions:
 
     def copy(self) -> Positions:
         """Return a copy that later runs leave alone."""
-        return replace(self, counters=self.counters.copy())
+        stepper = None if self.stepper is None else self.stepper.remembered()
+        return replace(self, counters=self.counters.copy(), stepper=stepper)
 
 
 @dataclass

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.runtime.equations import Equations
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.runtime.plan import RunPlan
-    from desire_tui.engine.runtime.simulator import Observer
+    from desire_tui.engine.runtime.simulator import Observer, Simulator
     from desire_tui.engine.runtime.start_values import StartValues
     from desire_tui.engine.session.runs import Runs
     from desire_tui.engine.session.workspace import Workspace
@@ -106,12 +106,19 @@ class PreparedRun:
         return self._starts.start(self.values, None, continues=False)
 
     def run(
-        self, start: RunStart, record: tuple[str, ...], observer: Observer, base: Checkpoint | None = None
+        self,
+        start: RunStart,
+        record: tuple[str, ...],
+        observer: Observer,
+        base: Checkpoint | None = None,
+        *,
+        continues: bool = False,
     ) -> tuple[RunRecord, DesireError | None]:
         """Make the run; an error leaves the samples that came before it.
 
         `record` names what is sampled besides the program's own requests; `base` is another place to begin
-        at, `checkpoint()` of an earlier run. DesireError: the run cannot begin.
+        at, `checkpoint()` of an earlier run which this one `continues` perhaps. DesireError: the run cannot
+        begin.
         """
         began = perf_counter()
         workspace, simulator = self._workspace, self._runs.simulator
@@ -121,7 +128,7 @@ class PreparedRun:
             path = workspace.stash_path("read", lambda _: False)
             segment = workspace.segments.recovering(segment, path)
         plan = simulator.defaults.plan(segment, self._rule, self._source, self._span)
-        begins = self._starts.start(self.values, None, continues=base is not None)
+        begins = self._starts.start(self.values, None, continues=continues)
         self.warnings = list(simulator.defaults.warnings())
         segment = workspace.segments.directed(segment, plan)
         model = workspace.segments.model(segment, plan.rule)
@@ -188,6 +195,11 @@ class PreparedRun:
         for level in self.segment.levels:
             self.values.cells[level] = 0.0
         return plan
+
+    @property
+    def simulator(self) -> Simulator:
+        """What makes the runs."""
+        return self._runs.simulator
 
     def state_slots(self) -> NDArray[np.intp]:
         """Return where all states stand, in their order."""

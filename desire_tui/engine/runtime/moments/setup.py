@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from dataclasses import dataclass
 from math import ceil
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -15,9 +16,13 @@ from desire_tui.engine.runtime.moments.memory import Moments
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.values import Values
+
+    Numbers = NDArray[np.float64]
 
 _SPAN = 1e-9
 """Part of COMINT within which very many events are too many."""
@@ -31,7 +36,27 @@ _SAME = 1e-9
 class Past(Protocol):
     """What runs that continue one another hand on."""
 
-    stepper: Stepper | None
+    stepper: Stepper | Remembered | None
+
+
+@dataclass(frozen=True)
+class Remembered:
+    """Histories of delays as they were at some time: knots, and jumps that come back."""
+
+    knots: tuple[Numbers, Numbers, Numbers]
+    """Times; values and slopes, a row for each delay."""
+    jumps: Numbers
+    smoothness: NDArray[np.int64]
+    jump_at: NDArray[np.int64]
+
+    @property
+    def delay_count(self) -> int:
+        """How many delays have a history."""
+        return len(self.jump_at)
+
+    def remembered(self) -> Remembered:
+        """Return what never changes."""
+        return self
 
 
 class Stepper:
@@ -86,24 +111,44 @@ class Stepper:
         """Go on with the histories of the run before up to t, if there are such; else begin anew."""
         m = self.moments
         old = None if past is None else past.stepper
-        m.has_past = int(old is not None and old.moments.delay_count == m.delay_count)
+        m.has_past = int(old is not None and old.delay_count == m.delay_count)
         if old is None or not m.has_past:
             self._remembered, m.knots = [], 0
             self._make_room(_ROOM)
         elif old is not self:
-            self._remembered, m.knots = old._remembered, old.moments.knots  # noqa: SLF001 - another of this class
-            self._make_room(old.moments.room)
-            m.jump_count = old.moments.jump_count
-            for name, count in (("jumps", _JUMPS), ("smoothness", _JUMPS), ("jump_at", m.delay_count)):
-                here, there = getattr(m, name), getattr(old.moments, name)
-                ctypes.memmove(here, there, 8 * count)
-
+            self._adopt(old.remembered())
         if m.has_past:  # a run that is made once more finds what came later
             m.knots = int(np.searchsorted(self._remembered[0][: m.knots], t, side="right"))
             jumps = np.ctypeslib.as_array(m.jumps, (_JUMPS,))[: m.jump_count]
             m.jump_count = int(np.searchsorted(jumps, t, side="right"))
             for j in range(m.delay_count):
                 m.jump_at[j] = min(m.jump_at[j], m.jump_count)
+
+    @property
+    def delay_count(self) -> int:
+        """How many delays have a history."""
+        return int(self.moments.delay_count)
+
+    def remembered(self) -> Remembered:
+        """Return a copy of the histories."""
+        m = self.moments
+        times, history, slopes = self._remembered
+        knots = times[: m.knots].copy(), history[:, : m.knots].copy(), slopes[:, : m.knots].copy()
+        jumps, smoothness, jump_at = (
+            np.ctypeslib.as_array(getattr(m, name), (size,))[:size].copy()
+            for name, size in (("jumps", _JUMPS), ("smoothness", _JUMPS), ("jump_at", m.delay_count))
+        )
+        return Remembered(knots, jumps[: m.jump_count], smoothness[: m.jump_count], jump_at)
+
+    def _adopt(self, old: Remembered) -> None:
+        """Go on with histories of another model, or of an earlier time."""
+        m = self.moments
+        self._remembered, m.knots = list(old.knots), len(old.knots[0])
+        self._make_room(max(_ROOM, 2 * m.knots))
+        m.jump_count = len(old.jumps)
+        np.ctypeslib.as_array(m.jumps, (_JUMPS,))[: m.jump_count] = old.jumps
+        np.ctypeslib.as_array(m.smoothness, (_JUMPS,))[: m.jump_count] = old.smoothness
+        np.ctypeslib.as_array(m.jump_at, (m.delay_count,))[:] = old.jump_at
 
     def _make_room(self, room: int) -> None:
         m, count, knots = self.moments, self.moments.delay_count, self.moments.knots
