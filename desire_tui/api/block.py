@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from desire_tui.api.interrupts import callers_code
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -49,5 +51,9 @@ class Blocks:
 
     def block(self, record: RunRecord, first_row: int) -> None:
         """Note new samples."""
-        if self._on_block is not None and self._on_block(Block(record, first_row)) is False:
+        if self._on_block is None:
+            return
+        with callers_code():
+            answer = self._on_block(Block(record, first_row))
+        if answer is False:
             self._prepared.end()

@@ -7,6 +7,7 @@ from math import inf
 from threading import Lock
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
+from desire_tui.api import interrupts
 from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.permissions import Permissions
@@ -77,6 +78,7 @@ class Instance:
             permissions=Permissions(shell=options.allow_shell, files=options.allow_write),
         )  # fmt: skip
         self.session.keep(options.keep)
+        interrupts.watch(self.session.control)
         self._reach()
 
     def _reach(self) -> None:
@@ -123,6 +125,8 @@ class InstancePool(Generic[Kind]):
             instance = self._idle.pop() if self._idle else None
         if instance is None:
             instance = self.make()
+        else:
+            interrupts.watch(instance.session.control)
         try:
             yield instance
         except Exception:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.api.arguments import checked_backend, checked_timeout, checked_workers
 from desire_tui.api.instance import Instance, InstancePool, LoadOptions
+from desire_tui.api.interrupts import Interrupts
 from desire_tui.api.one_run import one_run
 from desire_tui.api.program_source import program_source
 from desire_tui.api.run_start import RunStarts
@@ -56,7 +57,7 @@ class Model:
         self.name = source.name
         self._source = source
         self._pool = InstancePool(lambda: Instance(source, options))
-        with self._pool.one() as first:
+        with Interrupts(), self._pool.one() as first:
             prepared, session = first.prepared, first.session
             start = prepared.start_values()
             known = parameters(prepared.script[0], session.values, start)
@@ -94,7 +95,7 @@ class Model:
         """Make one run and return its samples."""
         names = (record,) if isinstance(record, str) else tuple(record)
         seconds = checked_timeout(timeout)
-        with self._pool.one() as instance:
+        with Interrupts(), self._pool.one() as instance:
             settings = self._starts.numbers(set or {}, parameters, instance)
             start = self._starts.start(instance, settings, initial, t, parameters)
             run = one_run(instance, start, names, self._source, timeout=seconds, on_block=on_block)
@@ -132,7 +133,7 @@ class Model:
         names = (record,) if isinstance(record, str) else tuple(record)
         seconds, kept = checked_timeout(timeout), checked_keep(keep)
         count = checked_workers(workers)
-        with self._pool.one() as instance:
+        with Interrupts(), self._pool.one() as instance:
             self._starts.refuse_unknown(parameters, instance, "sweep", _SWEEP_ARGUMENTS)
             grid = grid_of({**(set or {}), **parameters}, lambda v: self._starts.numbers(v, {}, instance))
             first = next(grid.places())
@@ -144,7 +145,9 @@ class Model:
         def begin(instance: Instance, values: Mapping[str, float]) -> RunStart:
             return self._starts.start(instance, values, initial, t, parameters)
 
-        return Sweep(self._pool, begin, names, kept, self.name).run(grid, count, progress, seconds)
+        with Interrupts() as interrupts:
+            sweep = Sweep(self._pool, begin, names, kept, self.name, interrupts)
+            return sweep.run(grid, count, progress, seconds)
 
     def start(
         self,
@@ -161,9 +164,10 @@ class Model:
         """
         from desire_tui.api.simulation import Simulation
 
-        instance = self._pool.make()
-        settings = self._starts.numbers(set or {}, parameters, instance)
-        start = self._starts.start(instance, settings, initial, None, parameters)
+        with Interrupts():
+            instance = self._pool.make()
+            settings = self._starts.numbers(set or {}, parameters, instance)
+            start = self._starts.start(instance, settings, initial, None, parameters)
         return Simulation(instance, self._starts, self._source, replace(start, t0=t))
 
     # ------------------------------------------------------------------ for other people's solvers
@@ -190,9 +194,10 @@ class Model:
         """Return `rhs` and `jacobian` with other parameters, and C addresses of their own."""
         from desire_tui.api.equations import JacobianMatrix, RightHandSide, SharedEquations
 
-        with self._pool.one() as instance:
-            self._starts.refuse_unknown(parameters, instance, "equations", ())
-        shared = SharedEquations(self._pool.make, self._begin_with, parameters)
+        with Interrupts():
+            with self._pool.one() as instance:
+                self._starts.refuse_unknown(parameters, instance, "equations", ())
+            shared = SharedEquations(self._pool.make, self._begin_with, parameters)
         return RightHandSide(shared), JacobianMatrix(shared)
 
     def _begin_with(self, instance: Instance, parameters: Mapping[str, Any]) -> RunStart:

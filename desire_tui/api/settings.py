@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from desire_tui.api.instance import Instance
     from desire_tui.engine.diagnostics import Diagnostic
-    from desire_tui.engine.nodes.program import Placed
 
 
 def numbers(values: Mapping[str, Any]) -> dict[str, float]:
@@ -39,7 +38,7 @@ def way_of(names: tuple[str, ...], instance: Instance) -> Way:
     slots = tuple(slot_of(name, instance) for name in names)
     own = {name_and_subscripts(name)[0] for name in names}
     following = dependents(*prepared.script, prepared.place, own)
-    if following is None or None in slots or _shapes_the_code(own, following, instance):
+    if following is None or None in slots:
         return Way(None, None)
     found = tuple(slot for slot in slots if slot is not None)
     targets = (target for placed in following for target in assigned(placed.node).targets)
@@ -48,17 +47,6 @@ def way_of(names: tuple[str, ...], instance: Instance) -> Way:
     if not follows.union(found).isdisjoint(slot for slot, _ in prepared.segment.constants):
         return Way(None, None)  # a subscript, a SAMPLE's m: the segment itself becomes another
     return Way(found, session.repeated(following) if following else None, tuple(sorted(follows)))
-
-
-def _shapes_the_code(names: set[str], following: Iterable[Placed], instance: Instance) -> bool:
-    """Whether the segment was compiled with the value of a name that is set, or that follows (`SAMPLE m`)."""
-    compiled_with = {slot for slot, _ in instance.prepared.segment.constants}
-    found = (instance.session.values.find(name) for name in names.union(*map(_targets, following)))
-    return any(q is not None and not compiled_with.isdisjoint(range(q.slot, q.slot + q.slots)) for q in found)
-
-
-def _targets(placed: Placed) -> set[str]:
-    return {target.name for target in assigned(placed.node).targets}
 
 
 def slot_of(name: str, instance: Instance) -> int | None:

@@ -7,7 +7,9 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.api.arguments import checked_timeout
+from desire_tui.api.interrupts import Interrupts, watch
 from desire_tui.api.one_run import one_run
+from desire_tui.api.settings import way_of
 from desire_tui.engine.session.prepared_run import RunStart
 from desire_tui.engine.values import T
 
@@ -96,7 +98,8 @@ class Simulation:
         """
         names = (record,) if isinstance(record, str) else tuple(record)
         seconds, instance = checked_timeout(timeout), self._instance
-        with self._lock:
+        with Interrupts(), self._lock:
+            watch(instance.session.control)
             settings = self._starts.numbers(set or {}, parameters, instance)
             self._starts.refuse_unknown(parameters, instance, "run", _RUN_ARGUMENTS)
             given = tuple(settings)

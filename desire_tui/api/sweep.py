@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from desire_tui.api.interrupts import callers_code
 from desire_tui.api.sweep_result import Kept, data_set, kept_of
 from desire_tui.engine.diagnostics import DesireError
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.api.instance import Instance, InstancePool
+    from desire_tui.api.interrupts import Interrupts
     from desire_tui.api.sweep_result import Keep
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.prepared_run import RunStart
@@ -72,10 +74,16 @@ class Sweep:
     """Makes the runs of a grid."""
 
     def __init__(
-        self, pool: InstancePool[Instance], begin: Begin, record: tuple[str, ...], keep: Keep, program: str
+        self,
+        pool: InstancePool[Instance],
+        begin: Begin,
+        record: tuple[str, ...],
+        keep: Keep,
+        program: str,
+        interrupts: Interrupts,
     ) -> None:
         self._pool, self._begin, self._record = pool, begin, record
-        self._keep, self._program = keep, program
+        self._keep, self._program, self._interrupts = keep, program, interrupts
         self._timeout: float | None = None
         self._changed = Condition()
         self._done = 0
@@ -90,7 +98,7 @@ class Sweep:
         progress: Callable[[int, int], object] | None,
         timeout: float | None,
     ) -> xr.Dataset:
-        """Make all runs. Ctrl-C ends them all."""  # fmt: skip
+        """Make all runs. Ctrl-C ends them all."""
         places = list(grid.places())
         self._timeout = timeout
         self._found: list[Kept | None] = [None] * len(places)
@@ -105,10 +113,13 @@ class Sweep:
                 self._work(inf, tells=True)
         finally:
             self._over = True
-        if self._progress is not None:
-            self._progress(self._done, self._total)
+        if self._progress is not None and not self._interrupts.came:
+            with callers_code():
+                self._progress(self._done, self._total)
         if self._fault is not None:
             raise self._fault
+        if self._interrupts.came:
+            raise KeyboardInterrupt
         return data_set(grid.axes, grid.fixed, [k for k in self._found if k is not None], self._program)
 
     def _work_of_a_few(self) -> int:
@@ -132,17 +143,18 @@ class Sweep:
                 with self._changed:
                     self._changed.wait(_TOLD_SECONDS)
                 self._tell()
-        except BaseException:
+                if self._interrupts.came:
+                    break
+        finally:
             self._end()
             for thread in threads:
                 thread.join()
-            raise
 
     def _end(self) -> None:
         with self._changed:
             self._over = True
             for instance in self._busy:
-                instance.prepared.end()
+                instance.session.control.doom()
 
     def _work_apart(self) -> None:
         try:
@@ -162,7 +174,7 @@ class Sweep:
                 while most > 0:
                     with self._changed:
                         number, parameters = next(self._waiting, (-1, {}))
-                        if number < 0 or self._over:
+                        if number < 0 or self._over or self._interrupts.came:
                             return
                     self._found[number] = self._one(instance, parameters)
                     most -= 1
@@ -173,6 +185,8 @@ class Sweep:
             finally:
                 with self._changed:
                     self._busy.remove(instance)
+                    if not tells:
+                        instance.session.control.spare()
 
     def _one(self, instance: Instance, parameters: Mapping[str, float]) -> Kept:
         control = instance.session.control
@@ -186,14 +200,18 @@ class Sweep:
         if error is not None:
             return Kept(None, {}, error.message)
         if made.ended == "stopped":
+            if self._timeout is None:  # nobody will look at it
+                return Kept(None, {}, made.ended)
             return Kept(None, {}, f"stopped after {self._timeout:g} second(s), the limit given")
-        return kept_of(made, self._keep, prepared, self._program)
+        with callers_code():
+            return kept_of(made, self._keep, prepared, self._program)
 
     def _tell(self) -> None:
         now = monotonic()
         if self._progress is not None and now - self._told > _TOLD_SECONDS:
             self._told = now
-            self._progress(self._done, self._total)
+            with callers_code():
+                self._progress(self._done, self._total)
 
 
 class _Nobody:

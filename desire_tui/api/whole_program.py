@@ -6,6 +6,7 @@ import sys
 from typing import TYPE_CHECKING, Any, TypedDict
 
 from desire_tui.api.arguments import checked_backend, checked_timeout, refuse_name
+from desire_tui.api.interrupts import Interrupts
 from desire_tui.api.program_source import program_source
 from desire_tui.api.repeated_program import repeated_result
 from desire_tui.batch.headless_listener import HeadlessListener
@@ -42,7 +43,10 @@ def run_program(program: str | PathLike[str], settings: RunSettings) -> Result:
     source = program_source(program)
     overrides, timeout = from_mapping(settings.get("set") or {}), checked_timeout(settings.get("timeout"))
     backend, quiet = checked_backend(settings.get("backend", "native")), settings.get("quiet", True)
-    result = repeated_result(source, backend, overrides, timeout) if quiet else None
+    result = None
+    if quiet:
+        with Interrupts():
+            result = repeated_result(source, backend, overrides, timeout)
     if result is None:
         result = _whole(source, settings, RunOptions(
             settings=overrides, answer_stops=settings.get("go", False), timeout=timeout, backend=backend,
@@ -56,7 +60,7 @@ def _whole(source: Source, settings: RunSettings, options: RunOptions) -> Result
     listener = HeadlessListener(show, iter(settings.get("input", ())), _ignore)
     runner = Runner(source, options, listener)
     runner.run()
-    if runner.interrupted:
+    if runner.was_interrupted:
         raise KeyboardInterrupt
     return runner.result()
 

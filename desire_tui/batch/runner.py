@@ -78,6 +78,11 @@ class Runner:
         self.abandoned = False
         """The program did not end when asked to; its thread still runs."""
 
+    @property
+    def was_interrupted(self) -> bool:
+        """Whether Ctrl-C was pressed while it ran, even if the program ended by itself."""
+        return self._interrupted.is_set()
+
     def run(self, watch: Callable[[], None] | None = None) -> None:
         """Run the program, calling `watch` now and then; Ctrl-C in the main thread ends it."""
         thread = threading.Thread(target=self._run_script, name="desire-batch", daemon=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+from threading import Timer
 
 CHILD = """
 import sys, threading, time
@@ -51,7 +52,8 @@ def test_ctrl_c():
         [sys.executable, "-c", CHILD], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         text=True,
     ) as child:  # fmt: skip
-        heard = []
+        heard, watchdog = [], Timer(120, child.kill)
+        watchdog.start()
         for line in child.stdout:
             heard.append(line.strip())
             if line == "interrupted\n":
@@ -59,6 +61,7 @@ def test_ctrl_c():
                 child.stdin.flush()
             elif line != "all is well\n":
                 child.send_signal(signal.SIGINT)
+        watchdog.cancel()
         trouble = child.stderr.read()
     assert heard[1::2] == ["interrupted"] * 8, (heard, trouble)
     assert heard[-1] == "all is well", trouble

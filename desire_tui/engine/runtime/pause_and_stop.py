@@ -23,7 +23,7 @@ class Control:
         self._lock = Lock()
         self._go_on = Event()
         self._go_on.set()
-        self._ending = False
+        self._ending = self._doomed = False
         self._active = 0
         self._memory: RunMemory | None = None
         self.deadline = inf
@@ -60,6 +60,17 @@ class Control:
                 self._raise_flag()
         self._go_on.set()
 
+    def doom(self) -> None:
+        """End whatever goes on or begins, until `spare`. Takes no lock: signal handlers may call it."""
+        self._doomed = True
+        memory = self._memory
+        if memory is not None:
+            memory.stop = 1
+
+    def spare(self) -> None:
+        """Let work begin again."""
+        self._doomed = False
+
     def interrupt_block(self) -> None:
         """Bring native code back for a moment; the run goes on unless the user wants something else."""
         with self._lock:
@@ -94,16 +105,16 @@ class Control:
     @property
     def ending(self) -> bool:
         """Whether the end is requested."""
-        return self._ending
+        return self._ending or self._doomed
 
     def wait(self) -> bool:
         """Wait while paused; return whether work may go on."""
         self._go_on.wait()
-        return not self._ending
+        return not self.ending
 
     def clear_to_run(self, memory: RunMemory) -> bool:
         """Lower the stop flag; return False if a request came meanwhile and must be looked at first."""
         memory.stop = 0
         if monotonic() > self.deadline:
             self.end()
-        return self._go_on.is_set() and not self._ending
+        return self._go_on.is_set() and not self.ending
