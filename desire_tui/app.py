@@ -17,6 +17,7 @@ from desire_tui.actions.file_actions import FileActions
 from desire_tui.actions.graph_actions import GraphActions
 from desire_tui.actions.help_actions import HelpActions
 from desire_tui.actions.run_actions import RunActions
+from desire_tui.actions.study_actions import StudyActions
 from desire_tui.actions.view_actions import ViewActions
 from desire_tui.common import config, paths, plain_characters
 from desire_tui.common.key_names import key_names
@@ -30,6 +31,7 @@ from desire_tui.desktop.frame_pacing import FramePacing
 from desire_tui.desktop.live_mode import LiveMode
 from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.message_handlers import MessageHandlers
+from desire_tui.desktop.study_runner import StudyRunner
 from desire_tui.desktop.tour import Tour
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.editor.live_check import LiveChecker
@@ -84,13 +86,14 @@ class DesireApp(AskedApp):
         self.frame_pacing = FramePacing(self)
         self.command_line = CommandLine(self)
         self.live_mode = LiveMode(self)
+        self.studies = StudyRunner(self)
         self.tour = Tour(self)
         self.run_actions = RunActions(self)
         self.file_actions = FileActions(self)
         self.view_actions = ViewActions(self)
         self._controllers: dict[str, Controller] = {
             "run": self.run_actions, "file": self.file_actions, "edit": EditActions(self),
-            "graph": GraphActions(self),
+            "graph": GraphActions(self), "study": StudyActions(self),
             "view": self.view_actions, "help": HelpActions(self),
         }  # fmt: skip
         self.checker = LiveChecker(
@@ -171,6 +174,10 @@ class DesireApp(AskedApp):
         """Take notice of what happened to files while the window did not have the focus."""
         if self.is_ready:
             self.file_actions.save_and_reload.notice_changes()
+
+    def _stop_engine(self) -> None:
+        self.studies.stop()
+        super()._stop_engine()
 
     # --------------------------------------------------------------------------------------------- actions
 

@@ -19,6 +19,7 @@ from desire_tui.studies.task import Task
 if TYPE_CHECKING:
     from typing import IO
 
+    from desire_tui.engine.source import Source
     from desire_tui.studies.study import Progress
 
 _BAR = 20
@@ -32,7 +33,8 @@ def study_file(name: str, options: dict[str, Any]) -> int:
         output = None if options["output"] is None else Path(options["output"])
         if output is not None:
             check_ending(output)
-        study = _planned(name, options, output)
+        store = output if output is not None and output.suffix == ".zarr" else None
+        study = planned(source_named(name), options, store)
         shown = _ProgressLine(sys.stderr) if sys.stderr.isatty() and not options["quiet"] else None
         status = _run(study, options, shown)
         return _tell(study, output, status, quiet=options["quiet"])
@@ -41,8 +43,8 @@ def study_file(name: str, options: dict[str, Any]) -> int:
         return FAILED
 
 
-def _planned(name: str, options: dict[str, Any], output: Path | None) -> Study:
-    source = source_named(name)
+def planned(source: Source, options: dict[str, Any], store: Path | None = None) -> Study:
+    """Return the study that options describe, its runs still to be made. DesireError: it cannot be."""
     seed = options["seed"]
     method = next(known for known in METHODS if known == options["design"])
     design = Design(
@@ -62,16 +64,16 @@ def _planned(name: str, options: dict[str, Any], output: Path | None) -> Study:
         fixed=tuple(options["settings"].items()),
         seed=seed,
         segment=options["segment"],
-        backend=options["backend"],
-        allow_shell=options["allow_shell"],
-        allow_write=options["allow_write"],
-        fast=options["fast"],
+        backend=options.get("backend", "native"),
+        allow_shell=options.get("allow_shell", False),
+        allow_write=options.get("allow_write", False),
+        fast=options.get("fast", False),
     )
-    store = output if output is not None and output.suffix == ".zarr" else None
-    if options["resume"] and store is None:
+    resume = options.get("resume", False)
+    if resume and store is None:
         facts = {"what": "--resume needs a folder to go on with", "remedy": "-o results.zarr"}
         raise DesireError(Diagnostic("study-form", None, facts))
-    return Study(task, design, store=store, resume=options["resume"])
+    return Study(task, design, store=store, resume=resume)
 
 
 def _run(study: Study, options: dict[str, Any], shown: _ProgressLine | None) -> int:

@@ -32,6 +32,8 @@ def write(result: Any, path: Path) -> None:
     try:
         if path.suffix == ".nc":
             _write_netcdf(result, path)
+        elif path.suffix == ".zarr":
+            result.to_zarr(path, mode="w-", consolidated=False)
         else:
             _write_csv(result, path)
     except OSError as error:

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from numpy.typing import NDArray
+
+    from desire_tui.studies.dataset import Layout
     from desire_tui.studies.plan import Plan
     from desire_tui.studies.task import Chunk
 
@@ -71,6 +74,10 @@ class MemoryStore:
             flat[first:last] = part
         self._errors[first:last] = chunk.errors
         self.failures.merge(chunk.failures)
+
+    def numbers(self, layout: Layout) -> NDArray[np.float64]:
+        """Return what a quantity is in each run, (runs, numbers): nan where it is not made, or failed."""
+        return self._numbers[layout.name].reshape(self._plan.runs, -1)
 
     def result(self) -> Any:
         """Return a Dataset that shares the memory."""

@@ -1,0 +1,110 @@
+"""A chart of a study as a page of the display: zoomed, read out, saved like any other graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.graph.colors import ramp_color
+from desire_tui.engine.graph.curve import Curve, Frame
+from desire_tui.engine.graph.model import ShownArray
+from desire_tui.engine.integration.rules import DUMMY
+from desire_tui.engine.runtime.run_record import RunRecord
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.graph.curve import FrameKind
+    from desire_tui.engine.graph.model import Graph
+    from desire_tui.engine.graph.pages import GraphPages
+    from desire_tui.studies.charts import Chart, ChartKind, Line
+    from desire_tui.studies.dataset import Layout
+
+    Floats = NDArray[np.float64]
+
+MARGIN = 0.05
+KEYS_MOST = 8
+_FAN_COLORS = (9, 11, 15, 11, 9)
+"""Of the quantiles: alike on both sides of the median."""
+
+
+@dataclass
+class StudyChart:
+    """A chart that follows a study. `drawn` is what its page shows next; None: it shows the newest."""
+
+    layout: Layout
+    kind: ChartKind
+    parameter: str = ""
+    page: Graph | None = None
+    drawn: Chart | None = None
+
+
+def begin_page(pages: GraphPages, drawn: Chart, program: str) -> Graph:
+    """Open a page for a chart."""
+    page = pages.show_curves(Frame("dispxy", 0.0, 1.0, 0.0, 1.0, 1.0), "", [])
+    page.program = program
+    update_page(page, drawn)
+    return page
+
+
+def update_page(page: Graph, drawn: Chart) -> None:
+    """Show a chart on its page in place of what is there."""
+    if drawn.picture is not None:
+        finite = np.abs(drawn.picture[np.isfinite(drawn.picture)])
+        scale = float(finite.max()) if finite.size and finite.max() > 0 else 1.0
+        page.frame = Frame("picture", 0.0, 1.0, 0.0, 1.0, scale)
+        page.caption = drawn.title
+        page.shown = [ShownArray(drawn.y_name, drawn.picture.shape[1], scale, drawn.picture.ravel())]
+        page.erased += 1
+        return
+    page.texts |= {"title": drawn.title, "xlabel": drawn.x_name, "ylabel": drawn.y_name}
+    page.caption = f"{drawn.y_name} vs. {drawn.x_name}"
+    page.frame = frame = _frame(drawn)
+    page.has_keys = 1 < len(drawn.lines) <= KEYS_MOST
+    record = _record(drawn, frame)
+    page.curves = [
+        Curve(
+            line.name, drawn.x_name, _color(line, number, len(drawn.lines)), record, 1 + number, 0, frame,
+            joined=drawn.joined,
+        )
+        for number, line in enumerate(drawn.lines)
+    ]  # fmt: skip
+    page.erased += 1
+
+
+def _color(line: Line, number: int, count: int) -> int:
+    if line.part is not None:
+        return ramp_color(line.part)
+    return _FAN_COLORS[number] if count == len(_FAN_COLORS) else 14
+
+
+def _frame(drawn: Chart) -> Frame:
+    left, right = _limits([drawn.x], 0.0)
+    bottom, top = _limits([line.y for line in drawn.lines], MARGIN)
+    if drawn.kind in ("histogram", "cumulated"):
+        bottom = 0.0
+    kind: FrameKind = "dispt" if drawn.kind in ("fan", "curves", "over") else "dispxy"
+    return Frame(kind, left, right, bottom, top, max(abs(bottom), abs(top)))
+
+
+def _limits(columns: Sequence[Floats], margin: float) -> tuple[float, float]:
+    """Return the least and the largest finite number, apart from each other."""
+    numbers = np.concatenate([*columns, np.empty(0)])
+    finite = numbers[np.isfinite(numbers)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    room = margin * (high - low) or (0.0 if high > low else 0.05 * abs(high) or 1.0)
+    return low - room, high + room
+
+
+def _record(drawn: Chart, frame: Frame) -> RunRecord:
+    columns = [line.y for line in drawn.lines]
+    table = np.column_stack([drawn.x, *columns]) if columns else np.empty((0, 1))
+    return RunRecord(
+        number=0, segment=None, line=0, requests=(), columns=(), overlay=False, rule=DUMMY, scale=frame.scale,
+        t0=frame.left, t_max=frame.right - frame.left, nn=len(table), dt=1.0, rows=table, count=len(table),
+        ended="tmax",
+    )  # fmt: skip
