@@ -134,12 +134,11 @@ COMMANDS = (
     Command("graph.overlay", "Overlay", "Lay an older graph over the one shown, or take it away", "alt+o",
             ("overlay",), "number"),
     # ------------------------------------------------------------------------------------------------ studies
-    Command("study.start", "Study", "Run the front tab for many values; charts of what is kept grow meanwhile",
+    Command("study.start", "Study", "Run the front tab for many values; charts grow meanwhile",
             words=("study",), argument="--over k=1:10:10 --keep x[end]"),
     Command("study.pause", "Pause the study", "Make no new runs of the study, or go on"),
     Command("study.stop", "Stop the study", "End the study; what was made stays"),
-    Command("study.chart", "Chart of the study", "Another chart: fan, curves, histogram, cumulated, over, map "
-            "or scatter"),
+    Command("study.chart", "Chart of the study", "Another chart: fan, curves, histogram, map, scatter …"),
     Command("study.save", "Save the study", "Save what the study kept as NetCDF, CSV or Zarr"),
     # --------------------------------------------------------------------------------------------------- view
     Command("view.next_pane", "Next pane", "Move to the next pane", "f6"),

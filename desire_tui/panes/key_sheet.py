@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from textual.app import ComposeResult
 
 HEADINGS = {
-    "run": "Running", "file": "Files and tabs", "edit": "Editing", "graph": "The graph",
+    "run": "Running", "file": "Files and tabs", "edit": "Editing", "graph": "The graph", "study": "Studies",
     "view": "Panes and screen", "help": "Help",
 }  # fmt: skip
 KEY_CELLS, COLUMN_CELLS = 17, 42

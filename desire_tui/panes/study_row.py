@@ -35,7 +35,7 @@ class StudyRow(Label):
 def study_text(program: str, progress: Progress | None, *, paused: bool) -> str:
     """Return the row's text, the most important first."""
     state = "paused" if paused else "study"
-    keys = "study pause goes on · study stop" if paused else "study pause · study stop"
+    keys = "study go, study stop" if paused else "study pause, study stop"
     if progress is None:
         return f"{state} of {program} begins · {keys}"
     parts = [f"{state} {bar(progress.made / progress.runs)} {progress.made:,}/{progress.runs:,} runs"]
@@ -43,7 +43,7 @@ def study_text(program: str, progress: Progress | None, *, paused: bool) -> str:
         parts.append(f"{progress.failed:,} failed")
     if progress.seconds_left is not None and not paused:
         parts.append(f"{span_text(progress.seconds_left)} left")
-    return " · ".join([*parts, program, keys])
+    return " · ".join([*parts, keys, program])
 
 
 def span_text(seconds: float) -> str:

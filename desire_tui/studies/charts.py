@@ -31,10 +31,11 @@ RUNS_MOST = 20_000
 SCATTER_MOST = 100_000
 """Of more runs, the first ones are drawn."""
 BINS_MOST = 60
+CURVE_NOT_NUMBER = "{name} is a curve of each run: fan or curves show it"
 
 
 class Line(NamedTuple):
-    """A curve: ordinates over the chart's `x`, and how far along the ramp of colours, if it is one of many."""
+    """A curve: ordinates over the chart's `x`; its part of the ramp of colours, if it is one of many."""
 
     name: str
     y: Floats
@@ -91,13 +92,16 @@ def chart(results: Results, kind: ChartKind, parameter: str = "") -> Chart | str
     match kind:
         case "fan" | "curves":
             if results.numbers.shape[1] == 1:
-                return f"{results.layout.name} is one number of a run: a {kind} chart needs times, {example(results)}"
+                told = f"{results.layout.name} is one number of a run"
+                return f"{told}: a {kind} chart needs times, {example(results)}"
             return _fan(results) if kind == "fan" else _curves(results)
         case "histogram" | "cumulated":
+            if results.numbers.shape[1] > 1:
+                return CURVE_NOT_NUMBER.format(name=results.layout.name)
             return _histogram(results) if kind == "histogram" else _cumulated(results)
         case "over" | "map" | "scatter":
             if results.numbers.shape[1] > 1:
-                return f"{results.layout.name} is a curve of each run: fan or curves show it"
+                return CURVE_NOT_NUMBER.format(name=results.layout.name)
             if kind == "map":
                 return _map(results)
             return _over(results) if kind == "over" else _scatter(results, parameter)
@@ -106,6 +110,10 @@ def chart(results: Results, kind: ChartKind, parameter: str = "") -> Chart | str
 def example(results: Results) -> str:
     """Return how the same quantity would be kept over times."""
     return f"for instance {results.layout.item.expression.text.strip()}@0:1:0.1"
+
+
+def _ordinate(results: Results) -> str:
+    return results.layout.item.expression.text.strip()
 
 
 def _times(results: Results) -> Floats:
@@ -121,7 +129,7 @@ def _fan(results: Results) -> Chart:
     else:
         bands = np.full((len(QUANTILES), len(times)), np.nan)
     lines = [Line(name, band) for name, band in zip(QUANTILE_NAMES, bands, strict=True)]
-    return Chart("fan", _named(results), "t", results.layout.name, times, lines)
+    return Chart("fan", _named(results), "t", _ordinate(results), times, lines)
 
 
 def _quantiles(numbers: Floats) -> Floats:
@@ -138,7 +146,7 @@ def _curves(results: Results) -> Chart:
     names = results.plan.design.names
     last = max(results.plan.runs - 1, 1)
     lines = [Line(_values(names, results.values(int(k))), results.numbers[k], int(k) / last) for k in shown]
-    return Chart("curves", _named(results), "t", results.layout.name, _times(results), lines)
+    return Chart("curves", _named(results), "t", _ordinate(results), _times(results), lines)
 
 
 def _values(names: Sequence[str], row: Floats) -> str:
@@ -197,7 +205,12 @@ def _map(results: Results) -> Chart | str:
     down, across = grid
     across_from_to, down_from_to = _range(across.name, across.values), _range(down.name, down.values)
     title = f"{_named(results)}: {across_from_to} across, {down_from_to} down"
-    return Chart("map", title, across.name, down.name, picture=numbers)
+    finite = numbers[np.isfinite(numbers)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    return Chart(
+        "map", f"{title}; dark to bright {low:.4g} … {high:.4g}", across.name, down.name,
+        picture=(numbers - low) / ((high - low) or 1.0),
+    )  # fmt: skip
 
 
 def _range(name: str, values: Floats | None) -> str:

@@ -72,6 +72,17 @@ dispt x, y
 """What a newcomer types: nothing about steps or scales."""
 PLANE = FIRST.replace("TMAX", "display fit\nTMAX").replace("dispt x, y", "dispxy x, y")
 FAILED = FIRST.replace("- 1.5*y", "- 1.5*y*sqrt(40 - x)/5")
+SPRING = """\
+-- a spring with friction, pulled out and let go
+k = 4 | r = 0.1
+x = 1 | v = 0
+DT = 0.01 | TMAX = 5 | NN = 101 | irule 3
+drun
+DYNAMIC
+d/dt x = v
+d/dt v = -k*x - r*v
+dispt x
+"""
 PICTURES = (
     *SCENES,
     Scene("first-model-100x30", (100, 30), ("shift+f7",), text=FIRST, file="hares.src"),
@@ -82,6 +93,7 @@ PICTURES = (
     Scene("keys-120x40", (120, 40), ("shift+f1",)),
     Scene("sixteen-colours-80x24", (80, 24), words=("sixteen",)),
     Scene("desktop-120x34", (120, 34), ("alt+q", "down"), text=EPIDEMIC, file="epidemic.src"),
+    Scene("study-120x34", (120, 34), text=SPRING, file="spring.src", run=False, words=("study",)),
     Scene("examples-110x34", (110, 34), (*"servo",), run=False, words=("examples",)),
 )
 """What docs show; a program of the examples may change without any snapshot being wrong."""
@@ -107,6 +119,10 @@ async def play(app: DesireApp, pilot: Pilot[None], scene: Scene) -> None:
                 app.do("help.word", "dispxy")
             case "live":
                 app.do("run.live", "ww")
+            case "study":
+                varied = "k=normal(4,0.5), r=uniform(0,0.3)"
+                app.do("study.start", f"--sample {varied} --runs 1000 --seed 7 --keep x@0:5:0.05, min(x)")
+                await until(pilot, lambda: app.studies.progress is not None and not app.studies.is_going)
             case "complete":
                 app.do("edit.complete")
     await pilot.pause(0.2)
