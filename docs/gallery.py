@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 import sys
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,39 +18,44 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).parents[1]
 OPTIONS = ("--size", "6x3.75", "--dpi", "96", "--quiet", "--timeout", "300")
+LINES_MOST = 14
+"""Of console text that stands in a picture's place."""
 INTRO = """\
 # Gallery
 
-{drawn} of {count} examples, each with its last graph; the others write to the console. F11 opens them on the
+{count} examples, each with its last graph or with what it writes. F11 opens them on the
 desktop, `desire examples --copy DIR` copies them."""
 
 
-def draw_all(folder: Path) -> dict[str, Path]:
-    """Return the pictures by the examples' names, drawn in `folder` unless newer than all of the program.
+@dataclass(frozen=True)
+class Drawn:
+    """What there is to show of an example: a picture, or the beginning of its console text."""
 
-    Examples without a graph have none.
-    """
+    picture: Path | None
+    console: str = ""
+
+
+def draw_all(folder: Path) -> dict[str, Drawn]:
+    """Return what to show of each example, drawn in `folder` unless that is newer than all of the program."""
     folder.mkdir(parents=True, exist_ok=True)
-    newest = max(path.stat().st_mtime for path in (ROOT / "desire_tui").rglob("*.py"))
-    done = folder / "done"
     every = examples(ROOT / "examples")
-    newest = max(newest, *(example.path.stat().st_mtime for example in every))
-    if not done.exists() or done.stat().st_mtime < newest:
-        for old in folder.glob("*.png"):
+    sources = [*(ROOT / "desire_tui").rglob("*.py"), *(example.path for example in every)]
+    done = folder / "done"
+    if not done.exists() or done.stat().st_mtime < max(path.stat().st_mtime for path in sources):
+        for old in folder.iterdir():
             old.unlink()
         _draw(every, folder)
         done.touch()
-    found: dict[str, Path] = {}
-    for example in every:
-        numbered = folder.glob(f"{example.name}-*.png")
-        of_several = [path for path in numbered if path.stem.rpartition("-")[2].isdecimal()]
-        one = folder / f"{example.name}.png"
-        pictures = (
-            [one] if one.exists() else sorted(of_several, key=lambda path: int(path.stem.rpartition("-")[2]))
-        )
-        if pictures:
-            found[example.name] = pictures[-1]
-    return found
+    return {example.name: _found(example.name, folder) for example in every}
+
+
+def _found(name: str, folder: Path) -> Drawn:
+    """Look for NAME.png, or the last of NAME-1.png, NAME-2.png …, or the console text."""
+    numbers = [path.stem.removeprefix(f"{name}-") for path in folder.glob(f"{name}-*.png")]
+    last = max((int(number) for number in numbers if number.isdecimal()), default=None)
+    picture = folder / (f"{name}.png" if last is None else f"{name}-{last}.png")
+    text = folder / f"{name}.txt"
+    return Drawn(picture if picture.exists() else None, text.read_text("utf-8") if text.exists() else "")
 
 
 def _draw(every: Iterable[Example], folder: Path) -> None:
@@ -70,32 +77,31 @@ def _run(programs: list[str], folder: Path, where: Path, *options: str) -> None:
 
     Messages go to standard error, where whoever builds the site sees them.
     """
-    command = [
-        sys.executable,
-        "-m",
-        "desire_tui",
-        "run",
-        *programs,
-        "--png",
-        f"{folder}/",
-        *OPTIONS,
-        *options,
-    ]
+    files = ("--png", f"{folder}/", "--json", f"{folder}/")
+    command = [sys.executable, "-m", "desire_tui", "run", *programs, *files, *OPTIONS, *options]
     subprocess.run(command, cwd=where, check=False, stdin=subprocess.DEVNULL)  # noqa: S603 - our own command
+    for path in folder.glob("*.json"):
+        lines = json.loads(path.read_text(encoding="utf-8"))["console"].splitlines()
+        shown = [*lines[:LINES_MOST], "…"] if len(lines) > LINES_MOST else lines
+        path.with_suffix(".txt").write_text("\n".join(shown) + "\n", encoding="utf-8")
+        path.unlink()
 
 
-def gallery_page(pictures: Mapping[str, Path]) -> str:
+def gallery_page(drawn: Mapping[str, Drawn]) -> str:
     """Return the page in Markdown."""
     every = examples(ROOT / "examples")
-    drawn = sum(example.name in pictures for example in every)
-    parts = [INTRO.format(drawn=drawn, count=len(every))]
+    parts = [INTRO.format(count=len(every))]
     for folder, title in CHAPTERS.items():
         here = [example for example in every if example.folder == folder]
         parts.append(f"## {here[0].chapter}. {title}")
         for example in here:
             name = f"[{example.name}](../examples/{folder}/{example.path.name})"
-            picture = f"\n\n![{example.name}](gallery/{example.name}.png)" if example.name in pictures else ""
-            parts.append(f"### {example.name.replace('_', ' ')}\n\n{name}: {_plain(example.about)}{picture}")
+            parts += [f"### {example.name.replace('_', ' ')}", f"{name}: {_plain(example.about)}"]
+            found = drawn[example.name]
+            if found.picture is not None:
+                parts.append(f"![{example.name}](gallery/{example.name}.png)")
+            elif found.console.strip():
+                parts.append(f"```text\n{found.console}```")
     return "\n\n".join(parts) + "\n"
 
 

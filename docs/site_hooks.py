@@ -60,10 +60,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for source, page in PAGES_ELSEWHERE.items():
         text = _as_page(source, (ROOT / source).read_text(encoding="utf-8"), config.repo_url or "")
         files.append(File.generated(config, page, content=text))
-    pictures = draw_all(Path(os.environ.get("DESIRE_GALLERY", ROOT / "build" / "gallery")))
-    files.append(File.generated(config, "gallery.md", content=gallery_page(pictures)))
-    for name, path in pictures.items():
-        files.append(File.generated(config, f"gallery/{name}.png", abs_src_path=str(path)))
+    drawn = draw_all(Path(os.environ.get("DESIRE_GALLERY", ROOT / "build" / "gallery")))
+    files.append(File.generated(config, "gallery.md", content=gallery_page(drawn)))
+    for name, found in drawn.items():
+        if found.picture is not None:
+            files.append(File.generated(config, f"gallery/{name}.png", abs_src_path=str(found.picture)))
     return files
 
 

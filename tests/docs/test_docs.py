@@ -5,11 +5,15 @@ from __future__ import annotations
 import re
 import shlex
 import tomllib
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
+from desire_tui.engine.outputs.results import PlotPoint, Result, ResultProblem
+from desire_tui.engine.outputs.run import Run
+from desire_tui.engine.outputs.sampled_run import CurveData
 from docs.generate import PAGES
 from tests.programs.execution import execute
 
@@ -113,6 +117,17 @@ def test_no_braces_of_templates_are_left(name):
     """Doubled braces and names in braces are what a sentence's template is written with."""
     text = FENCE.sub("", (DOCS / name).read_text(encoding="utf-8"))
     assert re.findall(r"\{\{|\}\}|\{[a-z]{2,}[^{}]*\}", text) == []
+
+
+def test_the_page_on_json_has_every_field():
+    text = (DOCS / "json.md").read_text(encoding="utf-8")
+    names = {
+        field.name
+        for kind in (Result, Run, CurveData, ResultProblem, PlotPoint)
+        for field in fields(kind)
+        if "in_memory" not in field.metadata
+    }
+    assert {name for name in names if f"`{name}`" not in text} == set()
 
 
 def test_the_site_names_pages_that_are_there():
