@@ -256,7 +256,7 @@ def measure_editor() -> dict[str, float]:
 
 
 WANTED = {
-    "ready s": "≤ 0.6", "first dot s": "≤ 0.1", "frames/s": "≥ 20", "KB/frame": "≤ 6",
+    "ready s": "≤ 0.6", "first dot s": "≤ 0.1", "frames/s": "≥ 28", "KB/frame": "≤ 6",
     "echo median ms": "≤ 50", "echo worst ms": "≤ 150", "exit s": "≤ 1",
     "key median ms": "≤ 50", "key worst ms": "≤ 150", "work a key ms": "≤ 12",
 }  # fmt: skip

@@ -23,7 +23,7 @@ class Config:
 
     theme: str = "dark"
     """dark, light, contrast, publication, or any theme of Textual's."""
-    frames_per_second: int = 24
+    frames_per_second: int = 33
     """How often the graph is drawn during a run, 1 … 60."""
     completion_after: int = 3
     """Letters after which completions are offered by themselves; 0: only on demand."""
