@@ -106,7 +106,8 @@ def _tell(study: Study, output: Path | None, status: int, *, quiet: bool) -> int
         )
     if not quiet:
         shape = " × ".join(f"{axis.size} {axis.name}" for axis in study.plan.design.axes)
-        sys.stdout.write(f"{runs} runs ({shape}), {failures.count} failed; made {study.way}\n")
+        made = f"{runs} runs" if study.made == runs else f"{study.made} of {runs} runs"
+        sys.stdout.write(f"{made} ({shape}), {failures.count} failed; made {study.way}\n")
         if output is None or output.suffix != ".zarr":
             sys.stdout.write("".join(f"{line}\n" for line in summary(result)))
     return FAILED if status == DONE and failures.count == runs else status

@@ -127,14 +127,25 @@ class PreparedProgram:
             try:
                 record = self._record(number, numbers[place])
             except DesireError as error:
-                made.errors[place] = made.failures.note(number, error.diagnostics[0])
+                problem = error.diagnostics[0]
+                if made.failures.is_new(problem):
+                    problem = self._explained(number, numbers[place], problem)
+                made.errors[place] = made.failures.note(number, error.diagnostics[0], problem.message)
                 continue
             gathered.add(place, self._columns(record))
             if gathered.is_full:
                 gathered.reduce_into(made)
         gathered.reduce_into(made)
 
-    def _record(self, number: int, row: list[float]) -> RunRecord:
+    def _explained(self, number: int, row: list[float], problem: Diagnostic) -> Diagnostic:
+        """Return what a run says that failed: it is made once more, and looked at."""
+        try:
+            self._record(number, row, explains=True)
+        except DesireError as error:
+            return error.diagnostics[0]
+        return problem
+
+    def _record(self, number: int, row: list[float], *, explains: bool = False) -> RunRecord:
         instance, way = self.instance, self.way
         if way.slots is None:
             instance.override(dict(zip(self._names, row, strict=True)))
@@ -143,7 +154,7 @@ class PreparedProgram:
             follow=way.follow,
             random=stream(self.first_state(), number),
         )
-        record, error = instance.prepared.run(start, (), _NOBODY)
+        record, error = instance.prepared.run(start, (), _NOBODY, explains=explains)
         if error is None and record.ended == "stopped":
             error = DesireError(Diagnostic("stopped-by-user", source=self.task.source))
         if error is not None:

@@ -42,6 +42,8 @@ class Study:
         self.way = prepare(task)
         """How its runs are made, in words."""
         self.plan.check_room(store)
+        self.made = 0
+        """Runs made so far, by earlier studies that went on too."""
         self.store: Store = (
             MemoryStore(self.plan) if store is None else ZarrStore(self.plan, store, resume=resume)
         )
@@ -62,11 +64,13 @@ class Study:
         to_make = sum(count for _, count in missing)
         before = self.plan.runs - to_make
         made = 0
+        self.made = before
         chunks = self._chunks(missing, threads, cluster)
         try:
             for chunk in chunks:
                 self.store.put(chunk)
                 made += len(chunk.errors)
+                self.made = before + made
                 seconds = perf_counter() - began
                 left = seconds / made * (to_make - made)
                 told = Progress(before + made, self.plan.runs, self.store.failures.count, seconds, left)

@@ -62,10 +62,14 @@ class Failures:
         self.by_code: dict[int, tuple[int, str, int]] = {}
         """(first run, its message, runs)"""
 
-    def note(self, run: int, problem: Diagnostic) -> int:
-        """Note a run that failed; return the error's number."""
+    def is_new(self, problem: Diagnostic) -> bool:
+        """Whether no run failed for this reason yet."""
+        return (problem.code or WITHOUT_NUMBER) not in self.by_code
+
+    def note(self, run: int, problem: Diagnostic, message: str | None = None) -> int:
+        """Note a run that failed, with the problem's message or another; return the error's number."""
         code = problem.code or WITHOUT_NUMBER
-        self._add(code, run, problem.message, 1)
+        self._add(code, run, message or problem.message, 1)
         return code
 
     def merge(self, other: Failures) -> None:

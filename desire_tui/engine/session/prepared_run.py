@@ -113,12 +113,13 @@ class PreparedRun:
         base: Checkpoint | None = None,
         *,
         continues: bool = False,
+        explains: bool = True,
     ) -> tuple[RunRecord, DesireError | None]:
         """Make the run; an error leaves the samples that came before it.
 
         `record` names what is sampled besides the program's own requests; `base` is another place to begin
-        at, `checkpoint()` of an earlier run which this one `continues` perhaps. DesireError: the run cannot
-        begin.
+        at, `checkpoint()` of an earlier run which this one `continues` perhaps. `explains`: of an inf or nan
+        the error says what made it, which takes some milliseconds. DesireError: the run cannot begin.
         """
         began = perf_counter()
         workspace, simulator = self._workspace, self._runs.simulator
@@ -148,7 +149,9 @@ class PreparedRun:
             simulator.run(model, segment, plan, made, observer)
         except DesireError as fault:
             made.ended = "failed"
-            explained = with_part(fault, simulator, segment, plan, model, self.values)
+            explained = fault
+            if explains:
+                explained = with_part(fault, simulator, segment, plan, model, self.values)
             made.message = explained.diagnostics[0].message
             return made, self._placed(explained)
         finally:
