@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -67,3 +70,28 @@ def test_another_study_does_not_go_on_with_a_store(tmp_path):
     (tmp_path / "other.zarr").mkdir()
     with pytest.raises(DesireError, match="it is no study that can be gone on with"):
         desire_tui.study(DECAY, **settings | {"store": tmp_path / "other.zarr"}, resume=True)
+
+
+KILLED = """
+import sys, desire_tui
+from tests.studies.test_stores import DECAY, SETTINGS
+def told(progress):
+    print(progress.made, flush=True)
+    sys.stdin.read()
+desire_tui.study(DECAY, **SETTINGS, set={"a": 3}, store=sys.argv[1], threads=1, progress=told)
+"""
+
+
+def test_a_process_that_is_killed_loses_nothing_that_was_made(whole, tmp_path):
+    """The machine may go down at any moment: what is in the folder stays, the rest is made later."""
+    path = tmp_path / "s.zarr"
+    process = subprocess.Popen(
+        [sys.executable, "-c", KILLED, str(path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    made = int(process.stdout.readline())
+    process.kill()
+    process.communicate()
+    told = []
+    found = desire_tui.study(DECAY, **SETTINGS, set={"a": 3}, store=path, resume=True, progress=told.append)
+    assert same(found, whole)
+    assert made < told[0].made <= told[-1].made == 1200
