@@ -60,11 +60,10 @@ def time_names(plan: Plan) -> dict[tuple[float, ...], str]:
     return found
 
 
-def coordinates(plan: Plan) -> dict[str, tuple[str, NDArray[np.float64]]]:
-    """Return what stands along the dimensions: (dimension, numbers) by name."""
-    found = {axis.name: (axis.name, axis.values) for axis in plan.design.axes if axis.values is not None}
-    found |= {name: (RUN, numbers) for name, numbers in plan.design.drawn().items()}
-    return found | {name: (name, np.array(times)) for times, name in time_names(plan).items()}
+def scales(plan: Plan) -> dict[str, NDArray[np.float64]]:
+    """Return the numbers along those dimensions that have some, by their names."""
+    found = {axis.name: axis.values for axis in plan.design.axes if axis.values is not None}
+    return found | {name: np.array(times) for times, name in time_names(plan).items()}
 
 
 def attributes(plan: Plan, failures: Failures) -> dict[str, Any]:
@@ -97,7 +96,9 @@ def dataset(
     }
     dimensions = tuple(axis.name for axis in plan.design.axes)
     variables[ERROR] = (dimensions, errors.reshape(plan.design.shape), {"long_name": ERROR_NOTE})
-    return xr.Dataset(variables, coordinates(plan), attributes(plan, failures))
+    along = {name: (name, numbers) for name, numbers in scales(plan).items()}
+    drawn = {name: (RUN, numbers) for name, numbers in plan.design.drawn().items()}
+    return xr.Dataset(variables, along | drawn, attributes(plan, failures))
 
 
 def by_variable(plan: Plan, numbers: NDArray[np.float64]) -> Iterator[tuple[Layout, NDArray[np.float64]]]:

@@ -114,13 +114,17 @@ class Design:
                 made[:, column + k] = distribution.numbers(uniform[:, k])
         return made
 
-    def drawn(self) -> dict[str, Floats]:
-        """Return the values along the dimension `run`, by names."""
-        if not self._sample and not self._points:
+    @property
+    def drawn_names(self) -> tuple[str, ...]:
+        """What varies along the dimension `run`."""
+        return self.names[len(self._over) :]
+
+    def drawn(self, first: int = 0, count: int | None = None) -> dict[str, Floats]:
+        """Return values along the dimension `run`, by names; `count` None: all."""
+        if not self.drawn_names:
             return {}
-        rows = self.rows(0, self.draws)
-        first = len(self._over)
-        return {name: rows[:, first + k] for k, name in enumerate(self.names[first:])}
+        rows = self.rows(first, self.draws - first if count is None else count)
+        return {name: rows[:, len(self._over) + k] for k, name in enumerate(self.drawn_names)}
 
     def description(self) -> dict[str, object]:
         """Return what makes it the same study again, in plain numbers and texts."""

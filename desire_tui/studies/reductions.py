@@ -30,6 +30,11 @@ def reduce(items: Sequence[Kept], t: Floats, columns: Sequence[Floats], counts: 
     `t` and the items' `columns` are (samples, runs); of run k the first `counts[k]` samples are meant, at
     least one. What stands behind them is not looked at.
     """
+    with np.errstate(all="ignore"):  # numbers behind a run's end are anything
+        return _reduced(items, t, columns, counts)
+
+
+def _reduced(items: Sequence[Kept], t: Floats, columns: Sequence[Floats], counts: NDArray[np.intp]) -> Floats:
     samples, runs = t.shape
     made = np.empty((runs, sum(item.size for item in items)))
     lanes, last = np.arange(runs), counts - 1

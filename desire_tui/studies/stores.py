@@ -14,10 +14,11 @@ from desire_tui.studies.dataset import (
     NOT_MADE,
     attributes,
     by_variable,
-    coordinates,
     dataset,
     layouts,
+    scales,
 )
+from desire_tui.studies.design import RUN
 from desire_tui.studies.plan import boxes
 from desire_tui.studies.task import Failures
 
@@ -100,17 +101,26 @@ class ZarrStore:
         self._group = zarr.open_group(path, mode="w", zarr_format=3)
         self._group.attrs.update({**attributes(plan, self.failures), "study": json.dumps(plan.description())})
         own = tuple(axis.name for axis in plan.design.axes)
-        along = coordinates(plan)
-        others = [name for name, (dimension, _) in along.items() if name != dimension]
-        if others:
-            self._group.attrs["coordinates"] = " ".join(others)
-        for name, (dimension, numbers) in along.items():
-            made = self._array(name, numbers.shape, (dimension,), "f8", np.nan)
-            made[:] = numbers
+        for name, numbers in scales(plan).items():
+            self._array(name, numbers.shape, (name,), "f8", np.nan)[:] = numbers
+        self._write_drawn()
         for layout in layouts(plan):
             self._array(_file_name(layout.name), layout.shape, layout.dimensions, "f8", np.nan)
         error = self._array(ERROR, plan.design.shape, own, "i2", NOT_MADE)
         error.attrs["long_name"] = ERROR_NOTE
+
+    def _write_drawn(self) -> None:
+        """Write what was drawn or listed, piece by piece: there may be more than memory holds."""
+        design = self._plan.design
+        names = design.drawn_names
+        if not names:
+            return
+        self._group.attrs["coordinates"] = " ".join(names)
+        arrays = {name: self._array(name, (design.draws,), (RUN,), "f8", np.nan) for name in names}
+        for first in range(0, design.draws, _PIECE):
+            count = min(_PIECE, design.draws - first)
+            for name, numbers in design.drawn(first, count).items():
+                arrays[name][first : first + count] = numbers
 
     def _array(
         self, name: str, shape: tuple[int, ...], dimensions: tuple[str, ...], kind: str, fill: float

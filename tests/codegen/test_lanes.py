@@ -78,6 +78,7 @@ MODELS = {
     "seldom samples": "MM = 4\ndrun\nDYNAMIC\n" + SPRING + "term t - 0.3*k - 0.2345\n",
     "runs that fail": "drun\nDYNAMIC\nd/dt x = (k - 2)*x*x*x*x\nd/dt v = ln(x - k)\n",
     "gaps": "drun\nDYNAMIC\n" + SPRING + "y = 1/(x*x - x*x) + ln(x)\n",
+    "difference equations": "q = 0.3 | n = 0\ndrun\nDYNAMIC\nq = k*q*(1 - q)\nn = n + ran()\nterm n - 4*k\nOUT\nx = q + t\n",
     "nothing random differs but noise": "k = 1 | n = 0\ndrun\nDYNAMIC\nd/dt x = n\nOUT\nn = gauss(0)\n",
 }
 
@@ -133,7 +134,6 @@ def test_functions_of_the_vector_library_are_near():
         ("ARRAY f[4] | f[1] = k | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("k",), "script has to run"),
         ("ARRAY f[4] | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("f[3]",), "tables vary"),
         ("drun\nDYNAMIC\n" + SPRING + "y = delay(x, 0.1)\n", ("k",), "events, delays"),
-        ("drun\nDYNAMIC\ny = k\n", ("k",), "there are no states"),
         ("m = 2 | s = 0\ndrun\nDYNAMIC\n" + SPRING + "SAMPLE m\ns = t\n", ("m",), "the script has to run"),
     ],
 )  # fmt: skip

@@ -35,8 +35,6 @@ def hindrance(segment: Segment, varied: Iterable[int]) -> str | None:
     `varied` are the slots whose values differ at the start.
     """
     differs = set(varied)
-    if not segment.order:
-        return "there are no states"
     if segment.events or segment.delays or segment.recover:
         return "events, delays or recovered values"
     if any(slot < SYSTEM_SLOTS for slot in differs):

@@ -59,18 +59,22 @@ class LaneMemory(ctypes.Structure):
         ("t_max", ctypes.c_double),
         ("comint", ctypes.c_double),
         ("dt", ctypes.c_double),
+        ("nn", ctypes.c_int64),  # communication points of runs without states
         ("every", ctypes.c_int64),  # MM
         ("stop", ctypes.c_int64),  # polled at communication points; set from another thread
     )
 
 
 class LaneLoop:
-    """Writes the function `i32 NAME(ptr LaneMemory)`. `given` are the slots with a start for each run."""
+    """Writes the function `i32 NAME(ptr LaneMemory)`; `tableau` None: rule 0, no steps.
+
+    `given` are the slots with a start for each run.
+    """
 
     def __init__(
         self,
         passes: Mapping[str, tuple[Action, ...]],
-        tableau: Tableau,
+        tableau: Tableau | None,
         states: Sequence[int],
         columns: Sequence[int],
         vital: Sequence[int],
@@ -84,8 +88,9 @@ class LaneLoop:
         together = sine_and_cosine() is not None and _takes_both(passes["derivative"])
         self.one, self.runs = Lanes(self.text), Replicas(self.text, width, piece, together=together)
         usage = survey(passes.values())
+        stages = tableau.stages if tableau is not None else 0
         slots = usage.read | usage.written | {T, DT, *states, *columns, *vital}
-        self.cells = LaneCells(self.text, self.runs, slots, differing, states, tableau.stages)
+        self.cells = LaneCells(self.text, self.runs, slots, differing, states, stages)
         self.statements = LaneStatements(self.runs, self.cells, faults)
         self.memory = Fields(self.text, LaneMemory, "%a")
         self.passes, self.tableau = passes, tableau
@@ -185,9 +190,12 @@ class LaneLoop:
         self._next_point()
         text.jump("point")
         self._point()
-        self._again()
-        self._step()
-        self._attend()
+        if self.tableau is None:
+            self._next_without_rule()
+        else:
+            self._again()
+            self._step(self.tableau)
+            self._attend()
         self._exit()
 
     def _point(self) -> None:
@@ -197,9 +205,7 @@ class LaneLoop:
         self._run_pass("full", 1)
         index = self._get("i64", "point")
         self._put("i64", "point", text.op(f"add i64 {index}, 1"))
-        slack = self.one.mul(self.one.const(TOLERANCE), self.cells.load(DT).name)
-        end = self.one.add(memory.load("t_start"), memory.load("t_max"))
-        last = self.one.compare("oge", self._t(), self.one.sub(end, slack))
+        last = self._at_end(index)
         beyond = text.op(f"srem i64 {index}, {memory.load('every')}")
         take = text.op(f"or i1 {last}, {text.op(f'icmp eq i64 {beyond}, 0')}")
         if self.may_end:
@@ -223,6 +229,21 @@ class LaneLoop:
         text.branch(last, "exit", "onward")
         text.begin("onward")
         text.branch(self.runs.any(self._flags("alive")), "step", "exit")
+
+    def _at_end(self, index: str) -> str:
+        """Whether communication point `index` is the last one of all runs."""
+        if self.tableau is None:
+            following = self.text.op(f"add i64 {index}, 1")
+            return self.text.op(f"icmp sge i64 {following}, {self.memory.load('nn')}")
+        slack = self.one.mul(self.one.const(TOLERANCE), self.cells.load(DT).name)
+        end = self.one.add(self.memory.load("t_start"), self.memory.load("t_max"))
+        return self.one.compare("oge", self._t(), self.one.sub(end, slack))
+
+    def _next_without_rule(self) -> None:
+        self.text.begin("step")
+        self.cells.store(T, Number(self._get("double", "t_next"), wide=False))
+        stop = self.text.op(f"icmp ne i64 {self.memory.load('stop', volatile=True)}, 0")
+        self.text.branch(stop, "exit", "point")
 
     def _sample(self, mask: str) -> None:
         """Write a row for the runs that have their flag set; inf or nan in vital columns is noted."""
@@ -263,8 +284,8 @@ class LaneLoop:
         self._freeze(fired)
         text.branch(self.runs.any(self._flags("alive")), "step", "exit")
 
-    def _step(self) -> None:
-        text, cells, tableau = self.text, self.cells, self.tableau
+    def _step(self, tableau: Tableau) -> None:
+        text, cells = self.text, self.cells
         text.begin("step")
         for number, slot in enumerate(self.states):
             cells.keep("x0", number, cells.load(slot))

@@ -59,7 +59,7 @@ class LaneModel:
         fast: bool,
     ) -> None:
         """`given` are the slots with a start for each run. LockStepError: what keeps runs from it."""
-        if rule_numbered(rule).kind != "fixed":
+        if segment.order and rule_numbered(rule).kind != "fixed":
             raise LockStepError("the rule varies its steps")
         reason = hindrance(segment, given)
         if reason is not None:
@@ -82,7 +82,16 @@ class LaneModel:
         varies = differing(passes, dict(enumerate(states)), given)
         piece = machine().width if fast else 1
         loop = LaneLoop(
-            passes, TABLEAUS[rule], states, columns, vital, given, varies, faults, self.width, piece
+            passes,
+            TABLEAUS[rule] if segment.order else None,
+            states,
+            columns,
+            vital,
+            given,
+            varies,
+            faults,
+            self.width,
+            piece,
         )
         self._compiled = code.fast(loop.piece(), slp=False)
         self._run = _RUN(self._compiled.address)
@@ -106,7 +115,7 @@ class LaneModel:
         memory.counts, memory.flagged = counts.ctypes.data, flagged.ctypes.data
         memory.groups, memory.samples, memory.stop = groups, samples, 0
         memory.t_start, memory.t_max, memory.comint = plan.t0, plan.t_max, plan.comint
-        memory.dt, memory.every = plan.dt, plan.every
+        memory.dt, memory.every, memory.nn = plan.dt, plan.every, plan.nn
         self._run(ctypes.addressof(memory))
         used = max(int(counts.max()), 1)
         table = rows[:, :used].transpose(2, 1, 0, 3).reshape(1 + len(self._columns), used, groups * width)
