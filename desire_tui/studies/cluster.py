@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from logging import CRITICAL, getLogger, root
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -44,6 +45,7 @@ def cluster_of(given: Any, workers: int | None = None) -> Iterator[Any]:
     if isinstance(given, Client):
         yield given
         return
+    _silence()
     if given is None:
         with (  # its types are not written down
             LocalCluster(
@@ -61,13 +63,21 @@ def cluster_of(given: Any, workers: int | None = None) -> Iterator[Any]:
         yield client
 
 
+def _silence() -> None:
+    """Keep the library's logs from the terminal: what matters of them is an error's message here."""
+    for name in list(root.manager.loggerDict):
+        if name.partition(".")[0] == "distributed":
+            getLogger(name).setLevel(CRITICAL)
+
+
 def chunks_by_cluster(plan: Plan, missing: Iterable[tuple[int, int]], cluster: Any) -> Iterator[Chunk]:
     """Yield what runs gave, in the order in which they come. DesireError 514: the scheduler has gone."""
     with cluster_of(cluster) as client:
+        address = client.scheduler.address
         try:
             yield from _chunks(plan, missing, client)
         except _lost() as error:
-            raise _unreachable(client.scheduler_info().get("address", ""), error) from None
+            raise _unreachable(address, error) from None
 
 
 def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iterator[Chunk]:
@@ -76,7 +86,7 @@ def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iter
     size, most = FIRST, max(1, NUMBERS_MOST // max(plan.kept.size, 1))
     stretches = list(missing)[::-1]
     task = client.scatter(plan.task, broadcast=True, hash=False)
-    coming = as_completed(with_results=True)
+    coming = as_completed()
     under_way: dict[str, Any] = {}
     threads = max(sum(client.nthreads().values()), 1)
     while stretches or under_way:
@@ -89,7 +99,10 @@ def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iter
             future = client.submit(timed_chunk, task, first, rows, pure=False, retries=REPEATS_MOST)
             under_way[future.key] = future
             coming.add(future)
-        future, (chunk, seconds) = next(coming)
+        future = next(coming)
+        if future.status in ("cancelled", "lost"):  # chunks are not taken back: their scheduler has gone
+            raise ConnectionError("it has gone")
+        chunk, seconds = future.result()
         del under_way[future.key]
         future.release()
         wanted = int(len(chunk.errors) * SECONDS / max(seconds, 1e-6))

@@ -22,7 +22,7 @@ dispt x
 SETTINGS = {"sample": {"k": "uniform(-0.6, 1)"}, "runs": 500, "seed": 7, "keep": "x[end], x@0:1:0.5"}
 
 
-def test_a_worker_that_dies_costs_its_chunk_only():
+def test_a_worker_that_dies_costs_its_chunk_only_and_what_is_stored_outlives_a_scheduler(tmp_path):
     from distributed import Client, LocalCluster
 
     alone = desire_tui.study(NOISY, **SETTINGS)
@@ -38,6 +38,10 @@ def test_a_worker_that_dies_costs_its_chunk_only():
             told.append(progress)
 
         found = desire_tui.study(NOISY, **SETTINGS, cluster=client, progress=kill_one)
+        path = tmp_path / "s.zarr"
+        with pytest.raises(DesireError, match="it has gone"):  # its scheduler, in the middle of another study
+            desire_tui.study(NOISY, **SETTINGS, cluster=client, store=path, progress=lambda _: two.close())
+    assert desire_tui.study(NOISY, **SETTINGS, store=path, resume=True)["x[end]"].equals(alone["x[end]"])
     assert len(told) > 1, "it died in the middle"
     assert found.identical(alone)
     assert 0 < found.attrs["failed"] < 500
