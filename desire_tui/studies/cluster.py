@@ -85,7 +85,6 @@ def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iter
 
     size, most = FIRST, max(1, NUMBERS_MOST // max(plan.kept.size, 1))
     stretches = list(missing)[::-1]
-    task = client.scatter(plan.task, broadcast=True, hash=False)
     coming = as_completed()
     under_way: dict[str, Any] = {}
     threads = max(sum(client.nthreads().values()), 1)
@@ -96,7 +95,8 @@ def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iter
             if count < runs:
                 stretches.append((first + count, runs - count))
             rows = plan.design.rows(first, count)
-            future = client.submit(timed_chunk, task, first, rows, pure=False, retries=REPEATS_MOST)
+            # the task goes with each chunk: what is scattered dies with the workers that hold it
+            future = client.submit(timed_chunk, plan.task, first, rows, pure=False, retries=REPEATS_MOST)
             under_way[future.key] = future
             coming.add(future)
         future = next(coming)
@@ -117,11 +117,13 @@ def timed_chunk(task: Task, first: int, rows: NDArray[np.float64]) -> tuple[Chun
 
 
 def _lost() -> tuple[type[BaseException], ...]:
+    """Return what is raised where a scheduler has gone."""
     from concurrent.futures import CancelledError
 
+    from distributed.client import ClosedClientError
     from distributed.comm import CommClosedError
 
-    return CommClosedError, CancelledError, OSError, TimeoutError
+    return ClosedClientError, CommClosedError, CancelledError, OSError, TimeoutError
 
 
 def _unreachable(address: str, error: BaseException) -> DesireError:
