@@ -132,6 +132,13 @@ def study(program: str | PathLike[str], **settings: Unpack[StudySettings]) -> An
     return run_study(program, settings)
 
 
+def load_ipython_extension(ipython: Any) -> None:
+    """Add the cell magic `%%desire` to IPython: `%load_ext desire_tui`."""
+    from desire_tui.notebooks.cell_magic import register
+
+    register(ipython)
+
+
 def __getattr__(name: str) -> Any:
     home = _HOMES.get(name)
     if home is None:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from desire_tui.engine.outputs.run import Run
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.prepared_run import PreparedRun
 
@@ -31,6 +32,13 @@ class Block:
         record = self._record
         samples = record.t if name == "t" else record.values(name)
         return samples[self._first :].copy()
+
+    @property
+    def run(self) -> Run:
+        """The run as far as it has come."""
+        from desire_tui.engine.outputs.results import run_data
+
+        return run_data(self._record, more=True)
 
     def keys(self) -> list[str]:
         """Return the names of what is recorded."""

@@ -1,0 +1,1 @@
+"""Desire in Jupyter: `%load_ext desire_tui`, then cells that begin with `%%desire`."""
