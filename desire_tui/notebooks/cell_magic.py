@@ -40,7 +40,7 @@ def run_cell(ipython: Any, line: str, cell: str) -> None:
     named, and the variable is the panel; `--timeout S` ends it after S seconds. CellError: what is wrong.
     """
     options = read_options(line)
-    source = Source(f"-- %%desire {line}\n{cell}", "cell")  # lines count as the notebook counts them
+    source = Source(f"--\n{cell}", "cell")  # lines count as the notebook counts them
     if options.sliders:
         ipython.user_ns[options.name] = _with_sliders(source, options)
     elif options.record:

@@ -54,5 +54,9 @@ def test_runs_become_tables_axes_and_pictures(long_run):
     assert run.to_xarray().attrs["k"] == 2
     (line,) = run.plot().get_lines()
     assert np.array_equal(line.get_ydata(), run["x"])
+    plane = desire_tui.load(LONG.replace("dispt x", "y = 2*x\ndispxy x, y")).run()
+    (line,) = plane.plot().get_lines()
+    assert np.array_equal(line.get_xdata(), plane["x"])
+    assert np.array_equal(line.get_ydata(), plane["y"])
     assert run._repr_png_().startswith(b"\x89PNG")
     assert "<img" in run._repr_html_()

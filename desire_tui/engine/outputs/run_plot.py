@@ -31,7 +31,7 @@ def plot_run(run: SampledRun, names: Sequence[str], ax: Axes | None, style: Mapp
         from matplotlib import pyplot as plt
 
         ax = plt.subplots(layout="constrained")[1]
-    curves = [curve_named(run, name) for name in names] or curves_over_t(run)
+    curves = [curve_named(run, name) for name in names] or _shown(run)
     _draw(ax, run, curves, style)
     return ax
 
@@ -59,7 +59,7 @@ def run_png(runs: Sequence[SampledRun]) -> bytes:
     FigureCanvasAgg(figure)
     axes = figure.subplots()
     for number, run in enumerate(runs):
-        curves = curves_over_t(run)[:CURVES_MOST]
+        curves = _shown(run)[:CURVES_MOST]
         axes.set_prop_cycle(None)
         _draw(axes, run, curves, {} if number == 0 else {"label": "_"})
     file = BytesIO()
@@ -78,6 +78,12 @@ def run_html(runs: Sequence[SampledRun], text: str, parameters: Mapping[str, flo
         picture = f'<img alt="{escape(text)}" src="data:image/png;base64,{data}">'
     below = f"<div><small>{escape(', '.join(shown))}</small></div>" if shown else ""
     return f"<div><code>{escape(text)}</code></div>{picture}{below}"
+
+
+def _shown(run: SampledRun) -> list[CurveData]:
+    """Return what is drawn unless somebody asks for more: where curves are over others, only those."""
+    curves = curves_over_t(run)
+    return [curve for curve in curves if curve.x is not None] or curves
 
 
 def _draw(axes: Axes, run: SampledRun, curves: Sequence[CurveData], style: Mapping[str, Any]) -> None:
