@@ -6,6 +6,7 @@ each PYTHON an interpreter (`python3.13`) to try it with.
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -87,12 +88,10 @@ def try_wheel(wheel: Path, python: str, folder: Path) -> None:
         assert "Traceback" not in done.stderr, done.stderr
         return done.stdout + done.stderr
 
-    if (
-        uv := shutil.which("uv", path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
-    ) is not None:
-        call(uv, "pip", "install", "--quiet", "--python", str(environment / "bin" / "python"), str(wheel))
-    else:
-        call("python", "-m", "pip", "install", "--quiet", str(wheel))
+    uv = shutil.which("uv", path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    pip = (uv, "pip") if uv is not None else ("python", "-m", "pip")
+    where = ("--python", str(environment / "bin" / "python")) if uv is not None else ()
+    call(*pip, "install", "--quiet", *where, str(wheel))
     sys.stdout.write(call("desire", "--version"))
     assert "desire-tui[serve]" in call("desire", "serve", status=2)
     call("desire", "examples", "--copy", "examples")
@@ -104,6 +103,13 @@ def try_wheel(wheel: Path, python: str, folder: Path) -> None:
     call("desire", "run", "stiff.src", "--json", "stiff.json")
     call("python", "-c", API)
     assert (environment / "share/man/man1/desire.1").is_file()
+    call(*pip, "uninstall", "--quiet", *(where or ("--yes",)), "scikit-sundae")  # as on Linux on ARM
+    call("desire", "run", "stiff.src", "--json", "without.json")
+    for name in ("stiff", "without"):
+        content = json.loads((here / f"{name}.json").read_text(encoding="utf-8"))
+        assert abs(content["quantities"]["x"] - 1) < 1e-6, content["quantities"]
+    (here / "adams.src").write_text(STIFF.replace("irule 14", "irule 9"), encoding="utf-8")
+    assert "error 460" in call("desire", "run", "adams.src", status=1)
 
 
 if __name__ == "__main__":
