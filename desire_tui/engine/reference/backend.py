@@ -31,15 +31,15 @@ class ReferenceBackend:
         if kind != "multistep":
             vital = vital_columns(segment)
             segment, numbers = stepped_segment(segment, values.room, variable=kind == "variable")
-            if segment.events or segment.delays:
-                from desire_tui.engine.reference.moments import MomentReferenceModel
-
-                tableau = TABLEAUS.get(rule) if segment.order else None
-                return MomentReferenceModel(segment, tableau, values, numbers, vital)
             switches = None
             if kind == "variable":
                 segment, found = switching(segment, values.room)
                 switches = None if found is None else Switches(found, segment, values)
+            if segment.events or segment.delays:
+                from desire_tui.engine.reference.moments import MomentReferenceModel
+
+                tableau = TABLEAUS.get(rule) if segment.order else None
+                return MomentReferenceModel(segment, tableau, values, numbers, vital, switches)
             return ReferenceModel(segment, TABLEAUS.get(rule), values, numbers, vital, switches)
         if segment.events or segment.delays:
             from desire_tui.engine.reference.stiff_moments import StiffMomentModel

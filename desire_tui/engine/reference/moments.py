@@ -10,6 +10,7 @@ from desire_tui.engine.passes.moments import blocks_pass, conditions_pass, sourc
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.reference.model import TOLERANCE, ReferenceModel
 from desire_tui.engine.reference.statements import StatementClosures
+from desire_tui.engine.reference.steps import chattering
 from desire_tui.engine.runtime.moments import blocks, steps
 from desire_tui.engine.runtime.moments.memory import Compute
 from desire_tui.engine.runtime.moments.setup import Stepper
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.reference.statements import Run
+    from desire_tui.engine.reference.switches import Switches
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -59,12 +61,16 @@ class MomentReferenceModel(ReferenceModel):
         values: Values,
         numbers: Sequence[int],
         vital: Iterable[int],
+        switches: Switches | None = None,
     ) -> None:
         super().__init__(segment, tableau, values, numbers, vital)
+        self._watching = switches
         self._stepper = stepper = Stepper(segment, tableau, values)
         self.statements.histories.append(stepper.moments)
         self._others = others = StatementClosures(values, segment.order)
         connect(stepper, segment, others, others.compile(derivative_slice(segment)))
+        if switches is not None:
+            switches.serve(stepper)
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on; see `ReferenceModel`."""
@@ -72,6 +78,8 @@ class MomentReferenceModel(ReferenceModel):
         if not memory.begun:
             memory.begun = 1
             self._stepper.prepare(memory, memory.times, memory.taus)
+            if self._watching is not None:
+                self._watching.begin(memory)
             if blocks.begin(self._stepper.moments) > 1:
                 return self._too_fast(memory)
         return super().advance(memory)
@@ -96,8 +104,12 @@ class MomentReferenceModel(ReferenceModel):
         while (ended := Ended(steps.step(stepper.moments, memory, t_next))) is Ended.FULL:
             stepper.grow()
         memory.checked = checked
+        if self._watching is not None:
+            self._watching.check()
         if ended is Ended.ZENO:
             return self._too_fast(memory)
+        if ended is Ended.CHATTERS and self._watching is not None:
+            return chattering(self._watching, memory)
         if ended is not Ended.RUNNING:
             memory.phase = Phase.ENDED
             memory.which = self.numbers[memory.which] if ended is Ended.DEADLOCK else memory.which

@@ -61,16 +61,13 @@ if TYPE_CHECKING:
 class StiffReferenceModel(ReferenceModel):
     """A segment under a multistep rule. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
 
-    sees_switches = True
-    """Whether steps end where derivatives jump."""
-
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         if rule_numbered(rule).corrector == "jacobian" and segment.jacobian is not None:
             checked_array(segment, values)
         self._given = segment.jacobian and (segment.jacobian.slot, segment.order)
         vital = vital_columns(segment)
         segment, numbers = without_assigned_states(segment, values.room)
-        segment, found = switching(segment, values.room) if self.sees_switches else (segment, None)
+        segment, found = switching(segment, values.room)
         switches = None if found is None else Switches(found, segment, values, self._state_at)
         super().__init__(segment, EULER, values, numbers, vital, switches)
         inputs = changed_inputs(segment)

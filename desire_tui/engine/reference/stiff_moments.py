@@ -13,8 +13,10 @@ from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.integration.problem import STUCK_AT_EDGE_FLAG, STUCK_FLAG, STUCK_MOST
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
+from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.reference.moments import connect
+from desire_tui.engine.reference.steps import chattering
 from desire_tui.engine.reference.stiff import StiffReferenceModel
 from desire_tui.engine.runtime.moments.blocks import any_rises, arrive, begin, next_time
 from desire_tui.engine.runtime.moments.histories import record
@@ -42,13 +44,13 @@ _SAME = 1e-10
 class StiffMomentModel(StiffReferenceModel):
     """A segment with events or delays under a multistep rule."""
 
-    sees_switches = False
-
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         super().__init__(segment, rule, values)
         self._stepper = stepper = Stepper(self._segment, EULER, values)
         self.statements.histories.append(stepper.moments)
         connect(stepper, self._segment, self._others, self._stage)
+        if self.switches is not None:
+            self.switches.remember(stepper.moments)
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on; see `ReferenceModel`."""
@@ -66,6 +68,9 @@ class StiffMomentModel(StiffReferenceModel):
         m, cells = self._stepper.moments, self.cells
         t_next = memory.t_start + memory.point * memory.comint
         m.near = slack = _SAME * memory.comint
+        ended = self._take_up_switches(memory)
+        if ended is not None:
+            return ended
         while True:
             if m.delay_count and m.knots == 1:
                 self._remember(cells[T], self._states())
@@ -74,6 +79,13 @@ class StiffMomentModel(StiffReferenceModel):
             if ended is not None:
                 return ended
             located = self._locate(t0)
+            if self.switches is not None:
+                if self.switches.look_back(t0, cells[T]) > 0:
+                    located = True
+                    if m.condition_count:
+                        any_rises(m)
+                else:
+                    self._place(cells[T], self._between(cells[T]))
             self._remember_step(t0)
             came = arrive(m, slack)
             if came > 1:
@@ -82,11 +94,23 @@ class StiffMomentModel(StiffReferenceModel):
                 self.system.last[0] = np.nan  # whatever has changed, the solver begins anew
                 if m.delay_count:
                     self._remember(cells[T], self._states())
+            ended = self._take_up_switches(memory)
+            if ended is not None:
+                return ended
             if cells[T] >= t_next - slack:
                 memory.phase = Phase.AT_POINT
                 return None
             if self._acts or memory.stop:
                 return None
+
+    def _take_up_switches(self, memory: RunMemory) -> Ended | None:
+        """Put the modes of the present states into force; the solver begins anew where one is another."""
+        if self.switches is None:
+            return None
+        bits = self.switches.depart()
+        if bits:
+            self.system.last[0] = np.nan
+        return chattering(self.switches, memory) if bits >= CHATTERS else None
 
     def _solver_step(self, memory: RunMemory, t_next: float, slack: float) -> Ended | None:
         """Take a step, to the next moment of a clock at most."""
@@ -98,6 +122,8 @@ class StiffMomentModel(StiffReferenceModel):
             stop = max(soon, t0)
         if m.tau_least > 0.0:
             stop = min(stop, t0 + m.tau_least)
+        if self.switches is not None:
+            stop = self.switches.limit(t0, stop)
         if stop - t0 <= slack:
             cells[T] = problem.t = stop
             system.last[0] = np.nan

@@ -11,6 +11,7 @@ from desire_tui.engine.integration.switching.memory import Compute, Place
 from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.reference.statements import StatementClosures
+from desire_tui.engine.runtime.moments.memory import Depart, Limit, Look, Moments
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Where
     from desire_tui.engine.lowered.switching import Switching
+    from desire_tui.engine.runtime.moments.setup import Stepper
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -63,7 +65,7 @@ class Switches:
         self._closures.memory = memory
         with np.errstate(all="ignore"):
             self._watcher.begin(memory)
-        self._check()
+        self.check()
 
     def limit(self, t: float, wish: float) -> float:
         """See `watch.limit`."""
@@ -72,6 +74,20 @@ class Switches:
     def look_back(self, t0: float, t1: float) -> int:
         """See `watch.look_back`."""
         return self._checked(watching.look_back(self._watch, t0, t1))
+
+    def serve(self, stepper: Stepper) -> None:
+        """Let the steps of models with events ask; what goes wrong meanwhile, `check` raises."""
+        moments, watch = stepper.moments, self._watch
+        self.remember(moments)
+        self._watcher.take_step_from(*stepper.step_start)
+        moments.watch = self._watcher.address
+        moments.limit = Limit(lambda _, t, wish: watching.limit(watch, t, wish))
+        moments.look = Look(lambda _, t0, t1: watching.look_at_step(watch, t0, t1))
+        moments.depart = Depart(lambda _: watching.depart(watch))
+
+    def remember(self, moments: Moments) -> None:
+        """Let what is computed here look up histories."""
+        self._closures.histories.append(moments)
 
     def settle(self, t_next: float) -> int:
         """See `watch.settle`."""
@@ -102,10 +118,11 @@ class Switches:
         return 0
 
     def _checked(self, result: int) -> int:
-        self._check()
+        self.check()
         return result
 
-    def _check(self) -> None:
+    def check(self) -> None:
+        """Raise what has gone wrong in a function that was called back."""
         if self._failure is not None:
             failure, self._failure = self._failure, None
             raise failure

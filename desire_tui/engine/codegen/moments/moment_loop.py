@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _SHARED = {"k": "k", "t_base": "t_base", "dt_base": "dt_base", "steps": "steps"}
 """Variables of the loop that a step moves, by their fields in the run's memory."""
-_FAULTS = (Ended.ZENO, Ended.STALLED, Ended.DEADLOCK, Ended.FULL)
+_FAULTS = (Ended.ZENO, Ended.STALLED, Ended.DEADLOCK, Ended.CHATTERS, Ended.FULL)
 
 
 class MomentDriver(Driver):

@@ -13,12 +13,15 @@ from desire_tui.engine.codegen.moments.moment_routines import moment_functions
 from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
+from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.integration.rules import rule_numbered
+from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
 from desire_tui.engine.passes.moments import blocks_pass, conditions_pass, sources_pass
+from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.vital_columns import vital_columns
-from desire_tui.engine.runtime.moments.memory import Compute
+from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look
 from desire_tui.engine.runtime.moments.setup import Stepper
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.background import Improver
     from desire_tui.engine.codegen.jit.cache import CodeCache
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.switching import Switching
     from desire_tui.engine.values import Values
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
@@ -44,6 +48,9 @@ class MomentModel:
         variable = rule_numbered(rule).kind == "variable"
         segment, self._numbers = stepped_segment(segment, values.room, variable=variable)
         tableau = TABLEAUS.get(rule) if segment.order else None
+        switching = None
+        if variable:
+            segment, switching = switches(segment, values.room)
         self._stepper = stepper = Stepper(segment, tableau, values)
         passes = passes_of(segment, variable=variable)
         inner = {
@@ -52,9 +59,14 @@ class MomentModel:
             "blocks": blocks_pass(segment, stepper.moments.due),
             "sources": sources_pass(segment, stepper.moments.source),
         }
+        if switching is not None:
+            inner["modes"] = switching.live_pass
         self._functions = functions = PassFunctions(code, values, segment.order, inner, frozenset())
-        for name in inner:
+        for name in set(inner) - {"modes"}:
             setattr(stepper.moments, name, ctypes.cast(functions.address(name), Compute))
+        self._watcher: Watcher | None = None
+        if switching is not None:
+            self._watch(switching, segment)
         self._tables = PieceTables(code, passes)
         self._natives = moment_functions()
         self._begin = _BEGIN(self._natives.begin)
@@ -64,6 +76,23 @@ class MomentModel:
         self._run = _RUN(self._loop.address)
         improver.add(self._tables)
         improver.add(functions)
+
+    def _watch(self, switching: Switching, segment: Segment) -> None:
+        """Prepare what sees to the switches between events."""
+        watching, moments, functions = watch_functions(), self._stepper.moments, self._functions
+        ranges = [(s.slot, s.first, s.count) for s in segment.states]
+        self._watching, self._watcher = watching, Watcher(switching, self._values, ranges)
+        modes, derivative = functions.address("modes"), functions.address("derivative")
+        watcher = self._watcher
+        watcher.connect(watching.begin, modes, derivative, watching.place_on_step, watcher.address)
+        watcher.take_step_from(*self._stepper.step_start)
+        moments.watch = watcher.address
+        moments.limit, moments.look, moments.depart = (
+            ctypes.cast(function, kind)
+            for function, kind in (
+                (watching.limit, Limit), (watching.look_at_step, Look), (watching.depart, Depart),
+            )
+        )  # fmt: skip
 
     def _fill_context(self, segment: Segment) -> None:
         slots = [np.arange(s.slot, s.slot + s.count) for s in segment.states]
@@ -87,6 +116,8 @@ class MomentModel:
         if not memory.begun:
             memory.begun = 1
             self._stepper.prepare(memory, memory.times, memory.taus)
+            if self._watcher is not None:
+                self._watcher.begin(memory)
             if self._begin(self._stepper.address) > 1:
                 memory.phase = Phase.ENDED
                 return self._ended(memory, Ended.ZENO)
@@ -100,6 +131,8 @@ class MomentModel:
     def _ended(self, memory: RunMemory, ended: Ended) -> Ended:
         if ended is Ended.ZENO:
             memory.which = self._stepper.moments.last_fired
+        if ended is Ended.CHATTERS and self._watcher is not None:
+            memory.culprit = self._watcher.culprit()
         if ended is Ended.NOT_FINITE:
             memory.which = first_not_finite(self._values.data, self._slots, self._columns, self._vital)
         if ended in {Ended.NOT_FINITE, Ended.DEADLOCK} and memory.which >= 0:

@@ -14,9 +14,10 @@ from desire_tui.engine.codegen.plain_python.kinds import of_function
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
 from desire_tui.engine.integration import halving, tableaus
+from desire_tui.engine.integration.switching import memory as switching
 from desire_tui.engine.runtime import run_memory
 from desire_tui.engine.runtime.moments import blocks, histories, locate, memory, stages, steps
-from desire_tui.engine.runtime.moments.memory import Compute, Moments
+from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Moments
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, ERRMAX, T
 
@@ -33,7 +34,7 @@ def _source(name: str) -> bytes:
 
 _TEXTS = {module: _source(module.__name__) for module in _MODULES}
 """Read now, when the modules are: files may change under a process that lives for days."""
-_OTHERS = b"".join(_source(module.__name__) for module in (memory, run_memory, tableaus, halving))
+_OTHERS = b"".join(_source(module.__name__) for module in (memory, run_memory, tableaus, halving, switching))
 _PUBLIC = ("begin", "step", "look_up")
 _making = Lock()
 _made: list[MomentFunctions] = []
@@ -60,6 +61,9 @@ def moment_functions() -> MomentFunctions:
 
 def _compiled() -> MachineCode:
     pointers = {name: of_function(Compute, "") for name in ("conditions", "blocks", "derivative", "sources")}
+    pointers |= {
+        name: of_function(kind, "") for name, kind in (("limit", Limit), ("look", Look), ("depart", Depart))
+    }
     outside = Outside({"Moments": Moments, "RunMemory": RunMemory}, pointers)
     modules = [Module(_TEXTS[module], vars(module)) for module in _MODULES]
     text = write_program(modules, outside, "moments_", frozenset(_PUBLIC))

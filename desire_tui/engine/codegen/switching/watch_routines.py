@@ -33,7 +33,7 @@ def _source(name: str) -> bytes:
 
 _TEXTS = {module: _source(module.__name__) for module in _MODULES}
 _OTHERS = b"".join(_source(module.__name__) for module in (memory, operations, halving, lowered_switching))
-_PUBLIC = ("begin", "limit", "look_back", "place_on_step", "settle", "depart", "follow")
+_PUBLIC = ("begin", "limit", "look_back", "look_at_step", "place_on_step", "settle", "depart", "follow")
 _BEGIN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_double)
 _making = Lock()
 _made: list[WatchFunctions] = []
@@ -45,6 +45,7 @@ class WatchFunctions(NamedTuple):
     begin_at: int
     limit: int
     look_back: int
+    look_at_step: int
     place_on_step: int
     settle: int
     depart: int
@@ -74,7 +75,7 @@ def _compiled() -> MachineCode:
 
 
 def _name() -> str:
-    layout = repr((T, sizeof(Watch), Watch._fields_))
+    layout = repr((T, sizeof(Watch), Watch._fields_, _PUBLIC))
     everything = b"".join(_TEXTS.values()) + _OTHERS + re.sub(" at 0x[0-9a-f]+", "", layout).encode()
     return f"watch-{blake2b(everything, digest_size=8).hexdigest()}"
 

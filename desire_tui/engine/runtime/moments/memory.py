@@ -11,6 +11,14 @@ Compute = ctypes.CFUNCTYPE(_INT, _ADDRESS, _ADDRESS)
 """f(memory, derivatives): a pass over the values; its result is not looked at."""
 
 
+Limit = ctypes.CFUNCTYPE(_REAL, _ADDRESS, _REAL, _REAL)
+"""f(watch, t, wish): how far a step from t may go."""
+Look = ctypes.CFUNCTYPE(ctypes.c_int32, _ADDRESS, _REAL, _REAL)
+"""f(watch, t0, t1): whether something has switched in a step; t and states are then those just behind."""
+Depart = ctypes.CFUNCTYPE(ctypes.c_int32, _ADDRESS)
+"""f(watch): take up what has switched; bits of `switching.memory`."""
+
+
 class Moments(ctypes.Structure):
     """A model's events, and the explicit rule that steps it.
 
@@ -66,4 +74,7 @@ class Moments(ctypes.Structure):
         ("found", _INTS),  # of each value: the knot that was found last
         ("jump_at", _INTS),  # of each value: the next one to come back
         ("is_variable", _INT), ("dt_may_change", _INT),
+        # rules 4, 7, 8: what switches besides (`integration.switching.watch`), 0: nothing does
+        ("watch", _ADDRESS), ("limit", Limit), ("look", Look), ("depart", Depart),
+        ("t_stop", _REAL),  # no stage sees what is behind
     )  # fmt: skip

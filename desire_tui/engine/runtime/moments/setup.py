@@ -82,7 +82,8 @@ class Stepper:
         ranges = [(states.slot, states.first, states.count) for states in segment.states]
         m.range_count = len(ranges)
         self._ints("ranges", np.array(ranges or [(0, 0, 0)], dtype=np.int64).reshape(-1))
-        self._reals("x0", np.zeros(max(order, 1)))
+        self._x0 = np.zeros(max(order, 1))
+        self._reals("x0", self._x0)
         self._rule(tableau, max(order, 1))
         self._histories(segment, values)
         self.address = ctypes.addressof(m)
@@ -161,6 +162,11 @@ class Stepper:
         for name, numbers in zip(("times", "history", "slopes"), self._remembered, strict=True):
             setattr(m, name, ctypes.cast(numbers.ctypes.data, ctypes.POINTER(ctypes.c_double)))
         m.room = room
+
+    @property
+    def step_start(self) -> tuple[int, int]:
+        """Addresses of the states and derivatives at a step's start."""
+        return self._x0.ctypes.data, self.k.ctypes.data
 
     def grow(self) -> None:
         """Make the room for histories twice as large."""

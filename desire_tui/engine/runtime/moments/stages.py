@@ -48,7 +48,8 @@ def make_stages(m: Moments, here: float, dt: float) -> None:
     m.is_inside = 1
     for stage in range(1, m.stages):
         move(m, stage, dt)
-        m.values[T] = here + m.nodes[stage] * dt
+        t: float = here + m.nodes[stage] * dt
+        m.values[T] = min(t, m.t_stop) if m.watch != 0 else t
         m.derivative(m.memory, m.k_at[stage])
     m.is_inside = 0
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.tableaus import STILL_MOST
 from desire_tui.engine.runtime.moments.blocks import any_rises, arrive, next_time
 from desire_tui.engine.runtime.moments.histories import record
@@ -89,11 +90,20 @@ def fixed_step(m: Moments, memory: RunMemory) -> Int32:
 
 def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
     """Try, judge, halve or double; a step ends on every communication point and where something happens."""
+    if m.watch != 0:
+        bits = m.depart(m.watch)
+        if bits >= CHATTERS:
+            return Ended.CHATTERS
+        if bits != 0:
+            m.derivative(m.memory, m.k_at[0])
     here: float = m.values[T]
     target = t_next
     soon = next_time(m)
     if soon < t_next - _SLACK * (t_next - here):
         target = max(soon, here)
+    if m.watch != 0:
+        target = m.limit(m.watch, here, target)
+        m.t_stop = target
     left = target - here
     lands = m.values[DT] >= left * (1.0 - _SLACK)
     cut = m.values[DT] > left * (1.0 + _SLACK)
@@ -134,6 +144,8 @@ def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
     note_extremes(memory, dt)
     if difference < memory.error_min and not cut:
         m.values[DT] = min(2.0 * m.values[DT], memory.dt_max)
+    if m.watch != 0:
+        m.look(m.watch, here, m.values[T])
     if m.condition_count != 0 and any_rises(m) != 0:
         locate(m, here, m.values[T])
     return Ended.ZENO if arrive(m, _SLACK * dt) > 1 else Ended.RUNNING
