@@ -114,7 +114,9 @@ class MomentReferenceModel(ReferenceModel):
             memory.phase = Phase.ENDED
             memory.which = self.numbers[memory.which] if ended is Ended.DEADLOCK else memory.which
             return ended
-        if cells[T] >= t_next - TOLERANCE * memory.dt_base:
+        assert self.tableau is not None
+        slack = 0.0 if self.tableau.variable else TOLERANCE * memory.dt_base
+        if cells[T] >= t_next - slack:
             memory.phase = Phase.AT_POINT
         return None
 

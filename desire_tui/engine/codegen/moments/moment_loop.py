@@ -27,12 +27,13 @@ class MomentDriver(Driver):
     def _renew_in_interval(self) -> None:
         self.storage.run_pass("step_renewal", 1)
 
-    def _step(self, tableau: Tableau) -> None:  # noqa: ARG002 - the step knows its own
+    def _step(self, tableau: Tableau) -> None:
         text, lanes = self.text, self.lanes
         text.begin("step")
         self._call()
-        slack = lanes.mul(lanes.const(TOLERANCE), self.get("dt_base"))
-        limit = lanes.sub(self.get("t_next"), slack)
+        limit = self.get("t_next")
+        if not tableau.variable:  # variable steps end on it exactly
+            limit = lanes.sub(limit, lanes.mul(lanes.const(TOLERANCE), self.get("dt_base")))
         self.arrived(lanes.compare("oge", self.storage.load(T), limit), check_every=1)
 
     def _next_without_rule(self) -> None:
