@@ -17,6 +17,7 @@ from desire_tui.engine.integration.rules import markdown_table
 from desire_tui.help.page_catalogue import topics
 from desire_tui.panes.example_catalogue import CHAPTERS, Example, examples
 from docs.man_page import man_page
+from docs.python_reference import python_reference
 from tests.programs.coverage import markdown as tested_where
 
 if TYPE_CHECKING:
@@ -160,6 +161,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "examples.md": gallery,
     "coverage.md": coverage,
     "desire.1": man_page,
+    "python_reference.md": lambda: python_reference(NOTE),
 }
 
 

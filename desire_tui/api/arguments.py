@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import TYPE_CHECKING, NoReturn, get_args
+from typing import TYPE_CHECKING, Any, NoReturn, get_args
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.session.session import BackendName
@@ -51,3 +51,30 @@ def checked_workers(number: int | None) -> int | None:
     if number < 1:
         raise ValueError(f"workers={number!r} make no run: give 1 or more, or None")
     return number
+
+
+def checked_names(record: str | Iterable[str]) -> tuple[str, ...]:
+    """Return names of what is to be recorded. TypeError: they are none."""
+    if isinstance(record, str):
+        return (record,)
+    try:
+        names = tuple(record)
+    except TypeError:
+        names = (record,)  # type: ignore[assignment]
+    for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"record is a name or a list of names, not {record!r}")
+    return names
+
+
+def checked_function(argument: str, function: Any) -> None:
+    """TypeError: what is to be called while runs go on is no function."""
+    if function is not None and not callable(function):
+        raise TypeError(f"{argument} is a function or None, not {function!r}")
+
+
+def checked_lines(lines: Any) -> tuple[str, ...]:
+    """Return the lines that a script's `input` reads. TypeError: they are none."""
+    if isinstance(lines, str) or not hasattr(lines, "__iter__"):
+        raise TypeError(f"input is a list of lines, not {lines!r}")
+    return tuple(map(str, lines))

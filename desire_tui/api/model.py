@@ -6,7 +6,14 @@ from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.api.arguments import checked_backend, checked_timeout, checked_workers
+from desire_tui.api.arguments import (
+    checked_backend,
+    checked_function,
+    checked_lines,
+    checked_names,
+    checked_timeout,
+    checked_workers,
+)
 from desire_tui.api.instance import Instance, InstancePool, LoadOptions
 from desire_tui.api.interrupts import Interrupts
 from desire_tui.api.one_run import one_run
@@ -42,7 +49,7 @@ def load(
     allow_write: bool = False,
 ) -> Model:
     """See `desire_tui.load`."""
-    answers = tuple(input)
+    answers = checked_lines(input)
     options = LoadOptions(segment, answers, checked_backend(backend), allow_shell, allow_write)
     return Model(program_source(program), options)
 
@@ -92,9 +99,21 @@ class Model:
         on_block: Callable[[Block], object] | None = None,
         **parameters: Number,
     ) -> Run:
-        """Make one run and return its samples."""
-        names = (record,) if isinstance(record, str) else tuple(record)
+        """Make one run and return its samples.
+
+        Keywords and `set` give parameters and starts of states other values for this run; what the script
+        computes from them follows. `initial`: states by name or, in the order of `states`, as an array.
+        `t`: from when to when. `record`: what is sampled besides the program's own requests: names, elements
+        `"A[2]"`, derivatives `"xdot"` or `"d/dt x"`. `check` raises what ends the run early, which is
+        `run.error` otherwise. `timeout`: seconds after which it ends. `on_block` is called with new samples
+        while it goes on, and ends it by returning False.
+
+        DesireError: the run cannot begin. TypeError, ValueError: the arguments are wrong; an unknown keyword
+        is named with the nearest. KeyboardInterrupt: Ctrl-C.
+        """
+        names = checked_names(record)
         seconds = checked_timeout(timeout)
+        checked_function("on_block", on_block)
         with Interrupts(), self._pool.one() as instance:
             settings = self._starts.numbers(set or {}, parameters, instance)
             start = self._starts.start(instance, settings, initial, t, parameters)
@@ -130,9 +149,10 @@ class Model:
         from desire_tui.engine.outputs.tables import needed
 
         needed("xarray")
-        names = (record,) if isinstance(record, str) else tuple(record)
+        names = checked_names(record)
         seconds, kept = checked_timeout(timeout), checked_keep(keep)
         count = checked_workers(workers)
+        checked_function("progress", progress)
         with Interrupts(), self._pool.one() as instance:
             self._starts.refuse_unknown(parameters, instance, "sweep", _SWEEP_ARGUMENTS)
             grid = grid_of({**(set or {}), **parameters}, lambda v: self._starts.numbers(v, {}, instance))

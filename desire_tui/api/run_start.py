@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     Number = float | ArrayLike
     Initial = Mapping[str, Number] | NDArray[np.float64] | Sequence[float]
 
+_STATES_SHOWN = 8
 RUN_ARGUMENTS = ("set", "initial", "t", "record", "check", "timeout", "on_block")
 
 
@@ -99,7 +100,8 @@ class RunStarts:
         for name, value in numbers(initial).items():
             slot = slot_of(name, instance) if name in self._states else None
             if slot is None:
-                facts = {"name": name, "close": closest(name, self._states)}
+                shown = [*self._states][:_STATES_SHOWN] + ["…"] * (len(self._states) > _STATES_SHOWN)
+                facts = {"name": name, "close": closest(name, self._states), "states": ", ".join(shown)}
                 raise DesireError(Diagnostic("initial-unknown", None, facts, self._source))
             found.append((slot, value))
         return found

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.api.arguments import checked_timeout
+from desire_tui.api.arguments import checked_function, checked_names, checked_timeout
 from desire_tui.api.interrupts import Interrupts, watch
 from desire_tui.api.one_run import one_run
 from desire_tui.api.settings import way_of
@@ -96,8 +96,9 @@ class Simulation:
         Parameters that are given hold from now on; other arguments and errors are those of `Model.run`.
         ValueError also: a parameter by which the program is made anew, such as the size of an array.
         """
-        names = (record,) if isinstance(record, str) else tuple(record)
+        names = checked_names(record)
         seconds, instance = checked_timeout(timeout), self._instance
+        checked_function("on_block", on_block)
         with Interrupts(), self._lock:
             watch(instance.session.control)
             settings = self._starts.numbers(set or {}, parameters, instance)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any, TypedDict
 
-from desire_tui.api.arguments import checked_backend, checked_timeout, refuse_name
+from desire_tui.api.arguments import checked_backend, checked_lines, checked_timeout, refuse_name
 from desire_tui.api.interrupts import Interrupts
 from desire_tui.api.program_source import program_source
 from desire_tui.api.repeated_program import repeated_result
@@ -41,6 +41,7 @@ def run_program(program: str | PathLike[str], settings: RunSettings) -> Result:
         if name not in RunSettings.__annotations__:
             refuse_name("desire_tui.run", "setting", name, RunSettings.__annotations__)
     source = program_source(program)
+    settings = {**settings, "input": checked_lines(settings.get("input", ()))}
     overrides, timeout = from_mapping(settings.get("set") or {}), checked_timeout(settings.get("timeout"))
     backend, quiet = checked_backend(settings.get("backend", "native")), settings.get("quiet", True)
     result = None

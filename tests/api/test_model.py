@@ -41,7 +41,7 @@ def test_a_run_is_a_mapping_of_samples(decay):
     assert "k" not in run
     assert run["x"] == pytest.approx(np.exp(-run["t"]), abs=1e-5)
     assert repr(run) == "<Run of <text>: 11 samples of x, t = 0 … 1; rule 1, 100 steps>"
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match="'y' was not recorded"):
         run["y"]
 
 
@@ -171,6 +171,10 @@ def test_one_of_several_segments():
         ({"initial": [1]}, ValueError, "has 2 states"),
         ({"timeout": -1}, ValueError, "timeout=-1"),
         ({"t": 5}, TypeError, "t is a pair"),
+        ({"record": 3}, TypeError, "record is a name or a list of names, not 3"),
+        ({"record": ["xdt"]}, DesireError, "did you mean 'xdot'"),
+        ({"initial": {"z": 1}}, DesireError, "its states are x, y"),
+        ({"on_block": 3}, TypeError, "on_block is a function or None"),
         ({"a": "many"}, ValueError, "many"),
         ({"a": float("nan")}, ValueError, "a cannot be nan"),
     ],

@@ -32,6 +32,26 @@ def test_settings():
         desire_tui.run(DECAY, colour="red")
 
 
+def test_settings_that_cannot_be():
+    for wrong, kind, words in (
+        ({"sett": {"a": 1}}, TypeError, "did you mean 'set'"),
+        ({"backend": "nativ"}, ValueError, "did you mean 'native'"),
+        ({"timeout": -1}, ValueError, "timeout=-1"),
+        ({"timeout": "5"}, TypeError, "timeout is a number"),
+        ({"input": "21"}, TypeError, "input is a list of lines"),
+        ({"set": {"aa": 1}, "check": True}, DesireError, "'aa'"),
+    ):
+        with pytest.raises(kind, match=words):
+            desire_tui.run(DECAY, **wrong)
+    with pytest.raises(ValueError, match="'nativ' is unknown"):
+        desire_tui.Session(backend="nativ")
+
+
+def test_answers_may_come_from_a_generator():
+    text = "input a | input b\nwrite a + b\n"
+    assert [desire_tui.run(text, input=(str(k) for k in (1, 2)))["b"] for _ in range(3)] == [2, 2, 2]
+
+
 def test_mistakes_do_not_raise():
     result = desire_tui.run("x = nope + 1\n")
     assert result.status == "failed"

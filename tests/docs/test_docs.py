@@ -178,3 +178,11 @@ def test_every_dependency_says_what_it_is_for():
     )
     end = lines.index("[project.scripts]")
     assert [line for line in lines[:end] if re.match(r'    "', line) and "# " not in line] == []
+
+
+def test_everything_exported_is_in_the_python_reference():
+    import desire_tui
+
+    page = (ROOT / "docs" / "python_reference.md").read_text(encoding="utf-8")
+    for name in set(desire_tui.__all__) - {"__version__"}:
+        assert f"\n## {name}\n" in page or f"\n### desire_tui.{name}\n" in page, name

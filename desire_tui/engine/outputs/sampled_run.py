@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from desire_tui.engine.diagnostics import closest
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -60,4 +62,10 @@ def curve_named(run: SampledRun, name: str) -> CurveData:
     for curve in run.curves:
         if curve.name == name:
             return curve
-    raise KeyError(name)
+    raise KeyError(_not_recorded(run, name))
+
+
+def _not_recorded(run: SampledRun, name: str) -> str:
+    near = closest(name, [curve.name for curve in run.curves])
+    hint = f"did you mean {near!r}?" if near else "name it in record=, or in a dispt line of the program"
+    return f"{name!r} was not recorded; {hint}"

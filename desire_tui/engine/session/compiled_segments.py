@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
 
+BACKENDS = ("native", "reference")
+
 
 def make_backend(name: str, compiler: CompilerState | None = None) -> Backend:
     """Return the back end; the reference one where there is no LLVM.
@@ -45,6 +47,8 @@ class CompiledSegments:
     """Segments of the active program, by label."""
 
     def __init__(self, values: Values, backend: str, compiler: CompilerState | None = None) -> None:
+        if backend not in BACKENDS:
+            raise ValueError(f"backend={backend!r} is unknown; there are {' and '.join(map(repr, BACKENDS))}")
         self._values = values
         self._compiler = compiler
         self._backend_name = backend

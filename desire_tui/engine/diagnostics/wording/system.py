@@ -94,7 +94,7 @@ MESSAGES: dict[str, Wording] = {
     "initial-unknown": Wording(
         409,
         "a start is given for '{name}', but the program has no such state",
-        "Model.states has their names",
+        "its states are {states}",
     ),
     "equations-missing": Wording(
         491, "the program has no d/dt, so no right-hand side", "drun segments with d/dt lines have one"
