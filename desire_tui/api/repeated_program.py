@@ -16,7 +16,7 @@ from desire_tui.batch.runner import produced_by, result_of
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.session.prepared_run import RunStart
-from desire_tui.engine.session.repeatable import is_repeatable, rest_of_script
+from desire_tui.engine.session.repeatable import is_repeatable, may_be_repeated, rest_of_script
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -70,13 +70,28 @@ def _nothing() -> None:
 
 
 class _Program:
-    """A program that was run before. `pool` None: it cannot be repeated."""
+    """A program that was run before."""
 
     def __init__(self, key: _Key) -> None:
-        options = LoadOptions(backend=key.backend)
-        self.pool: InstancePool[_Repeated] | None = InstancePool(
-            lambda: _Repeated(key.source, options), IDLE_MOST
-        )
+        self._key = key
+        self._lock = Lock()
+        self._is_known = False
+        self._pool: InstancePool[_Repeated] | None = None
+
+    def pool(self) -> InstancePool[_Repeated] | None:
+        """Return instances of it; None: it cannot be repeated."""
+        with self._lock:
+            if not self._is_known:
+                self._is_known = True
+                if may_be_repeated(self._key.source):  # before its script is run in vain
+                    options = LoadOptions(backend=self._key.backend)
+                    self._pool = InstancePool(lambda: _Repeated(self._key.source, options), IDLE_MOST)
+            return self._pool
+
+    def give_up(self) -> None:
+        """Note that it cannot be repeated."""
+        with self._lock:
+            self._pool = None
 
 
 _lock = Lock()
@@ -94,13 +109,13 @@ def repeated_result(
             _seen.age()
             _seen.keep(key, _Program(key))
             return None
-    pool = program.pool
-    if pool is None:
-        return None
     try:
+        pool = program.pool()
+        if pool is None:
+            return None
         with pool.one() as instance:
             if instance.rest is None:
-                program.pool = None
+                program.give_up()
                 return None
             way = instance.ways.get(names := tuple(settings))
             if way is None:

@@ -16,6 +16,7 @@ from desire_tui.engine.session.overrides import WORD
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Placed, Program
+    from desire_tui.engine.source import Source
     from desire_tui.engine.structure.structure import Structure
 
 _BEFORE = (
@@ -44,6 +45,16 @@ def rest_of_script(program: Program, structure: Structure, place: int) -> list[P
     if not all(isinstance(placed.node, _BEHIND) and _to_console(placed) for placed in behind):
         return None
     return [placed for placed in behind if not isinstance(placed.node, Label)]
+
+
+def may_be_repeated(source: Source) -> bool:
+    """Whether a program looks as if it could be repeated: one `drun`, and nothing else that matters."""
+    from desire_tui.engine.structure.structure import structure
+    from desire_tui.engine.syntax.parse import parse
+
+    program = parse(source)
+    places = [place for place, placed in enumerate(program.script) if isinstance(placed.node, Drun)]
+    return len(places) == 1 and rest_of_script(program, structure(program), places[0]) is not None
 
 
 def is_repeatable(segment: Segment) -> bool:
