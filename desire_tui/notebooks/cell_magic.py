@@ -41,12 +41,13 @@ def run_cell(ipython: Any, line: str, cell: str) -> None:
     """
     options = read_options(line)
     source = Source(f"--\n{cell}", "cell")  # lines count as the notebook counts them
-    if options.sliders:
-        ipython.user_ns[options.name] = _with_sliders(source, options)
-    elif options.record:
-        ipython.user_ns[options.name] = _one_run(source, options)
-    else:
-        ipython.user_ns[options.name] = _program(source, options)
+    way = _with_sliders if options.sliders else _one_run if options.record else _program
+    try:
+        ipython.user_ns[options.name] = way(source, options)
+    except DesireError as error:
+        raise CellError(str(error)) from None
+    except KeyboardInterrupt:
+        raise CellError("stopped") from None
 
 
 def _program(source: Source, options: CellOptions) -> Result:
@@ -67,28 +68,21 @@ def _program(source: Source, options: CellOptions) -> Result:
     result = runner.result()
     graph.draw(result.runs, repr(result))
     if runner.was_interrupted:
-        raise CellError("stopped")
-    if result.error is not None:
-        raise CellError(str(result.error))
-    return result
+        raise KeyboardInterrupt
+    return result.check()
 
 
 def _one_run(source: Source, options: CellOptions) -> Run:
     graph = LiveGraph()
-    try:
-        model = Model(source, LoadOptions())
-        sys.stdout.write(model.console)
-        run = model.run(
-            set=options.settings, record=options.record, timeout=options.timeout,
-            on_block=lambda block: graph.grow(lambda: [block.run]),
-        )  # fmt: skip
-    except DesireError as error:
-        raise CellError(str(error)) from None
+    model = Model(source, LoadOptions())
+    sys.stdout.write(model.console)
+    run = model.run(
+        set=options.settings, record=options.record, timeout=options.timeout,
+        on_block=lambda block: graph.grow(lambda: [block.run]),
+    )  # fmt: skip
     _warn(run.warnings)
     graph.draw([run])
-    if run.error is not None:
-        raise CellError(str(run.error))
-    return run
+    return run.check()
 
 
 def _with_sliders(source: Source, options: CellOptions) -> SliderPanel:
@@ -100,12 +94,9 @@ def _with_sliders(source: Source, options: CellOptions) -> SliderPanel:
 
     from desire_tui.notebooks.sliders import SliderPanel
 
-    try:
-        model = Model(source, LoadOptions())
-        panel = SliderPanel(model, options.sliders, options.settings, options.record)
-        panel.update()
-    except DesireError as error:
-        raise CellError(str(error)) from None
+    model = Model(source, LoadOptions())
+    panel = SliderPanel(model, options.sliders, options.settings, options.record)
+    panel.update()
     sys.stdout.write(model.console)
     display(panel)
     return panel

@@ -14,7 +14,22 @@ import pytest
 ROOT = Path(__file__).parents[2]
 NOTEBOOK = ROOT / "docs" / "notebook.ipynb"
 LONG = "k = 1 | x = 1 | TMAX = 1E9 | DT = 0.001 | NN = 1000001\ndrun\nDYNAMIC\nd/dt x = v\nd/dt v = -k*x\ndispt x"
+INTERRUPT = """
+import os, signal
+from desire_tui.notebooks.live_graph import LiveGraph
+
+def grow(self, runs, own=LiveGraph.grow):
+    LiveGraph.grow = own
+    os.kill(os.getpid(), signal.SIGINT)
+
+LiveGraph.grow = grow
+"""
+"""The next cell is interrupted while it runs."""
 MORE = {
+    "interrupt": INTERRUPT,
+    "interrupted": f"%%desire\n{LONG}",
+    "interrupt one": INTERRUPT,
+    "one run interrupted": f"%%desire --record v\n{LONG}",
     "grows": f"%%desire --timeout 1.5\n{LONG}",
     "one run grows": f"%%desire --timeout 1.5 --record v\n{LONG}",
     "console": "%%desire\nwrite 'hello'\nx = 1",
@@ -117,6 +132,8 @@ def test_console_text_is_the_cells(executed):
     ("name", "text"),
     [
         ("failing", "cell:5:10: error 200: undefined variable 'y'\n    d/dt x = y\n             ^"),
+        ("interrupted", "stopped"),
+        ("one run interrupted", "stopped"),
         ("failing slider", "cell:5:14: error 200: undefined variable 'y'"),
         ("option", "%%desire has no option '--recrod'; did you mean --record?"),
         ("setting", "%%desire --set k: write NAME=NUMBER"),
