@@ -63,6 +63,7 @@ from desire_tui.cli.run_command import settings
     callback=settings,
     help="Override the script's own values, in all runs.",
 )
+@click.option("--input", "answers", metavar="F", help="File with the lines that `input` reads, in every run.")
 @click.option("--segment", metavar="LABEL", help="The labelled segment whose run is meant.")
 @click.option("--fast", is_flag=True, help="sin, exp … by the vector library, whose last 2 bits may differ.")
 @click.option("--quiet", is_flag=True, help="No progress, no summary.")

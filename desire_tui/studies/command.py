@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.batch.cli_commands import DONE, FAILED, LIMIT, report, source_named
 from desire_tui.batch.progress import short
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.files import read_source
 from desire_tui.studies.design import METHODS, Design
 from desire_tui.studies.design_forms import over_texts, points_of, sample_texts
 from desire_tui.studies.output import check_ending, summary, write
@@ -64,6 +65,7 @@ def planned(source: Source, options: dict[str, Any], store: Path | None = None) 
         fixed=tuple(options["settings"].items()),
         seed=seed,
         segment=options["segment"],
+        answers=_answers(options.get("answers")),
         backend=options.get("backend", "native"),
         allow_shell=options.get("allow_shell", False),
         allow_write=options.get("allow_write", False),
@@ -74,6 +76,11 @@ def planned(source: Source, options: dict[str, Any], store: Path | None = None) 
         facts = {"what": "--resume needs a folder to go on with", "remedy": "-o results.zarr"}
         raise DesireError(Diagnostic("study-form", None, facts))
     return Study(task, design, store=store, resume=resume)
+
+
+def _answers(name: str | None) -> tuple[str, ...]:
+    """Return the lines that a script's `input` reads. DesireError 38."""
+    return () if name is None else tuple(read_source(Path(name)).text.splitlines())
 
 
 def _run(study: Study, options: dict[str, Any], shown: _ProgressLine | None) -> int:

@@ -40,6 +40,7 @@ class Kind:
 
 _ALL = (
     Kind("back_ends", "programs by grammar, native code against NumPy", 30, 4, 24, 400),
+    Kind("lanes", "models of scalars, runs in lock step against runs made alone", 30, 1, 6, 300),
     Kind("texts", "damaged texts: parser, checker, colours, completion", 10, 4, 1500),
     Kind("runs", "damaged programs run into every output", 20, 3, 30, 400),
     Kind("commands", "command lines", 30, 2, 15, 300),

@@ -71,6 +71,16 @@ def test_the_summary(study):
     assert study("--keep", "x[end]", "--quiet").output == ""
 
 
+def test_what_scripts_ask_for(study, tmp_path):
+    (tmp_path / "spring.src").write_text(SPRING.replace("drun", "input k\ndrun"))
+    (tmp_path / "answers.txt").write_text("0\n")
+    result = study(
+        "--over", "x=1,2", "--keep", "v[end]", "--input", str(tmp_path / "answers.txt"), "--set", "r=0"
+    )
+    assert "v[end]" in result.output
+    assert result.output.split()[-3:] == ["0", "0", "0"], "no spring, no motion"
+
+
 @pytest.mark.parametrize(
     ("words", "message", "status"),
     [
