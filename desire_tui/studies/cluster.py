@@ -100,7 +100,8 @@ def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iter
             under_way[future.key] = future
             coming.add(future)
         future = next(coming)
-        if future.status in ("cancelled", "lost"):  # chunks are not taken back: their scheduler has gone
+        # one that was lost with the worker that held it is made again; nobody takes chunks back
+        if future.status == "cancelled" or client.status != "running":
             raise ConnectionError("it has gone")
         chunk, seconds = future.result()
         del under_way[future.key]

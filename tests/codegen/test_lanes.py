@@ -78,6 +78,13 @@ MODELS = {
     "seldom samples": "MM = 4\ndrun\nDYNAMIC\n" + SPRING + "term t - 0.3*k - 0.2345\n",
     "runs that fail": "drun\nDYNAMIC\nd/dt x = (k - 2)*x*x*x*x\nd/dt v = ln(x - k)\n",
     "gaps": "drun\nDYNAMIC\n" + SPRING + "y = 1/(x*x - x*x) + ln(x)\n",
+    "histories": "ARRAY X[15], Y[21], D[9], E[30] | for i = 1 to 21 | Y[i] = 0.1*i | next | for i = 1 to 9 | D[i] = i | next\n"
+    "y = 0 | q = 0 | w = 0\ndrun\nDYNAMIC\n" + SPRING + "store X = x\nget y = Y\ndelay q = D(x + v, 0.35)\n"
+    "tdelay w = E(x, 0.17)\nz = y + q + w\n",
+    "histories and term": "ARRAY X[25], D[9] | q = 0\ndrun\nDYNAMIC\n"
+    + SPRING
+    + "delay q = D(x, 0.2)\nterm t - 0.3*k - 0.2345\nstore X = q\nz = x + q\n",
+    "histories that all share": "ARRAY D[9] | q = 0\ndrun\nDYNAMIC\ndelay q = D(sin(t), 0.2)\nd/dt x = -k*x + q\n",
     "difference equations": "q = 0.3 | n = 0\ndrun\nDYNAMIC\nq = k*q*(1 - q)\nn = n + ran()\nterm n - 4*k\nOUT\nx = q + t\n",
     "nothing random differs but noise": "k = 1 | n = 0\ndrun\nDYNAMIC\nd/dt x = n\nOUT\nn = gauss(0)\n",
 }
@@ -134,6 +141,9 @@ def test_functions_of_the_vector_library_are_near():
         ("ARRAY f[4] | f[1] = k | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("k",), "script has to run"),
         ("ARRAY f[4] | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("f[3]",), "tables vary"),
         ("drun\nDYNAMIC\n" + SPRING + "y = delay(x, 0.1)\n", ("k",), "events, delays"),
+        ("ARRAY D[9] | q = 0\ndrun\nDYNAMIC\n" + SPRING + "delay q = D(x, 0.1*k)\n", ("k",), "times of delays differ"),
+        ("ARRAY D[9] | q = 0\ndrun\nDYNAMIC\n" + SPRING + "if x > 0 | delay q = D(x, 0.1) | end if\n", ("k",), "under a condition"),
+        ("ARRAY D[9] | q = 0\ndrun\nDYNAMIC\n" + SPRING + "delay q = D(x, 0.1)\ny = D[2]\n", ("k",), "used in another way"),
         ("m = 2 | s = 0\ndrun\nDYNAMIC\n" + SPRING + "SAMPLE m\ns = t\n", ("m",), "the script has to run"),
     ],
 )  # fmt: skip

@@ -24,8 +24,9 @@ FUNCTIONS = [
 HEAD = """\
 ARRAY f[8] | data -1, 0, 0.5, 1, 3, 1, -2, 0 | read f
 k = 1 | r = 0.5 | a = 0 | b = 0.1 | c = 0 | d = 0 | e = 0 | u = 0 | h = 0 | g = 0 | SEED 4
+p = 0 | w = 0 | ARRAY D[40], E[9], S[5], G[30] | for i = 1 to 9 | G[i] = i | E[i] = -i | next
 """
-KEPT = "a[end], b[end], c[end], mean(a), d[end], e[end], u[end], h[end], t[end], max(q)"
+KEPT = "a[end], b[end], c[end], mean(a), d[end], e[end], u[end], h[end], t[end], max(q), p[end], mean(w)"
 
 
 def generate(rng: Random) -> str:
@@ -55,12 +56,17 @@ class _Maker:
     def __init__(self, rng: Random) -> None:
         self._rng = rng
         self._states = ["x", "y", "z"][: rng.randint(0, 3)]
-        self._names = ["a", "b", "c", "k", "r", "t", "h", *self._states]
+        self._names = ["a", "b", "c", "k", "r", "t", "h", "p", "w", *self._states]
 
     def program(self) -> str:
         rng = self._rng
         lines = [f"d/dt {state} = -{state} + sat({self._value(2)})" for state in self._states]
         lines += self._block(2)
+        histories = [
+            f"delay p = D({self._value(1)}, 0.35)", f"tdelay w = E({self._value(1)}, 0.05)", "store S = b",
+            "get w = G",
+        ]  # fmt: skip
+        lines += [line for line in histories if rng.random() < 0.2]
         if rng.random() < 0.4:
             lines.append(f"term t - {rng.choice(['0.37*k', '0.5', 'r - a', '7'])}")
         if rng.random() < 0.4:

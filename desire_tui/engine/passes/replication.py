@@ -10,12 +10,21 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.effects import ArrayPiece, count_draws, expressions, memory, reads, writes
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
-from desire_tui.engine.lowered.statements import Deriv, Guard, Set, Terminate, UpdateTrackHold
+from desire_tui.engine.lowered.statements import (
+    DelayLine,
+    Deriv,
+    GetHistory,
+    Guard,
+    Set,
+    StoreHistory,
+    Terminate,
+    UpdateTrackHold,
+)
 from desire_tui.engine.lowered.walk import walk_actions, walk_values
 from desire_tui.engine.values import SYSTEM_SLOTS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Container, Iterable, Mapping
 
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Action
@@ -25,7 +34,9 @@ class LockStepError(Exception):
     """What keeps runs from going in lock step."""
 
 
-_PLAIN_STATEMENTS = (Set, Deriv, Guard, Terminate, UpdateTrackHold)
+HISTORIES = (StoreHistory, GetHistory, DelayLine)
+"""Statements whose arrays hold a number for each run; where they stand in them is the same for all."""
+_PLAIN_STATEMENTS = (Set, Deriv, Guard, Terminate, UpdateTrackHold, *HISTORIES)
 _PLAIN_NODES = (Const, Load, Table1, Table2)
 
 
@@ -39,7 +50,8 @@ def hindrance(segment: Segment, varied: Iterable[int]) -> str | None:
         return "events, delays or recovered values"
     if any(slot < SYSTEM_SLOTS for slot in differs):
         return "times or settings of the run vary"
-    written, tables = set[int](), set[int]()
+    written, tables, scalars = set[int](), set[int](), set[int]()
+    kept = histories(segment.body)
     for action in walk_actions(segment.body):
         if not isinstance(action, _PLAIN_STATEMENTS):
             return f"{type(action).__name__} statements"
@@ -51,9 +63,51 @@ def hindrance(segment: Segment, varied: Iterable[int]) -> str | None:
             for piece in memory(node):
                 if isinstance(piece, ArrayPiece):
                     tables.update(range(piece.slot, piece.slot + piece.length))
+                else:
+                    scalars.add(piece[0])
     if any(slot < SYSTEM_SLOTS for slot in written):
         return "the program sets times or settings"
-    return "tables vary" if tables & (differs | written) else None
+    if tables & (differs | written):
+        return "tables vary"
+    inside = [slot for first, count in kept.items() for slot in range(first, first + count)]
+    others = differs.union(tables, scalars, written - kept.keys())
+    if len(inside) != len(set(inside)) or not others.isdisjoint(inside):
+        return "a stored history is used in another way, too"
+    return None
+
+
+def histories(actions: Iterable[Action]) -> dict[int, int]:
+    """Return the arrays that hold histories: their lengths by first slots."""
+    found: dict[int, int] = {}
+    for action in walk_actions(actions):
+        if isinstance(action, HISTORIES):
+            slot = action.buffer_slot if isinstance(action, DelayLine) else action.array_slot
+            found[slot] = max(found.get(slot, 0), action.count)
+    return found
+
+
+def moved_apart(segment: Segment, found: Container[int]) -> str | None:
+    """Return what gives the histories of some runs other places or delays; None: nothing does.
+
+    `found` are the slots that differ between the runs.
+    """
+    return _moved_apart(segment.body, found, under=False)
+
+
+def _moved_apart(actions: Iterable[Action], found: Container[int], *, under: bool) -> str | None:
+    for action in actions:
+        if isinstance(action, Guard):
+            inner = under or (action.condition is not None and _differs(action, found))
+            reason = _moved_apart((*action.body, *action.orelse), found, under=inner)
+            if reason is not None:
+                return reason
+        elif isinstance(action, HISTORIES) and under:
+            return "histories under a condition that differs"
+        elif isinstance(action, DelayLine) and any(
+            slot in found for node in walk_values(action.tau) for slot, _ in memory(node)
+        ):
+            return "times of delays differ"
+    return None
 
 
 def differing(
@@ -82,5 +136,5 @@ def _spread(action: Action, states: Mapping[int, int], found: set[int], *, under
             found.add(states[action.state])
 
 
-def _differs(action: Action, found: set[int]) -> bool:
+def _differs(action: Action, found: Container[int]) -> bool:
     return bool(count_draws(*expressions(action))) or any(slot in found for slot, _ in reads(action))

@@ -22,6 +22,7 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.ir.work_memory import Fields
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
+from desire_tui.engine.codegen.lanes.lane_histories import LaneHistories
 from desire_tui.engine.codegen.lanes.lane_statements import LaneStatements
 from desire_tui.engine.codegen.lanes.replicas import Replicas
 from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE
@@ -51,6 +52,8 @@ class LaneMemory(ctypes.Structure):
         ("starts", ctypes.c_uint64),  # (groups, given slots, width)
         ("random", ctypes.c_uint64),  # int64 (groups, width): where the random numbers begin
         ("rows", ctypes.c_uint64),  # (groups, samples, 1 + columns, width): t, then the columns
+        ("arrays", ctypes.c_uint64),  # (groups, elements of all histories, width)
+        ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
         ("counts", ctypes.c_uint64),  # int64 (groups, width): samples
         ("flagged", ctypes.c_uint64),  # int64 (groups, width): not 0: to be made again alone
         ("groups", ctypes.c_int64),
@@ -81,6 +84,8 @@ class LaneLoop:
         given: Sequence[int],
         differing: frozenset[int],
         faults: frozenset[int],
+        arrays: Mapping[int, int],
+        counters: int,
         width: int,
         piece: int,
     ) -> None:
@@ -91,8 +96,9 @@ class LaneLoop:
         stages = tableau.stages if tableau is not None else 0
         slots = usage.read | usage.written | {T, DT, *states, *columns, *vital}
         self.cells = LaneCells(self.text, self.runs, slots, differing, states, stages)
-        self.statements = LaneStatements(self.runs, self.cells, faults)
         self.memory = Fields(self.text, LaneMemory, "%a")
+        self.histories = LaneHistories(self.runs, self.cells, self.memory, arrays, counters)
+        self.statements = LaneStatements(self.runs, self.cells, faults, self.histories)
         self.passes, self.tableau = passes, tableau
         self.states, self.columns, self.vital, self.given = states, columns, vital, given
         self.may_end = holds_term(passes["step"]) or holds_term(passes["full"])
@@ -109,11 +115,13 @@ class LaneLoop:
             width=width,
             given=len(self.given) * width,
             row=(1 + len(self.columns)) * width,
+            elements=self.histories.elements * width,
             **_OFFSETS,
         )
         group = (
             f"define internal i32 @{name}.group(ptr %a, ptr noalias %v, ptr noalias %in, ptr noalias %seeds,"
-            f" ptr noalias %rows, ptr noalias %counts, ptr noalias %flags) #0 {{\n{body}\n}}"
+            f" ptr noalias %rows, ptr noalias %arrays, ptr noalias %counts, ptr noalias %flags) #0"
+            f" {{\n{body}\n}}"
         )
         return Piece(name, f"{group}\n{frame}", frozenset(self.text.declarations))
 
@@ -187,6 +195,7 @@ class LaneLoop:
         self._put(runs.integers, "taken", "zeroinitializer")
         self._put(runs.integers, "random", text.op(f"load {runs.integers}, ptr %seeds, align 8"))
         self.cells.fetch(self.given)
+        self.histories.begin()
         self._next_point()
         text.jump("point")
         self._point()
@@ -361,6 +370,8 @@ entry:
   %seeds = load ptr, ptr %prandom
   %prows = getelementptr i8, ptr %a, i64 {rows}
   %rows = load ptr, ptr %prows
+  %parrays = getelementptr i8, ptr %a, i64 {arrays}
+  %arrays = load ptr, ptr %parrays
   %pcounts = getelementptr i8, ptr %a, i64 {counts}
   %counts = load ptr, ptr %pcounts
   %pflagged = getelementptr i8, ptr %a, i64 {flagged}
@@ -386,10 +397,12 @@ work:
   %gin = getelementptr double, ptr %in, i64 %oin
   %gseeds = getelementptr i64, ptr %seeds, i64 %olane
   %grows = getelementptr double, ptr %rows, i64 %orow
+  %oarrays = mul i64 %g, {elements}
+  %garrays = getelementptr double, ptr %arrays, i64 %oarrays
   %gcounts = getelementptr i64, ptr %counts, i64 %olane
   %gflags = getelementptr i64, ptr %flags, i64 %olane
-  %unused = call i32 @{name}.group(ptr %a, ptr %v, ptr %gin, ptr %gseeds, ptr %grows, ptr %gcounts,
-                                   ptr %gflags)
+  %unused = call i32 @{name}.group(ptr %a, ptr %v, ptr %gin, ptr %gseeds, ptr %grows, ptr %garrays,
+                                   ptr %gcounts, ptr %gflags)
   %g1 = add i64 %g, 1
   br label %next
 done:

@@ -15,8 +15,9 @@ from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.lowered.effects import count_draws, expressions
 from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.passes.assigned_states import stepped_segment
-from desire_tui.engine.passes.replication import LockStepError, differing, hindrance
+from desire_tui.engine.passes.replication import LockStepError, differing, hindrance, histories, moved_apart
 from desire_tui.engine.passes.vital_columns import vital_columns
+from desire_tui.engine.runtime.delays import Delays
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -80,6 +81,14 @@ class LaneModel:
         )
         """Whether the model takes random numbers."""
         varies = differing(passes, dict(enumerate(states)), given)
+        reason = moved_apart(segment, varies)
+        if reason is not None:
+            raise LockStepError(reason)
+        self._segment, self._delays = segment, Delays()
+        arrays = histories(segment.body)
+        self._histories = np.array(
+            [slot for first, count in arrays.items() for slot in range(first, first + count)], dtype=np.intp
+        )
         piece = machine().width if fast else 1
         loop = LaneLoop(
             passes,
@@ -90,6 +99,8 @@ class LaneModel:
             given,
             varies,
             faults,
+            arrays,
+            segment.counters,
             self.width,
             piece,
         )
@@ -113,6 +124,12 @@ class LaneModel:
         memory = self.memory
         memory.starts, memory.random, memory.rows = own.ctypes.data, seeds.ctypes.data, rows.ctypes.data
         memory.counts, memory.flagged = counts.ctypes.data, flagged.ctypes.data
+        held = np.repeat(self._values.data[self._histories], width)
+        arrays = np.tile(held, groups) if len(held) else np.zeros(1)
+        lags = np.zeros(max(self._segment.counters, 1), dtype=np.int64)
+        for counter, records in self._delays.lags(self._segment, plan, self._values).items():
+            lags[counter] = records
+        memory.arrays, memory.lags = arrays.ctypes.data, lags.ctypes.data
         memory.groups, memory.samples, memory.stop = groups, samples, 0
         memory.t_start, memory.t_max, memory.comint = plan.t0, plan.t_max, plan.comint
         memory.dt, memory.every, memory.nn = plan.dt, plan.every, plan.nn

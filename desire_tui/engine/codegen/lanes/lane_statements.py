@@ -6,12 +6,22 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.lanes.lane_cells import Number
 from desire_tui.engine.codegen.lanes.lane_expressions import LaneExpressions
-from desire_tui.engine.lowered.statements import Deriv, Guard, Set, Terminate, UpdateTrackHold
+from desire_tui.engine.lowered.statements import (
+    DelayLine,
+    Deriv,
+    GetHistory,
+    Guard,
+    Set,
+    StoreHistory,
+    Terminate,
+    UpdateTrackHold,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from desire_tui.engine.codegen.lanes.lane_cells import LaneCells
+    from desire_tui.engine.codegen.lanes.lane_histories import LaneHistories
     from desire_tui.engine.codegen.lanes.replicas import Replicas
     from desire_tui.engine.lowered.statements import Action
 
@@ -22,10 +32,13 @@ class LaneStatements:
     Cells the text must provide: `%l.fired`, `%l.flagged` (flags), `%l.point`, `%l.random`.
     """
 
-    def __init__(self, runs: Replicas, cells: LaneCells, faults: frozenset[int]) -> None:
+    def __init__(
+        self, runs: Replicas, cells: LaneCells, faults: frozenset[int], histories: LaneHistories
+    ) -> None:
         self.text, self.runs, self.cells = runs.text, runs, cells
         self.values = LaneExpressions(runs, cells)
         self._faults = faults
+        self.histories = histories
 
     def write(self, actions: Iterable[Action], mask: str | None = None) -> None:
         """Write statements in order, for those runs that have their flag set."""
@@ -46,6 +59,8 @@ class LaneStatements:
                 self._terminate(action, mask)
             case UpdateTrackHold():
                 self._track(action, mask)
+            case StoreHistory() | GetHistory() | DelayLine():
+                self.histories.write(action, self.values, mask)
             case _:
                 raise TypeError(f"{type(action).__name__} in runs in lock step")
 
