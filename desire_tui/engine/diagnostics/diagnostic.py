@@ -60,7 +60,7 @@ class Diagnostic:
     @property
     def message(self) -> str:
         """What is wrong, in plain words, one sentence without a full stop."""
-        return _visible(_counted(wording_of(self.key).message.format_map(_Facts(self.facts))))
+        return self._said(wording_of(self.key).message)
 
     @property
     def hint(self) -> str | None:
@@ -69,7 +69,10 @@ class Diagnostic:
         if close:
             return f"did you mean '{close}'?"
         text = wording_of(self.key).hint
-        return _visible(_counted(text.format_map(_Facts(self.facts)))) if text else None
+        return self._said(text) if text else None
+
+    def _said(self, text: str) -> str:
+        return _visible(_counted(text, self.facts).format_map(_Facts(self.facts)))
 
     def within(self, source: Source) -> Diagnostic:
         """Return the same problem, placed in `source` if it has no source yet."""
@@ -82,11 +85,16 @@ def internal_error(what: str, error: BaseException) -> Diagnostic:
     return Diagnostic("internal-error", facts={"what": what, "reason": reason.splitlines()[0]})
 
 
-def _counted(sentence: str) -> str:
-    """Return the sentence with `1 state(s)` as `1 state`, `2 state(s)` as `2 states`."""
-    if "(s)" not in sentence:
-        return sentence
-    return re.sub(r"\b1 ([a-z ]+)\(s\)", r"1 \1", sentence).replace("(s)", "s")
+_NUMBERED = re.compile(r"(\{(\w+)[^}]*\}(?: [a-z]+)+)\(s\)")
+
+
+def _counted(text: str, facts: Mapping[str, object]) -> str:
+    """Return a wording with `{n} state(s)` as `{n} state` or `{n} states`; `white(s)` is no such word."""
+    if "(s)" not in text:
+        return text
+    return _NUMBERED.sub(
+        lambda found: found[1] + ("" if str(facts.get(found[2])) in {"1", "1.0"} else "s"), text
+    )
 
 
 def _visible(sentence: str) -> str:

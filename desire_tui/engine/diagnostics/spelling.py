@@ -37,6 +37,8 @@ def closest(name: str, known: Iterable[str]) -> str | None:
     from difflib import get_close_matches  # 3 ms at every start, for the sake of mistakes
 
     candidates = list(known)
+    if name in candidates:  # the name is right, what it stands for is not
+        return None
     swapped = [word for word in candidates if _letters_swapped(name, word)]
     found = swapped or get_close_matches(name, candidates, n=1, cutoff=0.7)
     found = found or [word for word in candidates if len(name) > 2 and _one_letter_off(name, word)]
