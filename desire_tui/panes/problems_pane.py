@@ -44,30 +44,45 @@ class ProblemsPane(OptionList):
     def __init__(self) -> None:
         super().__init__(id="problems")
         self._entries: list[tuple[int, str, Mark]] = []
-        self._theme = ""
+        self._listed: tuple[str, list[tuple[int, str, Mark]]] | None = None
 
     def show(self, programs: Iterable[ProgramProblems]) -> int:
-        """List the problems of these programs; returns how many there are."""
-        entries = [(program.tab, program.name, mark) for program in programs for mark in program.marks]
-        if entries == self._entries and self.option_count and self._theme == self.app.theme:
-            return len(entries)
-        self._theme = self.app.theme
-        self._entries = entries
+        """List the problems of these programs, as soon as the pane is shown; returns how many there are."""
+        self._entries = [(program.tab, program.name, mark) for program in programs for mark in program.marks]
+        if all(node.display for node in self.ancestors_with_self):
+            self._list()
+        return len(self._entries)
+
+    def on_show(self) -> None:
+        """List what came while the pane was hidden: each list makes Textual lay the whole screen out."""
+        self._list()
+
+    def _list(self) -> None:
+        wanted = (self.app.theme, self._entries)
+        if wanted == self._listed:
+            return
+        self._listed = wanted
         theme = self.app.current_theme
         self.clear_options()
-        for _, name, mark in entries:
-            colour = str(theme.error if mark.style == "error" else theme.warning)
-            place = f"{name}:{mark.row + 1}:{mark.start + 1} "
-            self.add_option(
-                Option(Text.assemble(place, (f"{mark.style} {mark.code}: ", colour), mark.message))
+        self.add_options(
+            Option(
+                Text.assemble(
+                    f"{name}:{mark.row + 1}:{mark.start + 1} ",
+                    (
+                        f"{mark.style} {mark.code}: ",
+                        str(theme.error if mark.style == "error" else theme.warning),
+                    ),
+                    mark.message,
+                )
             )
-        if not entries:
+            for _, name, mark in self._entries
+        )
+        if not self._entries:
             self.add_option(Option("No problems.", disabled=True))
-        return len(entries)
 
     def on_option_list_option_selected(self, event: OptionList.OptionSelected) -> None:
         """Go to the problem."""
         event.stop()
-        if self._entries:
-            tab, _, mark = self._entries[event.option_index]
+        if self._listed is not None and (entries := self._listed[1]):
+            tab, _, mark = entries[event.option_index]
             self.post_message(self.Chosen(tab, mark))

@@ -184,3 +184,22 @@ async def test_on_a_small_screen_a_run_begun_in_the_editor_is_seen(program):
         await desk.idle()
         assert desk.app.main_screen.shown == {"command", "graph"}
         assert desk.app.focused is desk.app.command.prompt
+
+
+async def test_problems_are_listed_when_their_pane_is_shown(program):
+    async with desktop(program("y = 1\nnonsense here\n"), size=(100, 30)) as desk:
+        app = desk.app
+        problems = app.main_screen.side_pane.problems
+        await desk.until(lambda: app.editor.front.marks.problems)
+        await desk.idle()
+        assert not problems.option_count
+        await desk.press("alt+p")
+        await desk.until(
+            lambda: problems.option_count == 1 and "error" in str(problems.get_option_at_index(0).prompt)
+        )
+        await desk.press("alt+h", "alt+e", "ctrl+end", *"more nonsense")
+        await desk.until(lambda: len(app.editor.front.marks.all_problems()) == 2)
+        await desk.press("alt+p")
+        await desk.until(lambda: problems.option_count == 2)
+        await desk.press("end", "enter")
+        await desk.until(lambda: app.editor.front.cursor_location[0] == 2)
