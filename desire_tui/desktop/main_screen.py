@@ -14,17 +14,16 @@ from textual.containers import Horizontal, Vertical
 from textual.message import Message
 from textual.widgets import Label
 
-from desire_tui.commands import BY_ID
 from desire_tui.common.frame_top import FrameTop
-from desire_tui.common.key_names import key_name
 from desire_tui.desktop.deferred_screen import DeferredScreen
+from desire_tui.desktop.key_hints import key_hints
 from desire_tui.desktop.layout_rules import SMALLEST, Arrangement, Pane, arrange
 from desire_tui.desktop.splits import Splits
 from desire_tui.editor.editor_pane import EditorPane
 from desire_tui.panes.command_pane import CommandPane
 from desire_tui.panes.graph_pane import GraphPane
 from desire_tui.panes.side_pane import Side, SidePane
-from desire_tui.panes.status_bar import KeyHint, StatusBar
+from desire_tui.panes.status_bar import StatusBar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -40,21 +39,6 @@ if TYPE_CHECKING:
 LOW_BELOW = 28
 """Rows below which the side pane gets more of them."""
 PANES: tuple[Pane, ...] = ("editor", "command", "graph", "side")
-SHOWN_KEYS = {
-    "run.start": "run",
-    "run.accept": "OK",
-    "run.pause": "pause",
-    "view.palette": "palette",
-    "help.word": "help",
-    "view.next_pane": "next pane",
-    "view.quantities": "quantities",
-    "graph.full": "graph",
-    "view.maximize": "zoom",
-    "edit.next_problem": "problem",
-    "file.save": "save",
-    "file.quit": "quit",
-}
-"""Keys of the status row, the most wanted first, with a word for each."""
 
 
 class MainScreen(DeferredScreen):
@@ -113,15 +97,13 @@ class MainScreen(DeferredScreen):
         graphs: Callable[[], list[Graph]],
     ) -> None:
         super().__init__()
-        self._keys = keys
         self._completer = completer
         self.editor = EditorPane(completer)
         self.command = CommandPane(history, completer)
         self.graph = GraphPane(graphs)
         self.graph.border_title = "Graph"
         self.side_pane = SidePane(keys)
-        hints = [KeyHint(self._key(command), title, command) for command, title in SHOWN_KEYS.items()]
-        self.status_bar = StatusBar(hints)
+        self.status_bar = StatusBar(key_hints(keys))
         self._only_pane: Pane | None = None
         self._side: bool | None = None
         self._focused_pane: Pane = "command"
@@ -142,10 +124,6 @@ class MainScreen(DeferredScreen):
         yield self.status_bar
         yield self._completer.popup
         yield Label(f"at least {SMALLEST[0]} × {SMALLEST[1]} characters, please", id="too-small")
-
-    def _key(self, command_id: str) -> str:
-        keys = self._keys.get(command_id) or BY_ID[command_id].keys
-        return key_name(keys.split(",")[0]).replace("Ctrl+", "^")
 
     def on_mount(self) -> None:
         """All panes are there now."""
