@@ -162,6 +162,8 @@ COMMANDS = (
     Command("view.theme", "Theme", "Change to the next theme, or to the named one", "alt+t",
             ("theme",), "name"),
     Command("view.search_output", "Search output", "Search the command pane's output", "alt+y"),
+    Command("view.history", "Former commands", "Commands of this and former sessions, to take one again",
+            words=("history",)),
     Command("view.copy_output", "Copy output", "Copy the command pane's output to the clipboard"),
     Command("view.copy_graph", "Copy samples", "Copy the last run's samples to the clipboard, tab-separated"),
     Command("view.palette", "Command palette", "All actions, by name", "ctrl+p"),

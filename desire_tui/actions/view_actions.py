@@ -155,6 +155,17 @@ class ViewActions(Controller):
         self.app.move_focus(self.app.command.prompt)
         self.app.command.open_search()
 
+    async def history(self, argument: str = "") -> None:
+        """List the commands of this and former sessions; the one chosen goes to the command line."""
+        del argument
+        from desire_tui.panes.history_list import HistoryList
+
+        prompt = self.app.command.prompt
+        if line := await self.app.push_screen_wait(HistoryList(prompt.history.lines)):
+            self.app.move_focus(prompt)
+            prompt.value = line
+            prompt.cursor_position = len(line)
+
     @property
     def selected_text(self) -> str:
         """What is selected with mouse or keys."""

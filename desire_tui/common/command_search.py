@@ -44,6 +44,7 @@ SYNONYMS = {
     "graph.chart": "plot draw array",
     "graph.overlay": "compare superimpose",
     "view.copy_graph": "csv data clipboard spreadsheet excel",
+    "view.history": "history earlier commands again repeat recall lines",
     "view.copy_output": "clipboard console",
     "view.quantities": "variables parameters states inspect watch values",
     "view.problems": "errors warnings diagnostics",

@@ -6,6 +6,7 @@ import math
 
 import pytest
 from textual.events import Paste
+from textual.widgets import OptionList
 
 from desire_tui.app import DesireApp
 from desire_tui.desktop.engine_thread import EngineThread
@@ -13,6 +14,7 @@ from desire_tui.desktop.screen_listener import ScreenListener
 from desire_tui.editor.buffer import free_label
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.session.status import State, Status
+from desire_tui.panes.history_list import HistoryList
 from desire_tui.panes.pending_lines import PendingLines
 from desire_tui.panes.run_summary import bar, run_text
 from desire_tui.panes.status_bar import StatusBar
@@ -327,3 +329,29 @@ async def test_what_a_typed_command_answers_stays_in_the_output(program):
         assert desk.output.count("Theme:") == 1
         await desk.line("load 'nowhere.src'")
         assert desk.output.count("nowhere.src: No such file") <= 1
+
+
+async def test_former_commands_are_listed_and_one_is_taken(program):
+    async with desktop(program("x = 1\n")) as desk:
+        prompt = desk.app.command.prompt
+        for line in ("write 1 + 1", "a = 7", "write a"):
+            await desk.line(line)
+            await desk.idle()
+        await desk.line("history")
+        await desk.until(lambda: isinstance(desk.app.screen, HistoryList) and desk.app.screen.focused)
+        lines = desk.app.screen.query_one(OptionList)
+        assert [str(option.prompt) for option in lines.options][:4] == [
+            "history",
+            "write a",
+            "a = 7",
+            "write 1 + 1",
+        ]
+        await desk.press(*"wri")
+        await desk.until(lambda: lines.option_count == 2)
+        await desk.press("down", "enter")
+        await desk.until(lambda: desk.app.screen is desk.app.main_screen)
+        assert desk.app.focused is prompt
+        assert prompt.value == "write 1 + 1"
+        await desk.do("view.history")
+        await desk.press("escape")
+        assert prompt.value == "write 1 + 1"
