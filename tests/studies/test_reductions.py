@@ -49,3 +49,11 @@ def test_backward_and_a_single_sample():
     t, y = np.array([[0.0], [-1.0], [-2.0]]), np.array([[0.0], [1.0], [2.0]])
     assert reduce(items, t, [y, y], np.array([3]))[0].tolist() == [0.5, 2, -2]
     assert reduce(items, t[:1], [y[:1], y[:1]], np.array([1]))[0].tolist()[2] == 0
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_run_that_leaves_all_numbers_is_kept_without_a_word():
+    t, y = [0.0, 1.0, 2.0], [1e308, 1.5e308, np.inf]
+    found = made([t], y)[0]
+    assert found[0] == found[2] == found[3] == np.inf
+    assert found[1] == found[4] == 1e308
