@@ -24,7 +24,6 @@ _ROUNDING = 1e-9
 """Of a communication interval: a time this near to a sample is at it."""
 
 
-@np.errstate(over="ignore", invalid="ignore")  # of a run that leaves all numbers, inf or nan is kept
 def reduce(items: Sequence[Kept], t: Floats, columns: Sequence[Floats], counts: NDArray[np.intp]) -> Floats:
     """Return what is kept: (runs, numbers).
 
