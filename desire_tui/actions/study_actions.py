@@ -14,6 +14,7 @@ from desire_tui.engine.diagnostics import DesireError, closest
 if TYPE_CHECKING:
     from desire_tui.studies.charts import ChartKind
     from desire_tui.studies.dataset import Layout
+    from desire_tui.studies.study import Study
 
 EXAMPLE = "--over k=1:10:10 --keep x[end]"
 HINT = "--over name=from:to:count --sample name=normal(4,0.5) --runs 1000 --keep x[end], max(v), x@0:2:0.1"
@@ -77,6 +78,13 @@ class StudyActions(Controller):
         check_ending(path)
         return path if self.app.may_write(path, SAVED) else None
 
+    def _made(self) -> Study | None:
+        """Return the study there is; the user is told if there is none."""
+        study = self.app.studies.study
+        if study is None:
+            self.app.notify(NO_STUDY, timeout=3)
+        return study
+
     def pause(self, argument: str = "") -> None:
         """Make no new runs, or go on."""
         del argument
@@ -98,9 +106,8 @@ class StudyActions(Controller):
         from desire_tui.studies.charts import CHART_KINDS
 
         app = self.app
-        study = app.studies.study
+        study = self._made()
         if study is None:
-            app.notify(NO_STUDY, timeout=3)
             return
         from desire_tui.studies.dataset import layouts
 
@@ -138,9 +145,8 @@ class StudyActions(Controller):
     async def save(self, argument: str = "") -> None:
         """Write the results so far as NetCDF, CSV or Zarr."""
         app = self.app
-        study = app.studies.study
+        study = self._made()
         if study is None:
-            app.notify(NO_STUDY, timeout=3)
             return
         told = "the ending .nc, .csv or .zarr chooses the kind"
         name = argument.strip("'\" ") or await app.push_screen_wait(

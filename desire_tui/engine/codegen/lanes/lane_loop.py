@@ -12,7 +12,6 @@ state, a fault) is flagged: whoever called makes that run again alone, for its m
 
 from __future__ import annotations
 
-import ctypes
 from hashlib import blake2b
 from typing import TYPE_CHECKING
 
@@ -22,6 +21,7 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.ir.work_memory import Fields
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
+from desire_tui.engine.codegen.lanes.lane_frame import LaneMemory, lane_frame
 from desire_tui.engine.codegen.lanes.lane_histories import LaneHistories
 from desire_tui.engine.codegen.lanes.lane_statements import LaneStatements
 from desire_tui.engine.codegen.lanes.replicas import Replicas
@@ -42,30 +42,6 @@ if TYPE_CHECKING:
 
 _CHECK_EVERY = 1024
 """Steps between two looks for inf and nan inside a communication interval, as in `loop.fixed_steps`."""
-
-
-class LaneMemory(ctypes.Structure):
-    """What compiled code is called with. Arrays hold numbers for each run of a group side by side."""
-
-    _fields_ = (
-        ("values", ctypes.c_uint64),  # address of slot 0
-        ("starts", ctypes.c_uint64),  # (groups, given slots, width)
-        ("random", ctypes.c_uint64),  # int64 (groups, width): where the random numbers begin
-        ("rows", ctypes.c_uint64),  # (groups, samples, 1 + columns, width): t, then the columns
-        ("arrays", ctypes.c_uint64),  # (groups, elements of all histories, width)
-        ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
-        ("counts", ctypes.c_uint64),  # int64 (groups, width): samples
-        ("flagged", ctypes.c_uint64),  # int64 (groups, width): not 0: to be made again alone
-        ("groups", ctypes.c_int64),
-        ("samples", ctypes.c_int64),  # room for so many
-        ("t_start", ctypes.c_double),
-        ("t_max", ctypes.c_double),
-        ("comint", ctypes.c_double),
-        ("dt", ctypes.c_double),
-        ("nn", ctypes.c_int64),  # communication points of runs without states
-        ("every", ctypes.c_int64),  # MM
-        ("stop", ctypes.c_int64),  # polled at communication points; set from another thread
-    )
 
 
 class LaneLoop:
@@ -110,13 +86,12 @@ class LaneLoop:
         body = self.text.body()
         whole = "\n".join((body, *sorted(self.text.declarations)))  # what it calls depends on `piece`
         name = "l" + blake2b(whole.encode(), digest_size=10).hexdigest()
-        frame = _FRAME.format(
-            name=name,
+        frame = lane_frame(
+            name,
             width=width,
-            given=len(self.given) * width,
-            row=(1 + len(self.columns)) * width,
-            elements=self.histories.elements * width,
-            **_OFFSETS,
+            given=len(self.given),
+            columns=len(self.columns),
+            elements=self.histories.elements,
         )
         group = (
             f"define internal i32 @{name}.group(ptr %a, ptr noalias %v, ptr noalias %in, ptr noalias %seeds,"
@@ -357,56 +332,3 @@ def _takes_both(actions: Iterable[Action]) -> bool:
             if isinstance(node, Op) and node.name in taken:
                 taken[node.name].add(repr(node.args))
     return not taken["sin"].isdisjoint(taken["cos"])
-
-
-_FRAME = """
-define i32 @{name}(ptr %a) #0 {{
-entry:
-  %pv = getelementptr i8, ptr %a, i64 {values}
-  %v = load ptr, ptr %pv
-  %pin = getelementptr i8, ptr %a, i64 {starts}
-  %in = load ptr, ptr %pin
-  %prandom = getelementptr i8, ptr %a, i64 {random}
-  %seeds = load ptr, ptr %prandom
-  %prows = getelementptr i8, ptr %a, i64 {rows}
-  %rows = load ptr, ptr %prows
-  %parrays = getelementptr i8, ptr %a, i64 {arrays}
-  %arrays = load ptr, ptr %parrays
-  %pcounts = getelementptr i8, ptr %a, i64 {counts}
-  %counts = load ptr, ptr %pcounts
-  %pflagged = getelementptr i8, ptr %a, i64 {flagged}
-  %flags = load ptr, ptr %pflagged
-  %pgroups = getelementptr i8, ptr %a, i64 {groups}
-  %groups = load i64, ptr %pgroups
-  %psamples = getelementptr i8, ptr %a, i64 {samples}
-  %samples = load i64, ptr %psamples
-  %room = mul i64 %samples, {row}
-  %pstop = getelementptr i8, ptr %a, i64 {stop}
-  br label %next
-next:
-  %g = phi i64 [ 0, %entry ], [ %g1, %work ]
-  %stop = load volatile i64, ptr %pstop
-  %ended = icmp ne i64 %stop, 0
-  %all = icmp sge i64 %g, %groups
-  %over = or i1 %ended, %all
-  br i1 %over, label %done, label %work
-work:
-  %oin = mul i64 %g, {given}
-  %orow = mul i64 %g, %room
-  %olane = mul i64 %g, {width}
-  %gin = getelementptr double, ptr %in, i64 %oin
-  %gseeds = getelementptr i64, ptr %seeds, i64 %olane
-  %grows = getelementptr double, ptr %rows, i64 %orow
-  %oarrays = mul i64 %g, {elements}
-  %garrays = getelementptr double, ptr %arrays, i64 %oarrays
-  %gcounts = getelementptr i64, ptr %counts, i64 %olane
-  %gflags = getelementptr i64, ptr %flags, i64 %olane
-  %unused = call i32 @{name}.group(ptr %a, ptr %v, ptr %gin, ptr %gseeds, ptr %grows, ptr %garrays,
-                                   ptr %gcounts, ptr %gflags)
-  %g1 = add i64 %g, 1
-  br label %next
-done:
-  ret i32 0
-}}
-"""
-_OFFSETS = {entry[0]: getattr(LaneMemory, entry[0]).offset for entry in LaneMemory._fields_}

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from desire_tui.engine.codegen.jit.compiler import machine
-from desire_tui.engine.codegen.lanes.lane_loop import LaneLoop, LaneMemory
+from desire_tui.engine.codegen.lanes.lane_frame import LaneMemory
+from desire_tui.engine.codegen.lanes.lane_loop import LaneLoop
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.tableaus import TABLEAUS

@@ -1,0 +1,92 @@
+"""What code for runs in lock step is called with, and its outermost loop: over the groups of runs."""
+
+from __future__ import annotations
+
+import ctypes
+
+
+class LaneMemory(ctypes.Structure):
+    """What compiled code is called with. Arrays hold numbers for each run of a group side by side."""
+
+    _fields_ = (
+        ("values", ctypes.c_uint64),  # address of slot 0
+        ("starts", ctypes.c_uint64),  # (groups, given slots, width)
+        ("random", ctypes.c_uint64),  # int64 (groups, width): where the random numbers begin
+        ("rows", ctypes.c_uint64),  # (groups, samples, 1 + columns, width): t, then the columns
+        ("arrays", ctypes.c_uint64),  # (groups, elements of all histories, width)
+        ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
+        ("counts", ctypes.c_uint64),  # int64 (groups, width): samples
+        ("flagged", ctypes.c_uint64),  # int64 (groups, width): not 0: to be made again alone
+        ("groups", ctypes.c_int64),
+        ("samples", ctypes.c_int64),  # room for so many
+        ("t_start", ctypes.c_double),
+        ("t_max", ctypes.c_double),
+        ("comint", ctypes.c_double),
+        ("dt", ctypes.c_double),
+        ("nn", ctypes.c_int64),  # communication points of runs without states
+        ("every", ctypes.c_int64),  # MM
+        ("stop", ctypes.c_int64),  # polled at communication points; set from another thread
+    )
+
+
+def lane_frame(name: str, *, width: int, given: int, columns: int, elements: int) -> str:
+    """Return the function `i32 NAME(ptr LaneMemory)`, which calls NAME.group for each group of runs.
+
+    `width` runs are a group; `given` slots have a start for each run; `columns` beside t are sampled;
+    `elements` are those of all histories.
+    """
+    loads = [
+        line
+        for field, kind in _LOADED
+        for line in (
+            f"  %p.{field} = getelementptr i8, ptr %a, i64 {_offset(field)}",
+            f"  %{field} = load {kind}, ptr %p.{field}",
+        )
+    ]
+    return _FRAME.format(
+        name=name, loads="\n".join(loads), stop=_offset("stop"), width=width, given=given * width,
+        row=(1 + columns) * width, elements=elements * width,
+    )  # fmt: skip
+
+
+def _offset(field: str) -> int:
+    return int(getattr(LaneMemory, field).offset)
+
+
+_LOADED = (
+    ("values", "ptr"), ("starts", "ptr"), ("random", "ptr"), ("rows", "ptr"), ("arrays", "ptr"),
+    ("counts", "ptr"), ("flagged", "ptr"), ("groups", "i64"), ("samples", "i64"),
+)  # fmt: skip
+_FRAME = """
+define i32 @{name}(ptr %a) #0 {{
+entry:
+{loads}
+  %room = mul i64 %samples, {row}
+  %pstop = getelementptr i8, ptr %a, i64 {stop}
+  br label %next
+next:
+  %g = phi i64 [ 0, %entry ], [ %g1, %work ]
+  %stop = load volatile i64, ptr %pstop
+  %ended = icmp ne i64 %stop, 0
+  %all = icmp sge i64 %g, %groups
+  %over = or i1 %ended, %all
+  br i1 %over, label %done, label %work
+work:
+  %oin = mul i64 %g, {given}
+  %orow = mul i64 %g, %room
+  %olane = mul i64 %g, {width}
+  %oarrays = mul i64 %g, {elements}
+  %gin = getelementptr double, ptr %starts, i64 %oin
+  %gseeds = getelementptr i64, ptr %random, i64 %olane
+  %grows = getelementptr double, ptr %rows, i64 %orow
+  %garrays = getelementptr double, ptr %arrays, i64 %oarrays
+  %gcounts = getelementptr i64, ptr %counts, i64 %olane
+  %gflags = getelementptr i64, ptr %flagged, i64 %olane
+  %unused = call i32 @{name}.group(ptr %a, ptr %values, ptr %gin, ptr %gseeds, ptr %grows, ptr %garrays,
+                                   ptr %gcounts, ptr %gflags)
+  %g1 = add i64 %g, 1
+  br label %next
+done:
+  ret i32 0
+}}
+"""
