@@ -34,7 +34,7 @@ from desire_tui.desktop.message_handlers import MessageHandlers
 from desire_tui.desktop.study_runner import StudyRunner
 from desire_tui.desktop.tour import Tour
 from desire_tui.editor.editor_pane import EditorPane
-from desire_tui.editor.live_check import LiveChecker
+from desire_tui.language.live_check import LiveChecker
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence

@@ -183,6 +183,8 @@ REFERENCE_WORDS = frozenset(
 """Words of the language reference; the others give way to a quantity of their name."""
 BY_ID = {command.id: command for command in COMMANDS}
 BY_WORD = {word: command for command in COMMANDS for word in command.words}
+COMMAND_LINE_WORDS = tuple((word, command.help) for word, command in BY_WORD.items())
+"""First words of command lines with a line about each, for completion."""
 
 
 def bindings() -> list[Binding]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from desire_tui.actions import Controller
 from desire_tui.common import config
-from desire_tui.common.line_tokens import first_word
 from desire_tui.common.paths import config_file
 from desire_tui.editor.buffer import Buffer
+from desire_tui.language.line_tokens import first_word
 
 
 class HelpActions(Controller):

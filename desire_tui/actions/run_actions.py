@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
-from desire_tui.editor.live_check import CHECKED_MAX
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.status import State
 from desire_tui.engine.source import Source
 from desire_tui.engine.visible_text import visible_line
+from desire_tui.language.live_check import CHECKED_MAX
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from desire_tui.desktop.command_line import CommandLine
     from desire_tui.desktop.live_mode import LiveMode
     from desire_tui.desktop.message_handlers import MessageHandlers
-    from desire_tui.editor.live_check import LiveChecker
+    from desire_tui.language.live_check import LiveChecker
 
 
 class AskedApp(LastingApp):

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.actions import Controller
 from desire_tui.commands import REFERENCE_WORDS, Command, parse_line
-from desire_tui.common.line_tokens import listed_names
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.session.status import State
+from desire_tui.language.line_tokens import listed_names
 from desire_tui.panes.value_summary import value_text
 
 if TYPE_CHECKING:

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING
 
 from textual.geometry import Offset
 
-from desire_tui.common.line_tokens import word_before
+from desire_tui.commands import COMMAND_LINE_WORDS
 from desire_tui.editor.code_area import CodeArea
-from desire_tui.editor.completion import OFFERED_MAX, around, is_complete, offers
 from desire_tui.editor.completion_popup import CompletionPopup
+from desire_tui.language.completion import OFFERED_MAX, around, is_complete, offers
+from desire_tui.language.line_tokens import word_before
 from desire_tui.panes.prompt import Prompt
 
 if TYPE_CHECKING:
@@ -131,9 +132,9 @@ class Completer:
         area = self._front() if command else target
         assert isinstance(area, CodeArea)
         lines, known = around(area.document.lines, area.cursor_location[0]), self._known()
-        typed_itself = 0 if command else 1
-        self._complete = is_complete(prefix, lines, known, commands=command, itself=typed_itself)
-        found = offers(prefix, lines, known, commands=command, complete=self._complete)
+        typed_itself, words = (0, COMMAND_LINE_WORDS) if command else (1, ())
+        self._complete = is_complete(prefix, lines, known, commands=words, itself=typed_itself)
+        found = offers(prefix, lines, known, commands=words, complete=self._complete)
         if len(found) == 1 and self._complete:
             found = []
         self._target, self._start, self._is_cut = target, _word_start(target), len(found) == OFFERED_MAX

@@ -10,9 +10,9 @@ from desire_tui.actions import Controller
 from desire_tui.commands import BY_ID, BY_WORD
 from desire_tui.common.dialogs import Choice
 from desire_tui.common.key_names import key_names
-from desire_tui.common.problem_marks import mark_of
 from desire_tui.desktop import engine_messages
 from desire_tui.desktop.engine_thread import STOPPED_BY_USER
+from desire_tui.language.problem_marks import mark_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

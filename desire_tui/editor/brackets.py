@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.common.line_tokens import brackets_in
+from desire_tui.language.line_tokens import brackets_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -8,10 +8,10 @@ from textual.binding import Binding, BindingType
 from textual.message import Message
 from textual.widgets.text_area import Selection
 
-from desire_tui.common.line_tokens import joined_word_at
 from desire_tui.editor import indent, line_ends
 from desire_tui.editor.line_ends import EndedText
 from desire_tui.editor.program_view import ProgramView
+from desire_tui.language.line_tokens import joined_word_at
 
 if TYPE_CHECKING:
     from textual import events

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from textual.geometry import Offset
 
-    from desire_tui.editor.completion import Offer
+    from desire_tui.language.completion import Offer
 
 ROWS_MAX = 8
 WORD_WIDTH = 14

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from textual.document._document import DocumentBase
 
-    from desire_tui.common.problem_marks import Mark
+    from desire_tui.language.problem_marks import Mark
 
 Range = tuple[int, int | None, str]
 _ENGINE = "desire_tui.engine.session.session"

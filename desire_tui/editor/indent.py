@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from desire_tui.common.line_tokens import tokens_of
+from desire_tui.language.line_tokens import tokens_of
 
 WIDTH = 2
 """Blanks a level."""

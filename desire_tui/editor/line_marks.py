@@ -6,15 +6,15 @@ from collections import deque
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from desire_tui.common.problem_marks import mark_of
+from desire_tui.language.problem_marks import mark_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from textual.document._document import Location
 
-    from desire_tui.common.problem_marks import Mark
     from desire_tui.engine.diagnostics import Diagnostic
+    from desire_tui.language.problem_marks import Mark
 
 CHANGES_KEPT = 500
 """For so many changes it is known which breakpoints they took away."""

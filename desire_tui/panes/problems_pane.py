@@ -12,7 +12,7 @@ from textual.widgets.option_list import Option
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from desire_tui.common.problem_marks import Mark
+    from desire_tui.language.problem_marks import Mark
 
 
 class ProgramProblems(NamedTuple):

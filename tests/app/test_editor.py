@@ -11,12 +11,13 @@ from hypothesis import strategies as st
 from textual.events import AppFocus
 
 from desire_tui.actions.open_and_save import numbered
+from desire_tui.commands import COMMAND_LINE_WORDS
 from desire_tui.common.dialogs import Choice
-from desire_tui.common.line_tokens import word_before
 from desire_tui.editor import indent
-from desire_tui.editor.completion import OWN_NAME, around, offers
 from desire_tui.editor.highlighting import LineHighlights
 from desire_tui.editor.program_lines import ProgramLines
+from desire_tui.language.completion import OWN_NAME, around, offers
+from desire_tui.language.line_tokens import word_before
 
 from .conftest import OSCILLATOR, desktop
 
@@ -116,7 +117,7 @@ def test_completion_offers_own_names_functions_and_statements():
     found = {offer.word: offer.about for offer in offers("si", [], {})}
     assert "sine" in found["sin"]
     assert "dispt" in {o.word for o in offers("disp", [], {})}
-    assert "zz" in {o.word for o in offers("z", [], {}, commands=True)}
+    assert "zz" in {o.word for o in offers("z", [], {}, commands=COMMAND_LINE_WORDS)}
     assert offers("om", text.split("\n"), {"omega": "= 2"})[0].about == "= 2"
 
 

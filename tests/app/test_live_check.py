@@ -7,11 +7,11 @@ import threading
 
 import pytest
 
-from desire_tui.editor import live_check
 from desire_tui.editor.buffer import Buffer
-from desire_tui.editor.live_check import LiveChecker
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.language import live_check
+from desire_tui.language.live_check import LiveChecker
 
 from .conftest import desktop
 

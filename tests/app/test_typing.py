@@ -10,8 +10,9 @@ import pytest
 from textual import events
 from textual.keys import _character_to_key
 
-from desire_tui.common.line_tokens import word_before
-from desire_tui.editor.completion import around, is_complete, offers
+from desire_tui.commands import COMMAND_LINE_WORDS
+from desire_tui.language.completion import around, is_complete, offers
+from desire_tui.language.line_tokens import word_before
 
 from .conftest import desktop
 
@@ -72,7 +73,7 @@ def test_a_word_is_complete_if_it_stands_elsewhere_or_belongs_to_the_language():
     assert is_complete("sin", ["sin"], {})
     assert is_complete("kappa", ["kappa"], {"kappa": "= 2"})
     assert not is_complete("zz", ["zz"], {})
-    assert is_complete("zz", [], {}, commands=True)
+    assert is_complete("zz", [], {}, commands=COMMAND_LINE_WORDS)
 
 
 def test_a_complete_word_comes_first_with_its_help():

@@ -6,8 +6,6 @@ from functools import cache
 from typing import TYPE_CHECKING
 from zlib import crc32
 
-from desire_tui.common.line_tokens import word_before
-from desire_tui.editor.completion import around, offers
 from desire_tui.engine.check.checker import check as check_program
 from desire_tui.engine.check.state_order import state_order
 from desire_tui.engine.diagnostics import render_all
@@ -16,6 +14,8 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.syntax.highlighting import highlight
 from desire_tui.engine.syntax.parse import parse, parse_command
 from desire_tui.engine.syntax.statement_rows import before
+from desire_tui.language.completion import around, offers
+from desire_tui.language.line_tokens import word_before
 from tests.fuzz.corpus import PIECES
 from tests.fuzz.corpus import texts as corpus
 from tests.fuzz.mutations import mutated, window

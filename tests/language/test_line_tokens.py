@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from desire_tui.common.line_tokens import (
+from desire_tui.language.line_tokens import (
     brackets_in,
     first_word,
     joined_word_at,

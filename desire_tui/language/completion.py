@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from desire_tui.commands import COMMANDS
-from desire_tui.common.line_tokens import words_in
+from desire_tui.language.line_tokens import words_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,6 +16,8 @@ _TYPED = re.compile(r"d/[A-Za-z]*|[A-Za-z][A-Za-z0-9_$]*")
 OFFERED_MAX = 60
 LINES_SEARCHED, LINE_SEARCHED = 2000, 1000
 """So many lines before and behind the cursor are searched for names, and so many characters of each."""
+Words = tuple[tuple[str, str], ...]
+"""Words with a line about each."""
 SMALL_WORDS = frozenset({"and", "or", "not", "then", "to", "t0"})
 OWN_NAME = "name in this program"
 
@@ -46,7 +47,7 @@ def offers(
     lines: Iterable[str],
     known: Mapping[str, str],
     *,
-    commands: bool = False,
+    commands: Words = (),
     complete: bool = False,
 ) -> list[Offer]:
     """Return completions of `prefix`, the likeliest first; itself before all if it is `complete`.
@@ -54,9 +55,9 @@ def offers(
     Capitals as typed come before others, the program's names before the language's, words that it uses
     already before the rest, short ones before long ones.
     `lines` are those of a program whose names count, `known` are names with a line about each (quantities
-    with their values); with `commands` the command line's words are offered too.
+    with their values); `commands` are words of the command line, which are offered there only.
     """
-    about = _words(commands=commands)
+    about = _words(commands)
     own: dict[str, str] = dict(known)
     for word in _words_like(prefix, lines):
         own.setdefault(word, "")
@@ -77,10 +78,10 @@ def offers(
 
 
 def is_complete(
-    word: str, lines: Iterable[str], known: Mapping[str, str], *, commands: bool = False, itself: int = 1
+    word: str, lines: Iterable[str], known: Mapping[str, str], *, commands: Words = (), itself: int = 1
 ) -> bool:
     """Whether a word is one already: the language's, a quantity, or in the lines beyond `itself` times."""
-    if word in known or word in _words(commands=commands):
+    if word in known or word in _words(commands):
         return True
     return sum(name == word for name in _words_like(word, lines)) > itself
 
@@ -96,11 +97,8 @@ def _words_like(prefix: str, lines: Iterable[str]) -> Iterator[str]:
 
 
 @cache
-def _words(*, commands: bool) -> dict[str, str]:
-    """Every word of the language with a line about it.
-
-    The command line's own words too where they may stand.
-    """
+def _words(commands: Words) -> dict[str, str]:
+    """Every word of the language with a line about it, and those of the command line where they may stand."""
     from desire_tui.engine.library import LIBRARY
     from desire_tui.engine.syntax.highlighting import highlight
     from desire_tui.help.page_catalogue import topics
@@ -115,8 +113,6 @@ def _words(*, commands: bool) -> dict[str, str]:
             of_the_language = word in SMALL_WORDS or highlight(word)[0][2] != "name"
             if of_the_language or page.kind == "command":  # other words only lead to the page
                 table.setdefault(word, page.summary)
-    if commands:
-        for command in COMMANDS:
-            for word in command.words:
-                table.setdefault(word, command.help)
+    for word, about in commands:
+        table.setdefault(word, about)
     return table

@@ -1,4 +1,4 @@
-"""Problems while typing: programs are checked in a thread of their own, only the newest text of each tab.
+"""Problems while typing: programs are checked in a thread of their own, only the newest text of each.
 
 A quick check follows each key; a closer look waits until nobody types.
 """
@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import threading
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from desire_tui.engine.cancellation import cancellable
 from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
-    from desire_tui.editor.buffer import Buffer
     from desire_tui.engine.diagnostics import Diagnostic
 
     Report = Callable[[int, int, "tuple[Diagnostic, ...]"], None]
@@ -28,10 +28,26 @@ QUIET_SECONDS = 0.5
 """Nobody has typed for so long: time for a closer look."""
 
 
+class Edited(Protocol):
+    """A text that is being edited; `number` tells it from the others."""
+
+    @property
+    def number(self) -> int:
+        """What nothing else that is checked has."""
+
+    @property
+    def name(self) -> str:
+        """What messages call it."""
+
+    @property
+    def path(self) -> Path | None:
+        """Its file, if it has one."""
+
+
 class LiveChecker:
     """Checks texts one after the other.
 
-    `report(tab number, version, problems)` is called in the checking thread; once more if `look_closer`
+    `report(number, version, problems)` is called in the checking thread; once more if `look_closer`
     finds something else than `check` did.
     """
 
@@ -50,8 +66,8 @@ class LiveChecker:
         self._condition = threading.Condition()
         self._thread: threading.Thread | None = None
 
-    def ask(self, buffer: Buffer, version: int, text: str) -> None:
-        """Check a text when its turn comes; an older text of the same tab is forgotten, or broken off."""
+    def ask(self, buffer: Edited, version: int, text: str) -> None:
+        """Check a text when its turn comes; an older one of the same number is forgotten, or broken off."""
         with self._condition:
             self._wanted[buffer.number] = (version, Source(text, buffer.name, buffer.path))
             self._condition.notify()
