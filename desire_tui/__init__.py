@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from os import PathLike
     from typing import Unpack
 
+    from desire_tui.analysis.calls import AnalysisSettings
+    from desire_tui.analysis.result import Result as Analysed
     from desire_tui.api.model import Model
     from desire_tui.api.simulation import Simulation, Snapshot
     from desire_tui.api.whole_program import RunSettings
@@ -44,6 +46,7 @@ __all__ = [
     "Simulation",
     "Snapshot",
     "__version__",
+    "analyse",
     "load",
     "run",
     "study",
@@ -132,6 +135,29 @@ def study(program: str | PathLike[str], **settings: Unpack[StudySettings]) -> An
     return run_study(program, settings)
 
 
+def analyse(
+    analysis: str,
+    program: str | PathLike[str],
+    request: str = "",
+    **settings: Unpack[AnalysisSettings],
+) -> Analysed:
+    """Ask something of a program beyond its curves; `desire_tui.spectrum(program, "x")` is the same, shorter.
+
+    `analysis` is its word (docs/after-the-curve.md lists them), `program` a file name or a program's text,
+    `request` what is asked, as on the command line. Settings, all optional: `set` (mapping of names to
+    numbers that override the script's own), `data` (a CSV file of measurements, or several), `segment`,
+    `input` (as of `load`), `progress` (called as `progress(part, told, so_far)`; False ends it, and what
+    there is by then is returned), `backend`, `allow_shell`, `allow_write`.
+
+    The result has `values` by name (`result["frequency"]` too), `tables`, `charts` and `notes`; printed it
+    is what a terminal shows. DesireError: the request or the program is wrong, or nothing was found.
+    """
+    check()
+    from desire_tui.analysis.calls import run_analysis
+
+    return run_analysis(analysis, program, request, settings)
+
+
 def load_ipython_extension(ipython: Any) -> None:
     """Add the cell magic `%%desire` to IPython: `%load_ext desire_tui`."""
     from desire_tui.notebooks.cell_magic import register
@@ -141,6 +167,13 @@ def load_ipython_extension(ipython: Any) -> None:
 
 def __getattr__(name: str) -> Any:
     home = _HOMES.get(name)
+    if home is None and not name.startswith("_"):
+        from functools import partial
+
+        from desire_tui.analysis.registry import BY_NAME
+
+        if name in BY_NAME:
+            return partial(analyse, name)
     if home is None:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     check()

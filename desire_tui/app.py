@@ -12,6 +12,7 @@ from textual.app import SystemCommand
 from textual.screen import ModalScreen
 
 from desire_tui import commands
+from desire_tui.actions.analysis_actions import AnalysisActions
 from desire_tui.actions.edit_actions import EditActions
 from desire_tui.actions.file_actions import FileActions
 from desire_tui.actions.graph_actions import GraphActions
@@ -23,6 +24,7 @@ from desire_tui.common import config, paths, plain_characters
 from desire_tui.common.key_names import key_names
 from desire_tui.common.reach import Reach
 from desire_tui.desktop import alt_keys, visible_screen
+from desire_tui.desktop.analysis_runner import AnalysisRunner
 from desire_tui.desktop.asked_app import AskedApp
 from desire_tui.desktop.command_line import CommandLine
 from desire_tui.desktop.engine_messages import CheckFinished
@@ -87,13 +89,14 @@ class DesireApp(AskedApp):
         self.command_line = CommandLine(self)
         self.live_mode = LiveMode(self)
         self.studies = StudyRunner(self)
+        self.analyses = AnalysisRunner(self)
         self.tour = Tour(self)
         self.run_actions = RunActions(self)
         self.file_actions = FileActions(self)
         self.view_actions = ViewActions(self)
         self._controllers: dict[str, Controller] = {
             "run": self.run_actions, "file": self.file_actions, "edit": EditActions(self),
-            "graph": GraphActions(self), "study": StudyActions(self),
+            "graph": GraphActions(self), "study": StudyActions(self), "analysis": AnalysisActions(self),
             "view": self.view_actions, "help": HelpActions(self),
         }  # fmt: skip
         self.checker = LiveChecker(
@@ -177,6 +180,7 @@ class DesireApp(AskedApp):
 
     def _stop_engine(self) -> None:
         self.studies.stop()
+        self.analyses.stop()
         super()._stop_engine()
 
     # --------------------------------------------------------------------------------------------- actions

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 from textual.binding import Binding
 
+from desire_tui.analysis.registry import ANALYSES
+
 
 @dataclass(frozen=True, slots=True)
 class Command:
@@ -140,6 +142,12 @@ COMMANDS = (
     Command("study.stop", "Stop the study", "End the study; what was made stays"),
     Command("study.chart", "Chart of the study", "Another chart: fan, curves, histogram, map, scatter …"),
     Command("study.save", "Save the study", "Save what the study kept as NetCDF, CSV or Zarr"),
+    # ---------------------------------------------------------------------------------------- after the curve
+    *(Command(f"analysis.{one.name}", one.title, one.summary, words=(one.name,), argument=one.example)
+      for one in ANALYSES),
+    Command("analysis.stop", "Stop the analysis", "End the analysis that goes on; what it found stays"),
+    Command("analysis.save", "Save results", "Save what the last analysis found: CSV, JSON, PNG, SVG, PDF",
+            words=("results",), argument="'file'"),
     # --------------------------------------------------------------------------------------------------- view
     Command("view.next_pane", "Next pane", "Move to the next pane", "f6"),
     Command("view.previous_pane", "Pane before", "Move to the pane before", "shift+f6"),
@@ -182,9 +190,11 @@ REFERENCE_WORDS = frozenset(
 )  # fmt: skip
 """Words of the language reference; the others give way to a quantity of their name."""
 BY_ID = {command.id: command for command in COMMANDS}
-BY_WORD = {word: command for command in COMMANDS for word in command.words}
-COMMAND_LINE_WORDS = tuple((word, command.help) for word, command in BY_WORD.items())
+BY_WORD = {word: command for command in reversed(COMMANDS) for word in command.words}
+"""Of two actions with one word (`fit`, `fit k to x ~ y`) the first in the table."""
+COMMAND_LINE_WORDS = tuple((word, command.help) for command in COMMANDS for word in command.words)
 """First words of command lines with a line about each, for completion."""
+_ASKED = {one.name: BY_ID[f"analysis.{one.name}"] for one in ANALYSES}
 
 
 def bindings() -> list[Binding]:
@@ -227,7 +237,9 @@ def parse_line(line: str) -> tuple[Command, str] | None:
     if command is None or rest[:1] in {"=", "[", "("} or _has_several_statements(line):
         return None
     if rest and not command.argument:
-        return None
+        command = _ASKED.get(word)
+        if command is None:
+            return None
     if len(rest) >= 2 and rest[0] in "'\"" and rest[-1] == rest[0]:
         rest = rest[1:-1]
     return command, rest

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 INTRODUCTION = """\
 What `import desire_tui` offers, one entry each; [From Python](python.md) shows how it is used. Numbers are NumPy's `float64`, names
 are as in the program, elements of arrays are `"a[2]"`, from 1."""  # noqa: E501 - a paragraph of the page
-FUNCTIONS = (desire_tui.load, desire_tui.run, desire_tui.study)
+FUNCTIONS = (desire_tui.load, desire_tui.run, desire_tui.study, desire_tui.analyse)
 CLASSES = (
     desire_tui.Model, desire_tui.Run, desire_tui.Result, desire_tui.Simulation, desire_tui.Snapshot,
     RightHandSide, JacobianMatrix, Block, desire_tui.DesireError, desire_tui.Session,

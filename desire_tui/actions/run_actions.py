@@ -153,6 +153,8 @@ class RunActions(Controller):
         if self.app.engine.is_busy:
             self.end_now()
             self.app.show_status()
+        elif self.app.analyses.is_going:
+            self.app.analyses.stop()
         else:
             self.app.notify("Nothing is running.", timeout=2)
 

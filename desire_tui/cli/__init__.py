@@ -6,6 +6,7 @@ Nothing here is heavy: what a command needs is imported when it runs.
 
 from __future__ import annotations
 
+from desire_tui.cli.analysis_commands import analysis_commands
 from desire_tui.cli.check_command import check
 from desire_tui.cli.completion_command import completion
 from desire_tui.cli.group import ide, main
@@ -14,7 +15,19 @@ from desire_tui.cli.run_command import run
 from desire_tui.cli.serve_command import serve, served
 from desire_tui.cli.study_command import study
 
-for _command in (ide, run, check, help_, examples, config, completion, serve, served, study):
+for _command in (
+    ide,
+    run,
+    check,
+    help_,
+    examples,
+    config,
+    completion,
+    serve,
+    served,
+    study,
+    *analysis_commands(),
+):
     main.add_command(_command)
 
 __all__ = ["check", "main", "run"]

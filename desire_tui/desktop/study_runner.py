@@ -10,6 +10,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.panes.work_row import study_text
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -88,12 +89,12 @@ class StudyRunner:
     def _look(self) -> None:
         """Show what is new."""
         self._show_charts()
-        self._app.graph.study_row.show(self.program, self.progress, paused=self.is_paused)
+        self._app.graph.work_row.show(study_text(self.program, self.progress, paused=self.is_paused))
         if not self.is_going:
             if self._timer is not None:
                 self._timer.stop()
                 self._timer = None
-            self._app.graph.study_row.hide()
+            self._app.graph.work_row.hide()
 
     def _show_charts(self) -> None:
         from desire_tui.studies.chart_page import begin_page, update_page

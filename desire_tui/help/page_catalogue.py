@@ -61,6 +61,9 @@ class Topic:
         return "\n\n".join(parts) + "\n"
 
 
+_WRITTEN = ("script", "runs", "dynamic", "vectors", "display", "files", "commands", "desktop", "analysis")
+
+
 @cache
 def topics() -> dict[str, Topic]:
     """Every page by its name: statements first, then variables and commands, functions, errors by number."""
@@ -109,7 +112,17 @@ def _folded() -> dict[str, Topic]:
 def _written() -> list[Topic]:
     """Read the pages of `pages/*.toml`."""
     pages = []
-    for name in ("script", "runs", "dynamic", "vectors", "display", "files", "commands", "desktop"):
+    for name in (
+        "script",
+        "runs",
+        "dynamic",
+        "vectors",
+        "display",
+        "files",
+        "commands",
+        "desktop",
+        "analysis",
+    ):
         pages += [_page(entry) for entry in tomllib.loads(_with_rules(_text_of(name)))["page"]]
     return pages
 

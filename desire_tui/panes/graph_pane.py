@@ -13,7 +13,7 @@ from desire_tui.panes.graph_readout import Readout
 from desire_tui.panes.mouse_gestures import MouseGestures
 from desire_tui.panes.reading_table import ReadingTable
 from desire_tui.panes.sliders import Sliders
-from desire_tui.panes.study_row import StudyRow
+from desire_tui.panes.work_row import WorkRow
 from desire_tui.panes.zoom_window import Window
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class GraphPane(MouseGestures, can_focus=True):
         self.keys_shown = True
         self.readout = Readout()
         self.sliders = Sliders()
-        self.study_row = StudyRow()
+        self.work_row = WorkRow()
         self._keys: tuple[object, ...] = ()
 
     class TurnRequested(Message):
@@ -80,7 +80,7 @@ class GraphPane(MouseGestures, can_focus=True):
             yield ReadingTable(self._key_row_content)
             yield KeyRow(self._key_row_content)
             yield self.sliders
-            yield self.study_row
+            yield self.work_row
 
     def _key_row_content(self) -> KeyRowContent:
         keys = self.paging.keys if self.keys_shown else ()

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 HEADINGS = {
     "run": "Running", "file": "Files and tabs", "edit": "Editing", "graph": "The graph", "study": "Studies",
+    "analysis": "After the curve",
     "view": "Panes and screen", "help": "Help",
 }  # fmt: skip
 KEY_CELLS, COLUMN_CELLS = 17, 42

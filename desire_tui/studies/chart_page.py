@@ -7,27 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.graph.chart_page import KEYS_MOST, MARGIN, limits_of, still_record
 from desire_tui.engine.graph.colors import ramp_color
 from desire_tui.engine.graph.curve import Curve, Frame
 from desire_tui.engine.graph.model import ShownArray
-from desire_tui.engine.integration.rules import DUMMY
-from desire_tui.engine.runtime.run_record import RunRecord
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
     from desire_tui.engine.graph.curve import FrameKind
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.studies.charts import Chart, ChartKind, Line
     from desire_tui.studies.dataset import Layout
 
-    Floats = NDArray[np.float64]
-
-MARGIN = 0.05
-KEYS_MOST = 8
 _FAN_COLORS = (9, 11, 15, 11, 9)
 """Of the quantiles: alike on both sides of the median."""
 
@@ -65,7 +56,7 @@ def update_page(page: Graph, drawn: Chart) -> None:
     page.caption = f"{drawn.y_name} vs. {drawn.x_name}"
     page.frame = frame = _frame(drawn)
     page.has_keys = 1 < len(drawn.lines) <= KEYS_MOST
-    record = _record(drawn, frame)
+    record = still_record([drawn.x, *(line.y for line in drawn.lines)], frame)
     page.curves = [
         Curve(
             line.name, drawn.x_name, _color(line, number, len(drawn.lines)), record, 1 + number, 0, frame,
@@ -83,28 +74,9 @@ def _color(line: Line, number: int, count: int) -> int:
 
 
 def _frame(drawn: Chart) -> Frame:
-    left, right = _limits([drawn.x], 0.0)
-    bottom, top = _limits([line.y for line in drawn.lines], MARGIN)
+    left, right = limits_of([drawn.x], 0.0)
+    bottom, top = limits_of([line.y for line in drawn.lines], MARGIN)
     if drawn.kind in ("histogram", "cumulated"):
         bottom = 0.0
     kind: FrameKind = "dispt" if drawn.kind in ("fan", "curves", "over") else "dispxy"
     return Frame(kind, left, right, bottom, top, max(abs(bottom), abs(top)))
-
-
-def _limits(columns: Sequence[Floats], margin: float) -> tuple[float, float]:
-    """Return the least and the largest finite number, apart from each other."""
-    numbers = np.concatenate([*columns, np.empty(0)])
-    finite = numbers[np.isfinite(numbers)]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    room = margin * (high - low) or (0.0 if high > low else 0.05 * abs(high) or 1.0)
-    return low - room, high + room
-
-
-def _record(drawn: Chart, frame: Frame) -> RunRecord:
-    columns = [line.y for line in drawn.lines]
-    table = np.column_stack([drawn.x, *columns]) if columns else np.empty((0, 1))
-    return RunRecord(
-        number=0, segment=None, line=0, requests=(), columns=(), overlay=False, rule=DUMMY, scale=frame.scale,
-        t0=frame.left, t_max=frame.right - frame.left, nn=len(table), dt=1.0, rows=table, count=len(table),
-        ended="tmax",
-    )  # fmt: skip

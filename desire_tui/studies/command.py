@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.batch.cli_commands import DONE, FAILED, LIMIT, report, source_named
 from desire_tui.batch.progress import short
+from desire_tui.batch.status_line import StatusLine, bar
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import read_source
 from desire_tui.studies.design import METHODS, Design
@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.source import Source
     from desire_tui.studies.study import Progress
-
-_BAR = 20
-_REDRAW_SECONDS = 0.1
-_SHOW_AFTER_SECONDS = 0.5
 
 
 def study_file(name: str, options: dict[str, Any]) -> int:
@@ -121,31 +117,20 @@ def _tell(study: Study, output: Path | None, status: int, *, quiet: bool) -> int
 
 
 class _ProgressLine:
-    """A line on the terminal that shows how far a study is."""
+    """Shows on a terminal how far a study is."""
 
     def __init__(self, terminal: IO[str]) -> None:
-        self._terminal, self._drawn = terminal, monotonic() + _SHOW_AFTER_SECONDS - _REDRAW_SECONDS
-        self._is_shown = False
+        self._line = StatusLine(terminal)
+        self.clear = self._line.clear
 
     def __call__(self, progress: Progress) -> None:
         """Redraw it."""
-        now = monotonic()
-        if now - self._drawn < _REDRAW_SECONDS:
-            return
-        self._drawn, self._is_shown = now, True
-        full = round(_BAR * progress.made / progress.runs)
-        failed = f" · {progress.failed} failed" if progress.failed else ""
-        self._terminal.write(
-            f"\r\x1b[K{'━' * full}{'╌' * (_BAR - full)} {short(progress.made)} / {short(progress.runs)} runs"
-            f"{failed} · {_span(progress.seconds_left)} left"
-        )
-        self._terminal.flush()
-
-    def clear(self) -> None:
-        """Remove it."""
-        if self._is_shown:
-            self._terminal.write("\r\x1b[K")
-            self._terminal.flush()
+        if self._line.is_due:
+            failed = f" · {progress.failed} failed" if progress.failed else ""
+            self._line.show(
+                f"{bar(progress.made / progress.runs)} {short(progress.made)} / {short(progress.runs)} runs"
+                f"{failed} · {_span(progress.seconds_left)} left"
+            )
 
 
 def _span(seconds: float | None) -> str:

@@ -25,7 +25,7 @@ async def test_a_study_from_its_line_to_its_file(program, tmp_path):
         assert desk.app.graph.page is second
         assert [curve.name for curve in second.curves] == ["5 %", "25 %", "median", "75 %", "95 %"]
         assert first.title() == "top of 60 runs · scale = " + first.title().rpartition(" ")[2]
-        assert not desk.app.graph.study_row.display
+        assert not desk.app.graph.work_row.display
         await desk.line("study chart scatter top a")
         page = desk.app.graph.page
         assert page.label == "top vs. a"
@@ -43,8 +43,8 @@ async def test_a_study_is_paused_goes_on_and_is_stopped(program):
         studies = desk.app.studies
         await desk.until(lambda: studies.progress is not None)
         await desk.line("study pause")
-        assert desk.app.graph.study_row.display
-        assert "paused" in str(desk.app.graph.study_row.content)
+        assert desk.app.graph.work_row.display
+        assert "paused" in str(desk.app.graph.work_row.content)
         await desk.line("study --over a=1:2:2 --keep x[end]")
         assert "A study goes on" in desk.output
         await desk.line("study go")

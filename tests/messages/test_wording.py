@@ -68,6 +68,9 @@ ELSEWHERE = {
     "study-cluster": "tests/studies/test_cluster.py::test_a_scheduler_that_is_not_there",
     "study-library": "tests/studies/test_study.py::test_a_library_that_is_missing_is_said_first",
     "study-no-run": "tests/studies/test_study.py::test_a_script_without_a_run",
+    "analysis-form": "tests/analysis/test_request.py::test_mistakes_are_told_at_their_place",
+    "analysis-failed": "tests/analysis/test_spectrum.py::test_a_run_of_few_samples_says_nothing",
+    "analysis-library": "tests/analysis/test_front_ends.py::test_a_library_that_is_missing_is_named",
     "file-binary": "tests/batch/test_headless.py::test_files_that_are_no_programs",
 }
 """Messages that no program text alone produces, and the tests that do."""

@@ -18,6 +18,7 @@ from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.session.checkpoint import Checkpoint
 from desire_tui.engine.session.fault_place import with_part
 from desire_tui.engine.session.recorded_segment import recording
+from desire_tui.engine.session.state_labels import state_labels
 from desire_tui.engine.values import TMAX, T
 
 if TYPE_CHECKING:
@@ -218,14 +219,7 @@ class PreparedRun:
 
     def states(self) -> Iterator[tuple[str, float]]:
         """Yield names and values of all states, now."""
-        labels = dict[int, str]()
-        for quantity in self.values:
-            if quantity.is_state and not quantity.shape:
-                labels[quantity.slot] = quantity.name
-            elif quantity.is_state:
-                for number, place in enumerate(np.ndindex(quantity.shape)):
-                    label = f"{quantity.name}[{','.join(str(k + 1) for k in place)}]"
-                    labels[quantity.slot + number] = label
+        labels = state_labels(self.values)
         data = self.values.data
         yield from ((labels[slot], float(data[slot])) for slot in self._states.tolist())
 

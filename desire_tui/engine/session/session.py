@@ -362,6 +362,11 @@ class Session:
         self._notebook.picture(path)
         return path
 
+    def note_result(self, command: str, text: str, graph: Graph | None) -> None:
+        """Put what was asked beside the program, and the answer, into the notebook. The session's thread."""
+        with self._notebook.task(command, lambda: graph):
+            self._notebook.output(text)
+
     def plot_quantity(self, name: str) -> PlotOutcome:
         """Plot `x`, `A` or `A[2,3]` on a page of its own: arrays over the index, others over the last run.
 

@@ -1,4 +1,4 @@
-"""The row below the graph while a study goes on: how far it is, how long it will take, how it is stopped."""
+"""The row below the graph while a study or an analysis goes on: how far it is, how it is stopped."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ if TYPE_CHECKING:
     from desire_tui.studies.study import Progress
 
 
-class StudyRow(Label):
-    """Hidden unless a study goes on."""
+class WorkRow(Label):
+    """Hidden unless something goes on."""
 
     DEFAULT_CSS = """
-    StudyRow { height: 1; width: 100%; display: none; padding: 0 1; background: $panel; color: $foreground; }
+    WorkRow { height: 1; width: 100%; display: none; padding: 0 1; background: $panel; color: $foreground; }
     """
 
     def __init__(self) -> None:
-        super().__init__("", id="study-row", markup=False)
+        super().__init__("", id="work-row", markup=False)
 
-    def show(self, program: str, progress: Progress | None, *, paused: bool) -> None:
-        """Say how far a study is; before its first runs `progress` is None."""
+    def show(self, text: str) -> None:
+        """Say how far it is."""
         self.display = True
-        self.update(study_text(program, progress, paused=paused))
+        self.update(text)
 
     def hide(self) -> None:
         """There is none any more."""
@@ -33,7 +33,7 @@ class StudyRow(Label):
 
 
 def study_text(program: str, progress: Progress | None, *, paused: bool) -> str:
-    """Return the row's text, the most important first."""
+    """Return how far a study is, the most important first; before its first runs `progress` is None."""
     state = "paused" if paused else "study"
     keys = "study go, study stop" if paused else "study pause, study stop"
     if progress is None:
@@ -52,3 +52,9 @@ def span_text(seconds: float) -> str:
         return f"{seconds:.0f} s"
     minutes = seconds / 60
     return f"{minutes:.0f} min" if minutes < 100 else f"{minutes / 60:.1f} h"
+
+
+def analysis_text(program: str, title: str, part: float | None, told: str) -> str:
+    """Return how far an analysis is."""
+    shown = f"{bar(part)} " if part is not None else ""
+    return " · ".join(filter(None, (f"{title.lower()} {shown}{told}".rstrip(), "Shift+F10 stops", program)))

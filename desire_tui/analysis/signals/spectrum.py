@@ -1,0 +1,88 @@
+"""`spectrum x`: power spectral density of a run's samples (Welch 1967), its peaks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.analysis.libraries import needed
+from desire_tui.analysis.request import Request
+from desire_tui.analysis.result import Result, Table
+from desire_tui.analysis.samples import sampled
+from desire_tui.engine.graph.chart import Chart, Series
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from desire_tui.analysis.progress import Progress
+    from desire_tui.analysis.subject import Subject
+
+    Floats = NDArray[np.float64]
+
+EXAMPLE = "spectrum x window 256"
+PEAKS_MOST = 8
+_PARTS = 8
+"""The run is divided into so many parts whose spectra are averaged, half overlapping."""
+_PROMINENCE = 10.0
+"""A peak is so many times higher than the valleys beside it."""
+
+
+def analyse(subject: Subject, request: str, progress: Progress) -> Result:
+    """Return the spectrum of each named quantity. DesireError: see `Request`, `sampled`."""
+    names, window, start = _read(request)
+    progress(None, "run")
+    run = sampled(subject, names)
+    from_start = run.t >= (run.t[0] if start is None else start)
+    t = run.t[from_start]
+    step = float(t[-1] - t[0]) / max(len(t) - 1, 1)
+    welch = needed("scipy.signal", "a spectrum").welch
+    length = min(window or max(len(t) * 2 // (_PARTS + 1), min(len(t), 64)), len(t))
+    series, tables, values = [], [], {}
+    for name in names:
+        x = run[name][from_start]
+        frequency, density = welch(x, fs=1.0 / step, nperseg=length, detrend="constant")
+        series.append(Series(name, frequency[1:], density[1:]))
+        values[name] = {"frequency": frequency, "density": density}
+        tables.append(_peaks(name, frequency, density))
+    what = ", ".join(names)
+    chart = Chart(f"Spectrum of {what}", "frequency", "power density", series, log_y=True)
+    notes = [
+        f"{len(t)} samples, {step:g} apart: frequencies to {0.5 / step:.6g}, {1.0 / (step * length):.3g} "
+        f"apart (Welch, windows of {length} samples)"
+    ]
+    return Result(f"Spectrum of {what}, {subject.name}", values, tables, [chart], notes)
+
+
+def _read(request: str) -> tuple[list[str], int | None, float | None]:
+    asked = Request(request, EXAMPLE)
+    names, window, start = [asked.name("a quantity's name")], None, None
+    while asked.take(","):
+        names.append(asked.name("a quantity's name"))
+    while not asked.is_done:
+        span = asked.span
+        if asked.expect("window", "from") == "from":
+            start = asked.number("a time")
+            continue
+        window = int(asked.number("a number of samples"))
+        if window < 8:
+            asked.fail("a window needs 8 samples or more", "window 256", span)
+    return names, window, start
+
+
+def _peaks(name: str, frequency: Floats, density: Floats) -> Table:
+    """Return the highest peaks; their places by a parabola through the logarithms of three values."""
+    peaks, _ = needed("scipy.signal", "a spectrum").find_peaks(
+        np.log(np.maximum(density, np.finfo(float).tiny)), prominence=np.log(_PROMINENCE)
+    )
+    highest = sorted(peaks[np.argsort(density[peaks])[::-1]][:PEAKS_MOST], key=lambda k: -density[k])
+    step = frequency[1] - frequency[0]
+    places = []
+    for k in highest:
+        left, middle, right = np.log(density[k - 1 : k + 2])
+        places.append(float(frequency[k] + step * 0.5 * (left - right) / (left - 2.0 * middle + right)))
+    power = [float(step * density[max(k - 2, 0) : k + 3].sum()) for k in highest]
+    return Table(f"peaks of {name}", {
+        "frequency": places, "period": [1.0 / place for place in places],
+        "amplitude": [float(np.sqrt(2.0 * p)) for p in power],
+    })  # fmt: skip

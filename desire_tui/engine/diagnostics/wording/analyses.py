@@ -1,0 +1,23 @@
+"""Messages about what is asked of a program after its run: fits, optima, steady states, data."""
+
+from __future__ import annotations
+
+from desire_tui.engine.diagnostics.wording.entry import Wording
+
+MESSAGES: dict[str, Wording] = {
+    "analysis-form": Wording(
+        520,
+        "{what}",
+        "{remedy}",
+        "What is asked of an analysis (fit, minimise, steady …) is not written as it has to be.",
+    ),
+    "analysis-failed": Wording(
+        521,
+        "{what}",
+        "{remedy}",
+        "An analysis was understood and begun, and came to no result: the text says at what.",
+    ),
+    "analysis-library": Wording(
+        522, "{what} needs the library {library}", "pip install 'desire-tui[analysis]'"
+    ),
+}
