@@ -35,9 +35,9 @@ def test_the_density_holds_the_variance(subject):
 
 
 def test_a_part_of_the_run(subject):
-    text = TWO_TONES.replace("y = 3", "y = 100*swtch(1 - t) + 3")
+    text = TWO_TONES.replace("y = 3", "y = 100*swtch(t - 9)*swtch(11 - t) + 3")
     whole = analyse(subject(text), "y", unwatched)["y"]["density"]
-    late = analyse(subject(text), "y from 2", unwatched)["y"]["density"]
+    late = analyse(subject(text), "y from 12", unwatched)["y"]["density"]
     assert np.sum(late) < 0.5 * np.sum(whole)
 
 

@@ -25,7 +25,9 @@ PEAKS_MOST = 8
 _PARTS = 8
 """The run is divided into so many parts whose spectra are averaged, half overlapping."""
 _PROMINENCE = 10.0
-"""A peak is so many times higher than the valleys beside it."""
+"""A peak is so many times higher than the valleys beside it,"""
+_ROUNDING = 1e-12
+"""and so many times lower than the highest one at most: what is lower is rounding."""
 
 
 def analyse(subject: Subject, request: str, progress: Progress) -> Result:
@@ -47,10 +49,8 @@ def analyse(subject: Subject, request: str, progress: Progress) -> Result:
         tables.append(_peaks(name, frequency, density))
     what = ", ".join(names)
     chart = Chart(f"Spectrum of {what}", "frequency", "power density", series, log_y=True)
-    notes = [
-        f"{len(t)} samples, {step:g} apart: frequencies to {0.5 / step:.6g}, {1.0 / (step * length):.3g} "
-        f"apart (Welch, windows of {length} samples)"
-    ]
+    apart = f"frequencies to {0.5 / step:.6g}, {1.0 / (step * length):.3g} apart"
+    notes = [f"{len(t)} samples, {step:g} apart: {apart} (Welch, windows of {length} samples)"]
     return Result(f"Spectrum of {what}, {subject.name}", values, tables, [chart], notes)
 
 
@@ -72,9 +72,8 @@ def _read(request: str) -> tuple[list[str], int | None, float | None]:
 
 def _peaks(name: str, frequency: Floats, density: Floats) -> Table:
     """Return the highest peaks; their places by a parabola through the logarithms of three values."""
-    peaks, _ = needed("scipy.signal", "a spectrum").find_peaks(
-        np.log(np.maximum(density, np.finfo(float).tiny)), prominence=np.log(_PROMINENCE)
-    )
+    shown = np.log(np.maximum(density, _ROUNDING * density.max()))
+    peaks, _ = needed("scipy.signal", "a spectrum").find_peaks(shown, prominence=np.log(_PROMINENCE))
     highest = sorted(peaks[np.argsort(density[peaks])[::-1]][:PEAKS_MOST], key=lambda k: -density[k])
     step = frequency[1] - frequency[0]
     places = []
