@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.exact_functions.compiled import exact_function
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.symbols import TWO_ARGUMENTS, lane_by_lane
 
@@ -27,6 +28,9 @@ class Replicas(Lanes):
 
     def call_library(self, name: str, *args: str) -> str:
         """Call a function of the mathematical library for each run."""
+        exact = self._exact(name, args) if self.piece == 1 else None
+        if exact is not None:
+            return exact
         if self.together and name in ("sin", "cos"):
             return self._sine_or_cosine(name, args[0])
         count = 2 if name in TWO_ARGUMENTS else 1
@@ -43,6 +47,17 @@ class Replicas(Lanes):
             needs.add(_in_pieces(name, count, self.width, self.piece, function))
         listed = ", ".join(f"{self.kind} {a}" for a in args)
         return self.text.op(f"call {self.kind} @{function}({listed})")
+
+    def _exact(self, name: str, args: tuple[str, ...]) -> str | None:
+        """Call a function of vectors with the library's bits; None: there is none."""
+        both = self.together and name in ("sin", "cos")
+        function = exact_function("sincos" if both else name, self.width)
+        if function is None:
+            return None
+        kind = f"{{ {self.kind}, {self.kind} }}" if both else self.kind
+        self.text.declarations.add(f"declare {kind} @{function.symbol}({self.kind}) #1")
+        found = self.text.op(f"call {kind} @{function.symbol}({self.kind} {args[0]})")
+        return self.text.op(f"extractvalue {kind} {found}, {int(name == 'cos')}") if both else found
 
     def _sine_or_cosine(self, name: str, x: str) -> str:
         """Ask for both: LLVM leaves one of two calls with the same argument away."""

@@ -1,0 +1,1 @@
+"""Functions of the C library for many numbers at a time, with its bits."""

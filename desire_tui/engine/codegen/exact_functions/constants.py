@@ -1,0 +1,28 @@
+"""π/2 and ln 2 as rational numbers, to 200 bits: enough for three doubles and what they leave."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+_BITS = 240
+
+
+def _series(first: Fraction, ratio: Fraction) -> Fraction:
+    """Return Σ first·ratioᵏ/(2k + 1)."""
+    total, term, k = Fraction(0), first, 0
+    while abs(term) > Fraction(1, 2**_BITS):
+        total += term / (2 * k + 1)
+        term, k = term * ratio, k + 1
+    return total
+
+
+def half_pi() -> Fraction:
+    """Return π/2 by Machin's formula: π/4 = 4·arctan(1/5) - arctan(1/239)."""
+    fifth, other = Fraction(1, 5), Fraction(1, 239)
+    return 2 * (4 * _series(fifth, -(fifth**2)) - _series(other, -(other**2)))
+
+
+def ln_2() -> Fraction:
+    """Return ln 2 = 2·artanh(1/3)."""
+    third = Fraction(1, 3)
+    return 2 * _series(third, third**2)

@@ -1,0 +1,89 @@
+"""Arithmetic on unevaluated sums of two doubles, elementwise: 106 bits where 53 are not enough.
+
+T. J. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971), with
+fused multiplication and addition for the errors of products (Muller et al., "Handbook of Floating-Point
+Arithmetic", 2nd ed. 2018, chapter 4).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.codegen.ir.lanes import Lanes
+
+
+class Pair(NamedTuple):
+    """The sum `high + low`; low is small beside high."""
+
+    high: str
+    low: str
+
+
+class Pairs:
+    """Writes operations on pairs into the text of some lanes."""
+
+    def __init__(self, lanes: Lanes) -> None:
+        self.lanes = lanes
+
+    def fma(self, a: str, b: str, c: str) -> str:
+        """Return a·b + c, rounded once."""
+        lanes = self.lanes
+        function = f"llvm.fma.{lanes.suffix}"
+        kinds = ", ".join([lanes.kind] * 3)
+        lanes.text.declarations.add(f"declare {lanes.kind} @{function}({kinds})")
+        listed = ", ".join(f"{lanes.kind} {x}" for x in (a, b, c))
+        return lanes.text.op(f"call {lanes.kind} @{function}({listed})")
+
+    def const(self, value: float) -> str:
+        """Return a number in every lane."""
+        return self.lanes.const(value)
+
+    def sum(self, large: str, small: str) -> Pair:
+        """Return large + small without error where |large| ≥ |small| (Fast2Sum)."""
+        lanes = self.lanes
+        high = lanes.add(large, small)
+        return Pair(high, lanes.add(lanes.sub(large, high), small))
+
+    def product(self, a: str, b: str) -> Pair:
+        """Return a·b without error."""
+        high = self.lanes.mul(a, b)
+        return Pair(high, self.fma(a, b, self.lanes.neg(high)))
+
+    def times(self, a: str, b: Pair) -> Pair:
+        """Return a number times a pair."""
+        exact = self.product(a, b.high)
+        return Pair(exact.high, self.fma(a, b.low, exact.low))
+
+    def by(self, a: Pair, b: Pair) -> Pair:
+        """Return a pair times a pair."""
+        part = self.times(a.high, b)
+        return Pair(part.high, self.fma(a.low, b.high, part.low))
+
+    def constant_plus(self, value: Fraction, small: Pair | str) -> Pair:
+        """Return a constant, to 106 bits, plus something smaller."""
+        high, low = split(value)
+        if isinstance(small, Pair):
+            found = self.sum(self.const(high), small.high)
+            rest = small.low
+        else:
+            found = self.sum(self.const(high), small)
+            rest = ""
+        tail = self.lanes.add(found.low, rest) if rest else found.low
+        return Pair(found.high, self.lanes.add(tail, self.const(low)) if low else tail)
+
+    def polynomial(self, x: str, coefficients: Sequence[Fraction]) -> str:
+        """Return Σ coefficient[i]·xⁱ in plain doubles (Horner)."""
+        result = self.const(float(coefficients[-1]))
+        for coefficient in reversed(coefficients[:-1]):
+            result = self.fma(result, x, self.const(float(coefficient)))
+        return result
+
+
+def split(value: Fraction) -> tuple[float, float]:
+    """Return the double next to a number, and the double next to what is left."""
+    high = float(value)
+    return high, float(value - Fraction(high))

@@ -1,0 +1,88 @@
+"""Functions of many numbers have the bits of the C library's, which Python's `math` calls number by number."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from desire_tui.engine.codegen.exact_functions import compiled, hyperbolic_tangent, sine_and_cosine
+from desire_tui.engine.codegen.exact_functions.constants import half_pi, ln_2
+from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.studies import chunk as chunks
+from desire_tui.studies.chunk import run_chunk
+from desire_tui.studies.task import Task
+
+MODEL = (
+    "k = 3 | DT = 0.01 | TMAX = 2 | NN = 21 | x = 1 | v = 0\ndrun\nDYNAMIC\nd/dt x = v\n"
+    "d/dt v = -k*sin(3*x) - tanh(v) + exp(-x*x)\ny = cos(x) + sin(x)\ndispt x\n"
+)
+SPECIAL = (0.0, -0.0, math.nan, 1e-310, -5e-324, 1e-9, 0.126, 0.855469, 2.426265, 1e300, -3e5, 699.5, -710.0)
+
+
+@pytest.fixture
+def afresh(monkeypatch):
+    """No function and no program was made yet."""
+    monkeypatch.setattr(compiled, "_known", {})
+    monkeypatch.setattr(chunks, "_PROGRAMS", chunks._Programs())
+
+
+def arguments(seed: int) -> np.ndarray:
+    """Numbers of all sizes, and such that lie near multiples of π/2, where most bits cancel."""
+    random = np.random.default_rng(seed)
+    sizes = random.uniform(-1, 1, 4000) * 10.0 ** random.uniform(-9, 6, 4000)
+    turns = random.integers(-300, 300, 2000) * (math.pi / 2) * (1 + 10.0 ** random.uniform(-16, -3, 2000))
+    return np.concatenate([sizes, turns, random.uniform(-4, 4, 4000), np.resize(np.array(SPECIAL), 16)])
+
+
+def library(name: str, x: float) -> float:
+    try:
+        return getattr(math, name)(x)
+    except OverflowError:  # of math.exp: the C library's result is inf
+        return math.inf
+
+
+@pytest.mark.parametrize("name", compiled.NAMES)
+def test_the_bits_of_the_library(name):
+    function = compiled.exact_function(name, 2 * machine().width)
+    if function is None:  # another library or processor: it is called number by number
+        assert not compiled._is_possible(name, 2 * machine().width) or name == "tanh"
+        return
+    x = arguments(3)
+    for own, found in zip(("sin", "cos") if name == "sincos" else (name,), function.of(x), strict=True):
+        wanted = np.array([library(own, value) for value in x.tolist()])
+        same = (found.view(np.int64) == wanted.view(np.int64)) | (np.isnan(found) & np.isnan(wanted))
+        assert same.all(), x[~same][:5]
+
+
+def test_constants_have_all_their_bits():
+    # D. H. Bailey's and other tables; 60 digits
+    digits = Fraction("1.570796326794896619231321691639751442098584699687552910487472")
+    assert abs(half_pi() - digits) < Fraction(1, 10**59)
+    assert abs(
+        ln_2() - Fraction("0.693147180559945309417232121458176568075500134360255254120680")
+    ) < Fraction(1, 10**59)
+
+
+@pytest.mark.usefixtures("afresh")
+def test_a_function_that_differs_from_the_library_is_not_used(monkeypatch):
+    monkeypatch.setattr(sine_and_cosine, "_BAND", 0.0)  # nothing is in doubt
+    monkeypatch.setattr(hyperbolic_tangent, "_ONE_FROM", 3.0)
+    width = 2 * machine().width
+    assert compiled.exact_function("sin", width) is None
+    assert compiled.exact_function("tanh", width) is None
+
+
+@pytest.mark.usefixtures("afresh")
+@pytest.mark.parametrize("version", ["musl 1.2", "glibc 2.27", None])
+def test_of_another_library_nothing_is_presumed(monkeypatch, version):
+    monkeypatch.setattr(os, "confstr", lambda _: version)
+    assert compiled.exact_function("sin", 2 * machine().width) is None
+    task = Task(MODEL, "<text>", None, "x[end], y[end]", ("k",))
+    rows = np.linspace(0.5, 4, 21)[:, None]
+    found, alone = run_chunk(task, 0, rows), run_chunk(replace(task, lanes=False), 0, rows)
+    assert np.array_equal(found.numbers, alone.numbers)
