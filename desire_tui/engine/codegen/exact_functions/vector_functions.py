@@ -32,7 +32,7 @@ def ways(name: str) -> Sequence[Callable[[Lanes], list[tuple[str, str]]]]:
         return (lambda lanes: [exponential(lanes)],)
     if name == "tanh":
         return tuple(
-            lambda lanes, fused=fused: [(hyperbolic_tangent(lanes, fused=fused), "zeroinitializer")]  # type: ignore[misc]  # bound now
+            lambda lanes, fused=fused: [(hyperbolic_tangent(lanes, fused=fused), "zeroinitializer")]
             for fused in (True, False)
         )
     return (lambda lanes: [*map(SineAndCosine(lanes).result, _library(name))],)
