@@ -11,6 +11,7 @@ from textual.command import CommandPalette
 from desire_tui.common import themes
 from desire_tui.common.remembered import remember, remembered
 from desire_tui.desktop.palette_colours import PaletteColours
+from desire_tui.desktop.quick_stylesheet import QuickStylesheet
 
 if TYPE_CHECKING:
     from textual.theme import Theme
@@ -29,6 +30,7 @@ class ThemedApp(App[None]):
         """Those that an open palette was filled with."""
         self._chosen_theme = self._configured_theme = UNCHOSEN
         super().__init__()
+        self.stylesheet = QuickStylesheet(variables=self.get_css_variables())
         for theme in themes.THEMES:
             self.register_theme(theme)
         self._has_few_colours = self.console.color_system == "standard"

@@ -66,10 +66,13 @@ def parsed_once(
     scope: str = "",
 ) -> list[RuleSet]:
     """Parse a widget's style sheet once for all apps of the process, not once for each: an eighth of their start."""
-    key = (css, read_from, is_default_rules, tie_breaker, scope, frozenset(sheet._variables.items()))
-    if key not in _parsed:
-        _parsed[key] = _parse_rules(sheet, css, read_from, is_default_rules, tie_breaker, scope)
-    return _parsed[key]
+    key = (css, read_from, is_default_rules, tie_breaker, scope)
+    if key not in sheet._parse_cache:
+        known = (*key, frozenset(sheet._variables.items()))
+        if known not in _parsed:
+            _parsed[known] = _parse_rules(sheet, css, read_from, is_default_rules, tie_breaker, scope)
+        sheet._parse_cache[key] = _parsed[known]
+    return sheet._parse_cache[key]
 
 
 async def settled(min_sleep: float = 0.0, max_sleep: float = 1.0) -> None:

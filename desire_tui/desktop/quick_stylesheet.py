@@ -1,0 +1,163 @@
+"""Finds the styles of widgets; what is the same for many of them is worked out once.
+
+A third of a desktop's start was this search: for each of 160 nodes (widgets, and parts of them such as a
+cursor) Textual goes through all rules twice, and weighs anew which of those that hold prevails. Textual is
+pinned; it has no public way.
+"""
+# ruff: noqa: SLF001 - what `Stylesheet.apply` reads and notes at a node has no public names
+
+from __future__ import annotations
+
+from itertools import count
+from typing import TYPE_CHECKING, cast
+
+from textual.css.match import _check_selectors
+from textual.css.styles import RulesMap, Styles
+from textual.css.stylesheet import Stylesheet
+from textual.dom import DOMNode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from textual.css.model import RuleSet, Selector
+    from textual.css.types import Specificity3
+
+BY_NEIGHBOURS = frozenset({"first-of-type", "last-of-type", "first-child", "last-child", "empty"})
+BY_COUNT = frozenset({"odd", "even"})
+INITIAL = Styles()
+"""What holds where no rule says anything."""
+
+
+class NumberedSelector:
+    """One of a rule's selectors; equal numbers mean the same rule and the same weight."""
+
+    def __init__(self, number: int, rule: RuleSet, parts: list[Selector], specificity: Specificity3) -> None:
+        self.number = number
+        self.rule = rule
+        self.parts = parts
+        self.specificity = specificity
+
+    def holds(self, node: DOMNode, path: list[DOMNode]) -> bool:
+        """Whether it chooses a node, which stands at the end of `path`; most fail at their last part."""
+        return self.parts[-1].check(node) and (len(self.parts) == 1 or _check_selectors(self.parts, path))
+
+
+class Candidates:
+    """The selectors that can choose nodes of certain names, and what Textual notes of them at the node."""
+
+    def __init__(self, selectors: list[NumberedSelector]) -> None:
+        self.selectors = selectors
+        pseudo_classes = frozenset[str]().union(*(selector.rule.pseudo_classes for selector in selectors))
+        self._notes = (
+            "hover" in pseudo_classes, "focus-within" in pseudo_classes,
+            not pseudo_classes.isdisjoint(BY_NEIGHBOURS), not pseudo_classes.isdisjoint(BY_COUNT),
+        )  # fmt: skip
+
+    def note(self, node: DOMNode) -> None:
+        """Note which changes of its state give a node other styles."""
+        (
+            node._has_hover_style, node._has_focus_within, node._has_order_style, node._has_odd_or_even,
+        ) = self._notes  # fmt: skip
+
+
+class QuickStylesheet(Stylesheet):
+    """Textual's style sheet with a quicker `apply`; the styles are the same."""
+
+    def __init__(self, *, variables: dict[str, str] | None = None) -> None:
+        super().__init__(variables=variables)
+        self._numbered: dict[RuleSet, list[NumberedSelector]] = {}
+        self._numbers = count()
+        self._of_names: dict[frozenset[str], Candidates] = {}
+        self._of_selectors: dict[tuple[int, ...], RulesMap] = {}
+        self._of_parts: dict[tuple[int, ...], RulesMap] = {}
+        """As they stand in a node: `text_style` is a word in a rule."""
+        self._seen: list[RuleSet] | None = None
+        """The rules that the tables are about."""
+
+    def copy(self) -> Stylesheet:
+        """Return a style sheet with the same sources."""
+        copied = QuickStylesheet(variables=self._variables.copy())
+        copied.source = self.source.copy()
+        return copied
+
+    def set_variables(self, variables: dict[str, str]) -> None:
+        """Take other colours: all rules will be parsed anew."""
+        super().set_variables(variables)
+        self._seen = None
+        self._numbered.clear()
+        self._of_selectors.clear()
+        self._of_parts.clear()
+
+    def apply(
+        self, node: DOMNode, *, animate: bool = False, cache: dict[tuple[object, ...], RulesMap] | None = None
+    ) -> None:
+        """Give a node the styles that the rules say; `cache` is Textual's and not used."""
+        del cache
+        candidates = self._candidates(node)
+        candidates.note(node)
+        path = node.css_path_nodes
+        chosen = [selector for selector in candidates.selectors if selector.holds(node, path)]
+        if chosen:
+            key = tuple([selector.number for selector in chosen])
+            is_part = type(node) is DOMNode
+            """Whether it is a part of a widget: it stands nowhere, and is made for each call anew."""
+            if is_part and key in self._of_parts:
+                node.styles.base.merge_rules(self._of_parts[key])
+                return
+            styles = self._of_selectors.get(key)
+            if styles is None:
+                styles = self._of_selectors[key] = prevailing(chosen)
+            self.replace_rules(node, styles, animate=animate)
+            if is_part:
+                self._of_parts[key] = node.styles.base.get_rules()
+        self._process_component_classes(node)
+
+    def _candidates(self, node: DOMNode) -> Candidates:
+        rules_map = self.rules_map
+        if self._seen is not self._rules:
+            self._seen = self._rules
+            self._of_names.clear()
+            for rule in self._rules:
+                if rule not in self._numbered:
+                    self._number(rule)
+        names = frozenset(rules_map.keys() & node._selector_names)
+        found = self._of_names.get(names)
+        if found is None:
+            possible = {id(rule) for name in names for rule in rules_map[name]}
+            rules = (rule for rule in reversed(self._rules) if id(rule) in possible)
+            found = Candidates([selector for rule in rules for selector in self._numbered[rule]])
+            self._of_names[names] = found
+        return found
+
+    def _number(self, rule: RuleSet) -> None:
+        self._numbered[rule] = [
+            NumberedSelector(next(self._numbers), rule, selectors.selectors, selectors.specificity)
+            for selectors in rule.selector_set
+        ]
+
+
+def prevailing(selectors: Iterable[NumberedSelector]) -> RulesMap:
+    """Return what is said with the greatest weight of each property."""
+    said: dict[str, list[tuple[tuple[int, ...], object]]] = {}
+    for selector in selectors:
+        rule = selector.rule
+        for name, weight, value in rule.styles.extract_rules(
+            selector.specificity, rule.is_default_rules, rule.tie_breaker
+        ):
+            said.setdefault(name, []).append((weight, value))
+    return cast("RulesMap", {name: _value(name, values) for name, values in said.items()})
+
+
+def _value(name: str, said: list[tuple[tuple[int, ...], object]]) -> object:
+    """Return a property's value; `initial` (None) is what widgets say, in a widget what Textual has."""
+
+    def greatest(values: list[tuple[tuple[int, ...], object]]) -> object:
+        return max(values, key=lambda weighed: weighed[0])[1]
+
+    value = greatest(said)
+    if value is not None:
+        return value
+    by_widgets = [weighed for weighed in said if not weighed[0][0]]
+    if len(by_widgets) == len(said):
+        return getattr(INITIAL, name)
+    return greatest(by_widgets) if by_widgets else None
