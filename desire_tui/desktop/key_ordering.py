@@ -69,13 +69,18 @@ class KeyOrdering:
             event._bubble_to(field.parent)  # noqa: SLF001 - what Textual itself would have done
 
     async def _at_rest(self, screen: Screen[object]) -> None:
-        """Wait until an action just begun is done, or has opened a dialog that takes the focus."""
+        """Wait until an action just begun is done, or has opened a dialog that takes keys."""
         end = asyncio.get_running_loop().time() + PATIENCE_S
         app, worker = self._app, self.action_begun
         while worker is not None and not worker.is_finished and asyncio.get_running_loop().time() < end:
-            if app.screen is not screen and app.screen.focused is not None:
+            if app.screen is not screen and takes_keys(app.screen):
                 return
             await asyncio.sleep(0.001)
+
+
+def takes_keys(screen: Screen[object]) -> bool:
+    """Whether a screen that was just opened has its focus, or stands and has nothing that could get it."""
+    return screen.focused is not None or (screen.is_mounted and not screen.focus_chain)
 
 
 async def caught_up(widget: Widget | None) -> None:

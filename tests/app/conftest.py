@@ -8,6 +8,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 import pytest
+from textual._context import active_app
 from textual.css.stylesheet import Stylesheet
 
 from desire_tui.app import DesireApp
@@ -76,15 +77,27 @@ def parsed_once(
 
 
 async def settled(min_sleep: float = 0.0, max_sleep: float = 1.0) -> None:
-    """Wait until the app has nothing to do.
+    """Wait until the app has nothing to do; what its timers would do in a moment it does at once.
 
     Textual's own `wait_for_idle` asks for the processor time of the whole process: while a simulation runs in another
     thread, each key would take a second. What the event loop has ready is what counts.
     """
     end = monotonic() + max_sleep
-    for _ in range(3):
-        await asyncio.sleep(max(0.007, min_sleep / 3))  # longer in all than the screen's timer takes: 1/60 s
+    await asyncio.sleep(min_sleep)
+    await nothing_ready(end)
+    while (act := due()) is not None and monotonic() < end:
+        act()
         await nothing_ready(end)
+
+
+def due() -> Callable[[], None] | None:
+    """Return what the app's timers would do in at most 1/60 s: tell the panes a new size, draw what has changed."""
+    app = active_app.get(None)
+    if app is None or not app._screen_stack or not app.screen.is_running:
+        return None
+    if app._resize_timer is not None:
+        return app._check_resize
+    return app.screen._on_timer_update if app.screen._update_timer._active.is_set() else None
 
 
 async def messages_read(_: Pilot[None], timeout: float = 1.0) -> bool:  # noqa: ASYNC109 - Textual's own name
@@ -112,7 +125,7 @@ async def until(pilot: Pilot[None], condition: Callable[[], object]) -> None:
     """
     end = monotonic() + PATIENCE_S
     while not condition() and monotonic() < end:
-        await asyncio.sleep(0.01)
+        await asyncio.sleep(0.003)
         pilot.app.screen._on_timer_update()
     assert condition()
     await pilot.pause()

@@ -16,7 +16,9 @@ from desire_tui.panes.own_keys import OWN_KEYS
 from .conftest import OSCILLATOR, desktop
 
 
-async def test_a_letter_goes_to_a_pane_or_tab(program):
+async def test_a_letter_goes_to_a_pane_or_tab(program, monkeypatch):
+    """At once: no letter waits until somebody's patience is over."""
+    monkeypatch.setattr("desire_tui.desktop.key_ordering.PATIENCE_S", 1e9)
     paths = [program("x = 1\n", f"{name}.src") for name in ("one", "two")]
     async with desktop(*paths, size=(120, 40)) as desk:
         app = desk.app
