@@ -24,16 +24,27 @@ class Analysis:
     example: str
     """A request that works for the program in its help page."""
     module: str
+    """Where its function is: `module`, whose function is `analyse`, or `module:function`."""
     may_be_empty: bool = False
     """Whether it can be asked for by its word alone."""
 
     def run(self, subject: Subject, request: str, progress: Progress) -> Result:
         """Do it. DesireError: what is wrong with the request or the program, or why nothing is found."""
-        found: Result = import_module(self.module).analyse(subject, request, progress)
+        module, _, function = self.module.partition(":")
+        found: Result = getattr(import_module(module), function or "analyse")(subject, request, progress)
         return found
 
 
+_OVER = "QUANTITY over NAME [= START] [in [LOW, HIGH]] [log], … [by local|global|cma] [runs N]"
 ANALYSES = (
+    Analysis(
+        "minimise", "Minimise", "Values at which a quantity that runs leave is least", _OVER,
+        "max(x) over k in [0, 5]", "desire_tui.analysis.optimise.search:minimise",
+    ),
+    Analysis(
+        "maximise", "Maximise", "Values at which a quantity that runs leave is greatest", _OVER,
+        "max(x) over k in [0, 5]", "desire_tui.analysis.optimise.search:maximise",
+    ),
     Analysis(
         "spectrum", "Spectrum", "Power spectrum of samples (Welch), with its peaks",
         "NAME, … [window SAMPLES] [from TIME]", "x", "desire_tui.analysis.signals.spectrum",
