@@ -9,7 +9,7 @@ from desire_tui.systems import reason_against
 
 COMMANDS = frozenset({
     "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide",
-    "maximise", "minimise", "spectrum",
+    "average", "histogram", "maximise", "minimise", "section", "spectrum",
 })  # fmt: skip
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 

@@ -46,6 +46,19 @@ ANALYSES = (
         "max(x) over k in [0, 5]", "desire_tui.analysis.optimise.search:maximise",
     ),
     Analysis(
+        "section", "Section", "Passages of orbits through a plane (Poincaré), located, and the return map",
+        "STATE = LEVEL [up|down|both] | every PERIOD, then [of STATE, …] [from TIME] [points N]",
+        "x = 0 up of y", "desire_tui.analysis.signals.section",
+    ),
+    Analysis(
+        "histogram", "Distribution", "How the values of samples are distributed",
+        "NAME, … [bins N] [from TIME]", "x", "desire_tui.analysis.signals.distribution:histogram",
+    ),
+    Analysis(
+        "average", "Average", "Means of samples with the confidence that their correlation allows",
+        "NAME, … [from TIME]", "x", "desire_tui.analysis.signals.distribution:average",
+    ),
+    Analysis(
         "spectrum", "Spectrum", "Power spectrum of samples (Welch), with its peaks",
         "NAME, … [window SAMPLES] [from TIME]", "x", "desire_tui.analysis.signals.spectrum",
     ),

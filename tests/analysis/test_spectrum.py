@@ -50,7 +50,7 @@ def test_other_values_of_the_program(subject):
     ("request_", "message"),
     [
         ("", "the request ends where a quantity's name is expected"),
-        ("y window 3", "a window needs 8 samples or more"),
+        ("y window 3", "3 is no whole number from 8 on"),
         ("q", "'q' is to be recorded, but the program does not have it"),
     ],
 )

@@ -9,7 +9,7 @@ import numpy as np
 from desire_tui.analysis.libraries import needed
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.result import Result, Table
-from desire_tui.analysis.samples import sampled
+from desire_tui.analysis.signals import read
 from desire_tui.engine.graph.chart import Chart, Series
 
 if TYPE_CHECKING:
@@ -34,15 +34,12 @@ def analyse(subject: Subject, request: str, progress: Progress) -> Result:
     """Return the spectrum of each named quantity. DesireError: see `Request`, `sampled`."""
     names, window, start = _read(request)
     progress(None, "run")
-    run = sampled(subject, names)
-    from_start = run.t >= (run.t[0] if start is None else start)
-    t = run.t[from_start]
-    step = float(t[-1] - t[0]) / max(len(t) - 1, 1)
+    t, samples = read.columns(subject, names, start)
+    step = float(t[-1] - t[0]) / (len(t) - 1)
     welch = needed("scipy.signal", "a spectrum").welch
     length = min(window or max(len(t) * 2 // (_PARTS + 1), min(len(t), 64)), len(t))
     series, tables, values = [], [], {}
-    for name in names:
-        x = run[name][from_start]
+    for name, x in zip(names, samples, strict=True):
         frequency, density = welch(x, fs=1.0 / step, nperseg=length, detrend="constant")
         series.append(Series(name, frequency[1:], density[1:]))
         values[name] = {"frequency": frequency, "density": density}
@@ -56,17 +53,12 @@ def analyse(subject: Subject, request: str, progress: Progress) -> Result:
 
 def _read(request: str) -> tuple[list[str], int | None, float | None]:
     asked = Request(request, EXAMPLE)
-    names, window, start = [asked.name("a quantity's name")], None, None
-    while asked.take(","):
-        names.append(asked.name("a quantity's name"))
+    names, window, start = read.names(asked), None, None
     while not asked.is_done:
-        span = asked.span
         if asked.expect("window", "from") == "from":
             start = asked.number("a time")
-            continue
-        window = int(asked.number("a number of samples"))
-        if window < 8:
-            asked.fail("a window needs 8 samples or more", "window 256", span)
+        else:
+            window = read.whole(asked, 8, "window 256")
     return names, window, start
 
 
