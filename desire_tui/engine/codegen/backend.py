@@ -96,7 +96,7 @@ class NativeBackend:
 
     def _make(self, segment: Segment, rule: int, values: Values) -> Model:
         code, improver = self._compiler.code, self._compiler.improver
-        if rule_numbered(rule).kind == "multistep" and segment.order:
+        if rule_numbered(rule).has_interpolant and segment.order:
             from desire_tui.engine.codegen.stiff.stiff_model import StiffModel
 
             return StiffModel(code, improver, self._compiler.routines, segment, rule, values)

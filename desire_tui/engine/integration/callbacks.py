@@ -16,6 +16,7 @@ from desire_tui.engine.integration.problem import FLOOR, Matrix
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import JacobianFunction, RhsFunction, WeightFunction
 from desire_tui.engine.integration.system import Natives
+from desire_tui.engine.integration.taylor.memory import Expand
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,6 +39,9 @@ class PythonModel(Protocol):
 
     def derivatives(self, t: float, y: Array, out: Array) -> None:
         """Write the derivatives to `out`."""
+
+    def expand(self, t: float, y: Array) -> None:
+        """Compute the Taylor coefficients at t from the states y (rule 17)."""
 
     def tangent(self, t: float, y: Array, direction: Array, out: Array) -> None:
         """Write J·direction to `out`."""
@@ -67,6 +71,18 @@ class PythonCallbacks:
             )),
         )  # fmt: skip
         """For `bdf` in place of CVODE."""
+        self.expand = Expand(lambda _, t, y: self._expand(t, self._states(y)))
+        """For `taylor`."""
+
+    def _expand(self, t: float, y: Array) -> int:
+        assert self.system is not None
+        self.system.problem.derivative_calls += 1
+        try:
+            self._model.expand(t, y)
+        except BaseException as failure:  # noqa: BLE001 - ctypes would only print it
+            self.failure = failure
+            return _GIVE_UP
+        return 0
 
     def _rhs(self, t: float, y: int, ydot: int, _user: int) -> int:
         return self._derive(t, numbers(y), numbers(ydot))

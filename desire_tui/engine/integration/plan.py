@@ -67,6 +67,8 @@ def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = 
     derivatives are at hand; without them a rule with a Jacobian differences too (the reference back end).
     """
     corrector = rule_numbered(rule).corrector
+    if rule_numbered(rule).solver == "Taylor":
+        return SolverPlan(Linear("fixed-point"), Matrix.NONE, None)
     assert corrector is not None, f"rule {rule} solves no equations"
     if corrector == "fixed-point":
         return SolverPlan(Linear("fixed-point"), Matrix.NONE, None)

@@ -34,6 +34,8 @@ the steps."""
 NEWTON_ERROR_SHARE = 0.04
 """The same under rules whose corrector is Newton's iteration with a whole matrix, whose own errors are small:
 with 1/25 they keep 6·ERMAX on the same problems, with 1/20 not even 10."""
+SERIES_ERROR_SHARE = 0.1
+"""The same under rule 17, of which not the error but the first terms left out are estimated."""
 
 FLOOR = 1e-20
 """A wave that runs into states at rest moves distant ones by 1e-200 at once; to follow those to ERMAX of
@@ -69,6 +71,8 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "look": (ctypes.c_int32, (_ADDRESS, _REAL, _REAL)),
     "settle": (ctypes.c_int32, (_ADDRESS, _REAL)),
     "depart": (ctypes.c_int32, (_ADDRESS,)),
+    "at_start": (_INT, (_ADDRESS, _ADDRESS)),
+    "recurrences": (None, (_ADDRESS, _ADDRESS, _INT)),
 }
 """What the functions are whose addresses stand in a `SolverProblem`: results and arguments."""
 

@@ -11,10 +11,11 @@ from typing import Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
-Kind = Literal["dummy", "fixed", "variable", "multistep"]
-"""No integration; steps of DT; steps halved and doubled; step and order that follow the solution."""
-Solver = Literal["none", "tableau", "Adams", "BDF"]
-"""Who makes a step: a run loop with a row of `tableaus`, or CVODE with one of its two methods."""
+Kind = Literal["dummy", "fixed", "variable", "multistep", "series"]
+"""No integration; steps of DT; steps halved and doubled; step and order that follow the solution; step that
+follows it, order that follows ERMAX."""
+Solver = Literal["none", "tableau", "Adams", "BDF", "Taylor"]
+"""Who makes a step: a run loop with a row of `tableaus`, CVODE with one of its two methods, or `taylor`."""
 Corrector = Literal["fixed-point", "jacobian", "differences", "diagonal"]
 """How an implicit step's equations are solved: by functional iteration, or Newton's with a matrix from …"""
 
@@ -42,7 +43,12 @@ class Rule:
     @property
     def controls_error(self) -> bool:
         """Whether it looks at ERMAX."""
-        return self.kind in ("variable", "multistep")
+        return self.kind in ("variable", "multistep", "series")
+
+    @property
+    def has_interpolant(self) -> bool:
+        """Whether its steps may go beyond communication points: the solution is known everywhere inside them."""
+        return self.kind in ("multistep", "series")
 
     @property
     def reads_jacobian(self) -> bool:
@@ -66,6 +72,8 @@ class Rule:
                 return "variable"
             case "multistep":
                 return "variable, variable order"
+            case "series":
+                return "variable, order by ERMAX"
 
 
 def _multistep(
@@ -113,6 +121,10 @@ RULES: dict[int, Rule] = {
             "seldom", "**stiff systems**",
             "stiff systems whose equations cannot be differentiated", _MANY_STATES,
         )),
+        Rule(
+            17, "Taylor series", "series", "Taylor", 20,
+            use="**high accuracy**: orbits, chaos, long runs of smooth models",
+        ),
     )
 }  # fmt: skip
 """Every rule by its `irule` number."""

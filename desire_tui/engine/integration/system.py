@@ -14,6 +14,7 @@ from desire_tui.engine.integration.problem import (
     ERROR_SHARE,
     NEWTON_ERROR_SHARE,
     NOISE_WAIT,
+    SERIES_ERROR_SHARE,
     SLIDE_PARTS,
     Matrix,
     SolverProblem,
@@ -21,6 +22,8 @@ from desire_tui.engine.integration.problem import (
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Solver
+from desire_tui.engine.integration.taylor.memory import EPSILON
+from desire_tui.engine.integration.taylor.solver import TaylorSolver
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,8 +31,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.integration.plan import SolverPlan
+    from desire_tui.engine.integration.taylor.solver import Layout
 
 _DATA_OF = {"dense": "SUNDenseMatrix_Data", "band": "SUNBandMatrix_Data", "sparse": "SUNSparseMatrix_Data"}
+
+
+_NEVER = 2**62
 
 
 class SolverCounters(Protocol):
@@ -69,7 +76,9 @@ class Natives:
 
 
 class StiffSystem:
-    """CVODE made ready for a model.
+    """CVODE, `bdf` or `taylor` made ready for a model.
+
+    `layout`, of rule 17, says where Taylor coefficients stand.
 
     `ranges` says where states live: (slot, first state, count). `directions` (TANGENT) and `array`
     (PROGRAM) are slots of n and n·n numbers. Everything the structure points at is kept alive here.
@@ -86,6 +95,7 @@ class StiffSystem:
         *,
         directions: int = 0,
         array: int = 0,
+        layout: Layout | None = None,
     ) -> None:
         self.rule, self.plan = rule, plan
         self.n = n = sum(count for _, _, count in ranges)
@@ -109,8 +119,11 @@ class StiffSystem:
         linear = plan.linear
         if plan.method is not Matrix.NONE:
             linear = replace(linear, jacobian=natives.jacobian)
-        self.solver: Solver | OwnSolver
-        if natives.own:
+        self.solver: Solver | OwnSolver | TaylorSolver
+        if layout is not None:
+            place = ctypes.addressof(problem)
+            self.solver = TaylorSolver(n, problem.states, place, problem.between, layout)
+        elif natives.own:
             self.solver = OwnSolver(n, problem.states, ctypes.addressof(problem), problem.between)
         else:
             callbacks = Callbacks(natives.rhs, natives.weights, ctypes.addressof(problem))
@@ -156,7 +169,12 @@ class StiffSystem:
         problem.slide_size = min(abs(memory.t_max) / SLIDE_PARTS, *longest, inf)
         self.noise[:] = 0.0
         self.largest[:] = problem.floor = 0.0
-        self.solver.limit(memory.dt_max)
+        if isinstance(self.solver, TaylorSolver):
+            problem.noise_wait = _NEVER  # its steps do not depend on derivatives' last digits
+            tolerance = max(memory.error_max * SERIES_ERROR_SHARE, EPSILON)
+            self.solver.begin(tolerance, memory.error_absolute * SERIES_ERROR_SHARE, memory.dt_max)
+        else:
+            self.solver.limit(memory.dt_max)
 
     def interpolate(self, t: float) -> NDArray[np.float64]:
         """Return the states at a time inside the last step."""

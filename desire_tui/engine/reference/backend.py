@@ -28,7 +28,7 @@ class ReferenceBackend:
     def model(self, segment: Segment, rule: int, values: Values) -> Model:
         """Prepare `segment` for an integration rule. DesireError 460, 461: a multistep one wants SUNDIALS."""
         kind = rule_numbered(rule).kind
-        if kind != "multistep":
+        if not rule_numbered(rule).has_interpolant:
             vital = vital_columns(segment)
             segment, numbers = stepped_segment(segment, values.room, variable=kind == "variable")
             switches = None

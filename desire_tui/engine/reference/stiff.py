@@ -29,6 +29,7 @@ from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.integration.tableaus import EULER
+from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
 from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
@@ -43,7 +44,9 @@ from desire_tui.engine.reference.rounding import watch_noise
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.steps import chattering
 from desire_tui.engine.reference.switches import Switches
+from desire_tui.engine.reference.taylor_series import ReferenceSeries
 from desire_tui.engine.runtime.run_memory import Ended, Phase
+from desire_tui.engine.runtime.taylor import expanded
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
@@ -52,6 +55,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.integration.plan import SolverPlan
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.passes.series.nodes import SeriesProgram
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -67,7 +71,13 @@ class StiffReferenceModel(ReferenceModel):
         self._given = segment.jacobian and (segment.jacobian.slot, segment.order)
         vital = vital_columns(segment)
         segment, numbers = without_assigned_states(segment, values.room)
-        segment, found = switching(segment, values.room)
+        self._series: ReferenceSeries | None = None
+        program: SeriesProgram | None = None
+        if rule_numbered(rule).solver == "Taylor":
+            segment, found, program = expanded(segment, values.room)
+            self._series = ReferenceSeries(program, values.data)
+        else:
+            segment, found = switching(segment, values.room)
         switches = None if found is None else Switches(found, segment, values, self._state_at)
         super().__init__(segment, EULER, values, numbers, vital, switches)
         inputs = changed_inputs(segment)
@@ -86,11 +96,15 @@ class StiffReferenceModel(ReferenceModel):
         way = self._plan(rule)
         natives = replace(self._callbacks.natives, own=is_own(rule, self.order, way))
         self.system = self._callbacks.system = StiffSystem(
-            rule, way, values.address, self.ranges, ModelFunctions(), natives
+            rule, way, values.address, self.ranges, ModelFunctions(), natives, layout=self._series
         )  # fmt: skip
         self.system.problem.is_free = not inputs and steps_are_free(segment)
         if isinstance(self.system.solver, OwnSolver):
             self.system.solver.connect(*self._callbacks.own)
+        elif isinstance(self.system.solver, TaylorSolver):
+            assert program is not None
+            self._at_start = self._others.compile(program.values_pass)
+            self.system.solver.connect(self._callbacks.expand)
 
     def _plan(self, rule: int) -> SolverPlan:
         segment = self._segment
@@ -121,6 +135,15 @@ class StiffReferenceModel(ReferenceModel):
         self._place(t, y)
         self._stage()
         out[:] = self._others.derivatives
+
+    def expand(self, t: float, y: Array) -> None:
+        """Compute the Taylor coefficients (rule 17)."""
+        solver = self.system.solver
+        assert isinstance(solver, TaylorSolver)
+        assert self._series is not None
+        self._place(t, y)
+        self._at_start()
+        self._series.give(solver.taylor.order, solver.coefficients)
 
     def tangent(self, t: float, y: Array, direction: Array, out: Array) -> None:
         """Run the tangent pass."""

@@ -118,7 +118,7 @@ class Defaults:
             raise _error("time-unresolved", t=t0, dt=dt, gap=ulp(t0))
         step_rule = rule.kind == "variable"
         least = self._steps.least(dt) if step_rule else 0.0
-        longest = t_max if rule.kind == "multistep" else comint  # whose steps go beyond samples
+        longest = t_max if rule.has_interpolant else comint  # whose steps go beyond samples
         error_max = self._tolerance(rule)
         return RunPlan(
             rule=rule.number, t0=t0, t_max=t_max, nn=nn, comint=comint, dt=dt,
@@ -190,7 +190,9 @@ class Defaults:
         own = self._own(ERMAX)
         if own == inf and rule.controls_error:
             raise _error("setting-not-finite", name="ERMAX", value=own)
-        if own is None and rule.kind == "multistep":
+        if own == 0.0 and rule.solver == "Taylor":
+            return 0.0  # as exact as numbers are
+        if own is None and rule.has_interpolant:
             self._warn("ermax-missing", "ERMAX", rule=rule.number, taken=ERMAX_DEFAULT)
         return self._or_default("ERMAX", ERMAX, ERMAX_DEFAULT, counts=rule.controls_error)
 

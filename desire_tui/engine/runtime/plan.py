@@ -44,7 +44,7 @@ class RunPlan:
     @property
     def error_one(self) -> float:
         """What rules 4, 7 and 8 add to |x|: error ≤ ERMAX·(|x| + 1), or ERMAX·|x| + ERABS if that is set."""
-        return self.error_absolute / self.error_max if self.error_absolute else 1.0
+        return self.error_absolute / self.error_max if self.error_absolute and self.error_max else 1.0
 
     @property
     def tolerance(self) -> float:

@@ -126,7 +126,7 @@ class CompiledSegments:
 
     def model(self, segment: Segment, rule: int) -> Model:
         """Return a segment made ready for a rule; the back end keeps it."""
-        if (segment.events or segment.delays) and rule_numbered(rule).kind == "multistep" and segment.order:
+        if (segment.events or segment.delays) and rule_numbered(rule).has_interpolant and segment.order:
             from desire_tui.engine.reference.backend import ReferenceBackend
 
             return ReferenceBackend().model(segment, rule, self._values)  # native code has no such loop

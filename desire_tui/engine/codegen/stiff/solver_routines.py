@@ -23,6 +23,7 @@ from desire_tui.engine.codegen.stiff import (
     model_calls,
     own_steps,
     rounding,
+    taylor_steps,
 )
 from desire_tui.engine.integration import problem, sliding
 from desire_tui.engine.integration.bdf import choice, coefficients, memory, newton, start, step
@@ -32,6 +33,9 @@ from desire_tui.engine.integration.sundials import signatures
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import CVODE, address
 from desire_tui.engine.integration.switching import memory as switching
+from desire_tui.engine.integration.taylor import memory as taylor_memory
+from desire_tui.engine.integration.taylor import step as taylor_step
+from desire_tui.engine.integration.taylor.memory import Expand, Taylor
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.runtime import run_memory
 from desire_tui.engine.runtime.run_memory import RunMemory
@@ -49,7 +53,8 @@ _CALLED = (
 _MODEL = (model_calls, jacobian_fill, rounding, sliding, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
-_CONSTANTS = (memory, problem, run_memory, signatures, switching)
+_TAYLOR = (*_MODEL, taylor_steps, taylor_step)
+_CONSTANTS = (memory, taylor_memory, problem, run_memory, signatures, switching)
 _ENGINE = files("desire_tui.engine")
 
 
@@ -62,7 +67,7 @@ def _sources(folder: str) -> list[bytes]:
     return [file.read_bytes() for file in sorted(found, key=lambda file: file.name)]
 
 
-_TEXTS = {module: _source(module) for module in (*_CVODE, *_OWN)}
+_TEXTS = {module: _source(module) for module in (*_CVODE, *_OWN, *_TAYLOR)}
 """Read now, when the modules are: files may change under a process that lives for days."""
 _DEPENDS_ON = b"".join(
     (*_TEXTS.values(), *map(_source, _CONSTANTS), *_sources("codegen/plain_python"), *_sources("codegen/ir"))
@@ -71,6 +76,8 @@ _DEPENDS_ON = b"".join(
 
 _ANY = 0
 """In place of a number of states: code for all."""
+_SERIES = -1
+"""In place of a number of states: the solver of rule 17."""
 _FAST = 1
 """Level of optimisation of what goes with CVODE: level 2 gains nothing there."""
 SIZES_KEPT = 16
@@ -117,6 +124,10 @@ class SolverRoutines:
             return self._with_cvode(_FAST)
         return self._kept(n) or self._make_own(n, level=2)
 
+    def series(self) -> StiffFunctions:
+        """Return the solver of rule 17, compiled well once a machine: a single run may take long."""
+        return self._kept(_SERIES) or self._make_own(_SERIES, level=2)
+
     def _with_cvode(self, level: int) -> StiffFunctions:
         self._connect()
         with self._locks[level]:
@@ -128,7 +139,7 @@ class SolverRoutines:
         """Compile our solver for n states, `_ANY` number of them."""
         with self._locks[level]:
             if (found := self._own[n]) is None:
-                text = _own_text(n)
+                text = _series_text() if n == _SERIES else _own_text(n)
                 code = compile_and_keep(text, _name(n), level=level, vectorize=level > 0)
                 found = self._keep(n, code)
             return found
@@ -162,7 +173,7 @@ class SolverRoutines:
 @lru_cache(2 * SIZES_KEPT)
 def _name(n: int) -> str:
     layouts = repr(
-        [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory))]
+        [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory, Taylor))]
     )
     everything = _DEPENDS_ON + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
     return f"bdf-{n}-{blake2b(everything, digest_size=8).hexdigest()}"
@@ -188,6 +199,13 @@ def _own_text(n: int) -> str:
     direct = {name: name for name in callbacks}
     outside = Outside(structures, pointers, direct, {"n": n} if n else {})
     return write_program(_modules(_OWN), outside, "solver_")
+
+
+def _series_text() -> str:
+    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Taylor": Taylor}
+    pointers = _of_the_problem() | {"expand": of_function(Expand, "")}
+    public = frozenset(("interval", "state_at"))
+    return write_program(_modules(_TAYLOR), Outside(structures, pointers, {"expand": "expand"}), "solver_", public)
 
 
 def _of_the_problem() -> dict[str, Signature]:

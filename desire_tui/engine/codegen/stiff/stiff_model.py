@@ -13,6 +13,7 @@ from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
+from desire_tui.engine.codegen.taylor.series_code import SeriesCode
 from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
@@ -20,6 +21,7 @@ from desire_tui.engine.integration.plan import is_own, plan
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
+from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
 from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
@@ -31,6 +33,7 @@ from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
+from desire_tui.engine.runtime.taylor import expanded
 from desire_tui.engine.values import DT
 
 if TYPE_CHECKING:
@@ -68,11 +71,19 @@ class StiffModel:
         self._given = segment.jacobian and (segment.jacobian.slot, segment.order)
         self._vital = np.array(vital_columns(segment), dtype=np.int64)
         segment, self._numbers = without_assigned_states(segment, values.room)
-        segment, switching = switches(segment, values.room)
+        self._series: SeriesCode | None = None
+        extra: dict[str, tuple[Action, ...]] = {}
+        if rule_numbered(rule).solver == "Taylor":
+            segment, switching, program = expanded(segment, values.room)
+            self._series = SeriesCode(code, program)
+            extra = {"at_start": program.values_pass}
+        else:
+            segment, switching = switches(segment, values.room)
         self._segment = segment
         self._passes = passes = passes_of(segment)
         self._advised = False
-        extra, directions, array = _jacobian_passes(segment, rule, values)
+        found, directions, array = _jacobian_passes(segment, rule, values)
+        extra |= found
         self._extra = extra
         self._array = array
         inner = {"derivative": passes["derivative"]} | extra
@@ -90,6 +101,7 @@ class StiffModel:
             self._watcher = Watcher(switching, values, self._ranges)
             self._modes = addresses.pop("modes")
             self._derivatives = addresses["derivatives"]
+        self._at_start = addresses.pop("at_start", 0)
         self._inputs = np.array(changed_inputs(segment), dtype=np.int64)
         self._inputs_kept, self._inputs_before = np.full((2, max(self._inputs.size, 1)), np.nan)
         self._is_free = not self._inputs.size and steps_are_free(segment)
@@ -104,16 +116,19 @@ class StiffModel:
             ModelFunctions(**addresses),
             directions=directions,
             array=array,
+            layout=self._series and self._series.layout,
         )
         self._tables = PieceTables(code, passes)
         self._fill_context(segment)
         self._routines = routines
         self._better: StiffFunctions | None = None
-        self._use(routines.first(segment.order, own=self._own))
+        self._use(routines.series() if self._series else routines.first(segment.order, own=self._own))
         loop = stiff_loop()  # does little between two intervals: quick code is good enough
         self._loop = code.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
         self._runs, self._improver = 0, improver
+        if self._series is not None:
+            improver.add(self._series)
         improver.add(self._tables)
         improver.add(functions)
 
@@ -123,6 +138,9 @@ class StiffModel:
         self.system = self._system(Natives(natives.rhs, natives.weights, natives.jacobian, self._own))
         problem = self.system.problem
         problem.is_free = self._is_free
+        if self._series is not None and isinstance(self.system.solver, TaylorSolver):
+            self.system.solver.taylor.at_start = self._at_start
+            self._series.give(self.system.solver.taylor)
         problem.inputs, problem.input_count = self._inputs.ctypes.data, self._inputs.size
         problem.inputs_kept = self._inputs_kept.ctypes.data
         problem.inputs_before = self._inputs_before.ctypes.data
@@ -156,7 +174,8 @@ class StiffModel:
 
     def improve(self) -> Iterator[None]:
         """Compile a fast solver (`background.Improvable`)."""
-        self._better = self._routines.fast(self._slots.size, own=self._own)
+        if self._series is None:
+            self._better = self._routines.fast(self._slots.size, own=self._own)
         yield
 
     def advice(self, *, again: bool = False) -> tuple[Diagnostic, ...]:
@@ -237,7 +256,7 @@ def _jacobian_passes(
 
 def _plan(segment: Segment, rule: int, extra: Mapping[str, object]) -> SolverPlan:
     order = segment.order
-    if rule_numbered(rule).corrector in ("fixed-point", "diagonal"):
+    if rule_numbered(rule).corrector in (None, "fixed-point", "diagonal"):
         pattern = Pattern.of(order, np.zeros(0, np.int32), np.zeros(0, np.int32))
     elif "jacobian" in extra:
         assert segment.jacobian is not None

@@ -1,0 +1,88 @@
+"""The function's frame: what every part of the loop over the order may refer to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir.text import literal
+from desire_tui.engine.codegen.taylor.layout import apart
+from desire_tui.engine.lowered.expressions import Const
+from desire_tui.engine.passes.series.nodes import Constant, Series
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.ir.text import IrText
+    from desire_tui.engine.codegen.taylor.layout import Layout
+
+
+class Frame:
+    """Names of values in the text.
+
+    `%v` are the values, `%c` the coefficients, `%p` the order; inside the loop `%k` is the order in turn, `%kf`
+    the same as a double, `%ki` one over it. `now` holds the k-th coefficients of numbers' series.
+    """
+
+    def __init__(self, text: IrText, layout: Layout) -> None:
+        self.text, self.layout = text, layout
+        self.now: dict[int, str] = {}
+        self._first: dict[int, str] = {}
+        self._constants: dict[int, str] = {}
+        self._reciprocals: dict[int, str] = {}
+
+    # ------------------------------------------------------------------ before the loop
+
+    def load_constant(self, constant: Constant) -> None:
+        """Read a number that stays what it is."""
+        if id(constant) in self._constants or constant.count is not None:
+            return
+        if isinstance(constant.value, Const):
+            self._constants[id(constant)] = literal(constant.value.value)
+        else:
+            self._constants[id(constant)] = self.text.op(f"load double, ptr {self.slot(constant.slot)}")
+
+    def load_first(self, node: Series) -> None:
+        """Read coefficient 0 of a number's series, and keep it in its row."""
+        value = self._first[node.number] = self.text.op(f"load double, ptr {self.slot(node.slot)}")
+        self.put(self.layout.place(node), value)
+
+    def load_reciprocal(self, operand: Series | Constant) -> None:
+        """Compute one over a number's coefficient 0."""
+        key = id(operand)
+        if key not in self._reciprocals:
+            one = literal(1.0)
+            self._reciprocals[key] = self.text.op(f"fdiv double {one}, {self.first(operand)}")
+
+    # ------------------------------------------------------------------ anywhere
+
+    def first(self, operand: Series | Constant) -> str:
+        """Return a number's coefficient 0."""
+        return self._constants[id(operand)] if isinstance(operand, Constant) else self._first[operand.number]
+
+    def reciprocal(self, operand: Series | Constant) -> str:
+        """Return one over a number's coefficient 0."""
+        return self._reciprocals[id(operand)]
+
+    def coefficient(self, operand: Series | Constant) -> str:
+        """Return a number's k-th coefficient."""
+        return literal(0.0) if isinstance(operand, Constant) else self.now[operand.number]
+
+    def slot(self, slot: int) -> str:
+        """Return a value's address."""
+        return self.text.op(f"getelementptr double, ptr %v, i64 {slot}")
+
+    def at(self, place: int, index: str = "") -> str:
+        """Return the address of `place` (+ `index`) among the coefficients."""
+        base = self.text.op(f"getelementptr double, ptr %c, i64 {place}")
+        return self.text.op(f"getelementptr double, ptr {base}, i64 {index}") if index else base
+
+    def get(self, place: int, index: str = "") -> str:
+        """Read one of the coefficients."""
+        return self.text.op(f"load double, ptr {self.at(place, index)}")
+
+    def put(self, place: int, value: str, index: str = "") -> None:
+        """Write one of the coefficients."""
+        self.text.do(f"store double {value}, ptr {self.at(place, index)}")
+
+    def row(self, node: Series, order: str = "%k") -> str:
+        """Return the address of an array's coefficients of an order."""
+        offset = self.text.op(f"mul i64 {order}, {apart(node)}")
+        return self.at(self.layout.place(node), offset)

@@ -1,0 +1,39 @@
+"""A model's recurrences as compiled code: quick code first, fast code in its place when that is there."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.taylor.layout import Layout
+from desire_tui.engine.codegen.taylor.recurrences import recurrences
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from desire_tui.engine.codegen.jit.cache import CodeCache
+    from desire_tui.engine.integration.taylor.memory import Taylor
+    from desire_tui.engine.passes.series.nodes import SeriesProgram
+
+
+class SeriesCode:
+    """Recurrences of a program; `give` puts them into use."""
+
+    def __init__(self, code: CodeCache, program: SeriesProgram) -> None:
+        self.layout = Layout(program)
+        self._store = code
+        self._piece = recurrences(program, self.layout)
+        self._compiled = [code.quick([self._piece])[self._piece.name]]
+        self._users: list[Taylor] = []
+
+    def give(self, taylor: Taylor) -> None:
+        """Let a solver call the recurrences, from now on the best that there are."""
+        self._users.append(taylor)
+        taylor.recurrences = self._compiled[-1].address
+
+    def improve(self) -> Iterator[None]:
+        """Compile fast code (`background.Improvable`)."""
+        better = self._store.fast(self._piece)
+        self._compiled.append(better)
+        for taylor in self._users:
+            taylor.recurrences = better.address  # one aligned store: who calls sees the old or the new
+        yield

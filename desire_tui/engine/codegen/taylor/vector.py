@@ -1,0 +1,273 @@
+"""Recurrences of arrays' series: loops over elements, several at a time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
+from desire_tui.engine.codegen.ir.lanes import Lanes
+from desire_tui.engine.codegen.ir.text import literal
+from desire_tui.engine.codegen.taylor.layout import apart
+from desire_tui.engine.passes.series.nodes import Constant, Series
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.codegen.taylor.frame import Frame
+
+
+class VectorRecurrences:
+    """Writes the turns of arrays' series, and of numbers that are made of arrays' elements."""
+
+    def __init__(self, frame: Frame, width: int) -> None:
+        self._frame = frame
+        self._lanes = Lanes(frame.text, width)
+        self._rows: dict[tuple[int, str], str] = {}
+
+    def load_first(self, node: Series) -> None:
+        """Copy coefficients 0 from the values."""
+        self._copy(self._frame.at(self._frame.layout.place(node)), self._frame.slot(node.slot), node.size)
+
+    def write(self, node: Series) -> None:
+        """Write what computes an array's k-th coefficients."""
+        write: Callable[[Series], None] | None = getattr(self, f"_{node.kind}", None)
+        if write is not None:
+            write(node)
+            return
+        element: Callable[[Series, str], str] = getattr(self, f"_element_{node.kind}")
+        target = self._frame.row(node)
+        loop(self._frame.text, "0", str(apart(node)), self._lanes.width,
+             lambda i: put(self._lanes, target, i, element(node, i)))  # fmt: skip
+
+    def state(self, node: Series, derivative: Series | Constant) -> None:
+        """Write an array of states' k-th coefficients: the derivatives' one order lower, divided by k."""
+        text, lanes = self._frame.text, self._lanes
+        target = self._frame.row(node)
+        before = text.op("sub i64 %k, 1")
+        if isinstance(derivative, Constant):
+            first = text.op("icmp eq i64 %k, 1")
+            once = text.op(f"select i1 {first}, double {literal(1.0)}, double {literal(0.0)}")
+
+            def constant(i: str) -> None:
+                put(lanes, target, i, lanes.mul(self._constant(derivative, i), lanes.splat(once)))
+
+            loop(text, "0", str(apart(node)), lanes.width, constant)
+            return
+        source = self._frame.row(derivative, before)
+        scale = lanes.splat("%ki")
+        loop(text, "0", str(apart(node)), lanes.width,
+             lambda i: put(lanes, target, i, lanes.mul(fetch(lanes, source, i), scale)))  # fmt: skip
+
+    def number(self, node: Series) -> str:
+        """Write a number that is an array's element, or the sum of its elements."""
+        (given,) = node.operands
+        assert isinstance(given, Series)
+        row = self._frame.row(given)
+        one = Lanes(self._frame.text)
+        if node.kind == "element":
+            return fetch(one, row, str(node.by))
+        return self._sum(given.size, lambda lanes, i: fetch(lanes, row, i))
+
+    # ------------------------------------------------------------------ one element
+
+    def _element_raised(self, node: Series, i: str) -> str:
+        (given,) = (o for o in node.operands if isinstance(o, Series))
+        return self._of(given, i)
+
+    def _element_add(self, node: Series, i: str) -> str:
+        return self._lanes.add(*(self._of(o, i) for o in node.operands))
+
+    def _element_sub(self, node: Series, i: str) -> str:
+        return self._lanes.sub(*(self._of(o, i) for o in node.operands))
+
+    def _element_neg(self, node: Series, i: str) -> str:
+        return self._lanes.neg(self._of(node.operands[0], i))
+
+    def _element_times(self, node: Series, i: str) -> str:
+        a, b = (self._constant(o, i) if isinstance(o, Constant) else self._of(o, i) for o in node.operands)
+        return self._lanes.mul(a, b)
+
+    def _element_over(self, node: Series, i: str) -> str:
+        a, b = node.operands
+        return self._lanes.div(self._of(a, i), self._first(b, i))
+
+    def _element_mul(self, node: Series, i: str) -> str:
+        a, b = node.operands
+        return self._products(a, b, i, 0, 0)
+
+    def _element_div(self, node: Series, i: str) -> str:
+        a, b = node.operands
+        known = self._products(node, b, i, 0, 1)
+        lanes = self._lanes
+        rest = lanes.neg(known) if isinstance(a, Constant) else lanes.sub(self._of(a, i), known)
+        return lanes.div(rest, self._first(b, i))
+
+    def _element_sqrt(self, node: Series, i: str) -> str:
+        lanes = self._lanes
+        rest = lanes.sub(self._of(node.operands[0], i), self._products(node, node, i, 1, 1))
+        return lanes.div(lanes.mul(lanes.const(0.5), rest), self._first(node, i))
+
+    def _element_integral(self, node: Series, i: str) -> str:
+        factor, inner = node.operands
+        if isinstance(factor, Constant):
+            return self._lanes.mul(self._constant(factor, i), self._of(inner, i))
+        total = self._products(inner, factor, i, 1, 0, slope=True)
+        return self._lanes.mul(total, self._lanes.splat("%ki"))
+
+    def _element_quotient(self, node: Series, i: str) -> str:
+        lanes = self._lanes
+        a, b = node.operands
+        known = self._products(node, b, i, 1, 1, slope=True)
+        rest = lanes.sub(lanes.mul(lanes.splat("%kf"), self._of(a, i)), known)
+        return lanes.mul(lanes.div(rest, self._first(b, i)), lanes.splat("%ki"))
+
+    def _element_select(self, node: Series, i: str) -> str:
+        condition, yes, no = node.operands
+        assert isinstance(condition, Constant)
+        lanes = self._lanes
+        flags = lanes.compare("ogt", self._constant(condition, i), lanes.const(0.0))
+        return lanes.choose(flags, self._of(yes, i), self._of(no, i))
+
+    def _products(
+        self, a: Series | Constant, b: Series | Constant, i: str, first: int, less: int, *, slope: bool = False
+    ) -> str:
+        """Return Σ a_j·b_{k-j}, j from `first` to k - `less`; `slope`: each times j."""
+        text, lanes = self._frame.text, self._lanes
+        assert isinstance(a, Series)
+        assert isinstance(b, Series)
+        cell = text.alloca(lanes.kind)
+        text.do(f"store {lanes.kind} {lanes.const(0.0)}, ptr {cell}")
+        end = text.op(f"add i64 %k, {1 - less}")
+
+        def turn(j: str) -> None:
+            left = self._at_order(a, j, i)
+            if slope:
+                left = lanes.mul(lanes.splat(text.op(f"sitofp i64 {j} to double")), left)
+            right = self._at_order(b, text.op(f"sub i64 %k, {j}"), i)
+            before = text.op(f"load {lanes.kind}, ptr {cell}")
+            text.do(f"store {lanes.kind} {lanes.add(before, lanes.mul(left, right))}, ptr {cell}")
+
+        loop(text, str(first), end, 1, turn)
+        return text.op(f"load {lanes.kind}, ptr {cell}")
+
+    # ------------------------------------------------------------------ whole arrays
+
+    def _shift(self, node: Series) -> None:
+        (given,) = node.operands
+        assert isinstance(given, Series)
+        text, n, by = self._frame.text, node.size, node.by
+        lanes, one = self._lanes, Lanes(self._frame.text)
+        target = self._frame.row(node)
+        if abs(by) < n:
+            source = text.op(f"getelementptr double, ptr {self._frame.row(given)}, i64 {by}")
+            loop(text, str(max(-by, 0) // lanes.width * lanes.width), str(apart(node)), lanes.width,
+                 lambda i: put(lanes, target, i, fetch(lanes, source, i)))  # fmt: skip
+        gone = min(abs(by), n)
+        start = n - gone if by > 0 else 0
+        loop(text, str(start), str(start + gone), 1, lambda i: put(one, target, i, literal(0.0)))
+
+    def _gather(self, node: Series) -> None:
+        one, target = Lanes(self._frame.text), self._frame.row(node)
+        place = 0
+        while place < node.size:
+            operand, at = node.lanes[place]
+            count = 1
+            if isinstance(operand, Series) and operand.count is not None:
+                while place + count < node.size and node.lanes[place + count] == (operand, at + count):
+                    count += 1
+                to = self._frame.text.op(f"getelementptr double, ptr {target}, i64 {place}")
+                source = self._frame.text.op(f"getelementptr double, ptr {self._frame.row(operand)}, i64 {at}")
+                self._copy(to, source, count)
+            else:
+                put(one, target, str(place), self._frame.coefficient(operand))
+            place += count
+
+    def _product(self, node: Series) -> None:
+        assert node.matrix is not None
+        (x,) = node.operands
+        assert isinstance(x, Series)
+        text = self._frame.text
+        slot, rows, columns, transposed = node.matrix
+        source, target = self._frame.row(x), self._frame.row(node)
+        matrix, one, lanes = self._frame.slot(slot), Lanes(text), self._lanes
+
+        def matrix_row(r: str) -> str:
+            return text.op(f"getelementptr double, ptr {matrix}, i64 {text.op(f'mul i64 {r}, {columns}')}")
+
+        if not transposed:
+
+            def dot(r: str) -> None:
+                row = matrix_row(r)
+                put(one, target, r, self._sum(columns, lambda some, i: some.mul(
+                    fetch(some, row, i), fetch(some, source, i))))  # fmt: skip
+
+            loop(text, "0", str(rows), 1, dot)
+            return
+        loop(text, "0", str(apart(node)), lanes.width, lambda i: put(lanes, target, i, lanes.const(0.0)))
+
+        def add_row(r: str) -> None:
+            row, factor = matrix_row(r), fetch(one, source, r)
+            main = columns // lanes.width * lanes.width
+            for some, begin, end in ((lanes, 0, main), (one, main, columns)):
+                wide = some.splat(factor)
+
+                def add(i: str, some: Lanes = some, wide: str = wide) -> None:
+                    product = some.mul(fetch(some, row, i), wide)
+                    put(some, target, i, some.add(fetch(some, target, i), product))
+
+                loop(text, str(begin), str(end), some.width, add)
+
+        loop(text, "0", str(rows), 1, add_row)
+
+    # ------------------------------------------------------------------ operands
+
+    def _of(self, operand: Series | Constant, i: str) -> str:
+        """Return k-th coefficients from element i on."""
+        if isinstance(operand, Constant):
+            return self._lanes.const(0.0)
+        if operand.count is None:
+            return self._lanes.splat(self._frame.now[operand.number])
+        return fetch(self._lanes, self._frame.row(operand), i)
+
+    def _at_order(self, operand: Series, order: str, i: str) -> str:
+        if operand.count is None:
+            return self._lanes.splat(self._frame.get(self._frame.layout.extra("wide", operand), order))
+        return fetch(self._lanes, self._frame.row(operand, order), i)
+
+    def _first(self, operand: Series | Constant, i: str) -> str:
+        """Return coefficients 0 from element i on."""
+        if isinstance(operand, Constant):
+            return self._constant(operand, i)
+        if operand.count is None:
+            return self._lanes.splat(self._frame.first(operand))
+        return fetch(self._lanes, self._frame.at(self._frame.layout.place(operand)), i)
+
+    def _constant(self, constant: Constant, i: str) -> str:
+        if constant.count is None:
+            return self._lanes.splat(self._frame.first(constant))
+        return fetch(self._lanes, self._frame.slot(constant.slot), i)
+
+    def _sum(self, count: int, element: Callable[[Lanes, str], str]) -> str:
+        """Return the sum of some elements: as many partial sums as there are lanes, added in order."""
+        text, lanes, one = self._frame.text, self._lanes, Lanes(self._frame.text)
+        wide, single = text.alloca(lanes.kind), text.alloca("double")
+        text.do(f"store {lanes.kind} {lanes.const(0.0)}, ptr {wide}")
+        main = count // lanes.width * lanes.width
+
+        def add(some: Lanes, cell: str, i: str) -> None:
+            total = some.add(text.op(f"load {some.kind}, ptr {cell}"), element(some, i))
+            text.do(f"store {some.kind} {total}, ptr {cell}")
+
+        loop(text, "0", str(main), lanes.width, lambda i: add(lanes, wide, i))
+        parts = text.op(f"load {lanes.kind}, ptr {wide}")
+        total = literal(0.0)
+        for lane in range(lanes.width):
+            total = one.add(total, text.op(f"extractelement {lanes.kind} {parts}, i64 {lane}"))
+        text.do(f"store double {total}, ptr {single}")
+        loop(text, str(main), str(count), 1, lambda i: add(one, single, i))
+        return text.op(f"load double, ptr {single}")
+
+    def _copy(self, to: str, source: str, count: int) -> None:
+        text = self._frame.text
+        text.declarations.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
+        text.do(f"call void @llvm.memcpy.p0.p0.i64(ptr {to}, ptr {source}, i64 {8 * count}, i1 false)")

@@ -1,0 +1,67 @@
+"""What the solver knows between two steps: one C structure and the arrays it points at."""
+
+from __future__ import annotations
+
+import ctypes
+from math import ceil, log
+
+import numpy as np
+
+EPSILON = 2.220446049250313e-16
+ORDER_LEAST, ORDER_MOST = 3, 20
+"""20 is what Jorba and Zou's rule gives at the machine's precision."""
+NO_COEFFICIENTS = -10
+"""Flag: a coefficient is not finite (CVODE's: derivatives were not finite)."""
+GAVE_UP = -8
+"""Flag: the callback gave up."""
+
+_ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
+_REALS, _INTS = ctypes.POINTER(_REAL), ctypes.POINTER(_INT)
+
+Expand = ctypes.CFUNCTYPE(ctypes.c_int32, _ADDRESS, _REAL, _REALS)
+"""f(problem, t, y): compute all coefficients at t from the states y. 0 done, < 0 give up."""
+
+
+class Taylor(ctypes.Structure):
+    """State of the solver for n states.
+
+    `pieces` holds quadruples (first state, count, place of coefficient 0 of the first, distance of a state's
+    coefficients) into `coefficients`. The solution at t is `y` + `rest`, of which `rest` is what `y` was
+    rounded by.
+    """
+
+    _fields_ = (
+        ("problem", _ADDRESS), ("expand", Expand),
+        ("at_start", _ADDRESS), ("recurrences", _ADDRESS),  # native: functions of the model
+        ("values", _ADDRESS),
+        ("memory", _ADDRESS),  # of the run, for `at_start`
+        ("n", _INT),
+        ("piece_count", _INT), ("pieces", _INTS),
+        ("coefficients", _REALS),
+        ("order", _INT),
+        ("y", _REALS), ("rest", _REALS),
+        ("base", _REALS), ("base_rest", _REALS),  # the same at the last step's start
+        ("largest", _REALS),  # magnitudes of states so far
+        ("absolute", _REAL),  # what a state's scale is at least
+        ("t", _REAL), ("t_base", _REAL),
+        ("h_last", _REAL),
+        ("h_most", _REAL),  # 0: no bound
+        ("steps", _INT),
+        ("worst", _INT),  # state whose coefficient was not finite
+    )  # fmt: skip
+
+
+class Arrays:
+    """The memory behind a `Taylor`, kept alive here."""
+
+    def __init__(self, n: int, room: int) -> None:
+        self.reals = np.zeros((5, max(n, 1)))
+        flat = np.zeros(room + 8)
+        self.coefficients = flat[-(flat.ctypes.data // 8) % 8 :]
+        """From the start of a cache line."""
+
+
+def order_for(tolerance: float) -> int:
+    """Return the order for a relative tolerance: Jorba and Zou's -ln(ε)/2 + 1, rounded up."""
+    wanted = ceil(-log(max(tolerance, EPSILON)) / 2.0) + 1 if tolerance < 1.0 else ORDER_LEAST
+    return min(max(wanted, ORDER_LEAST), ORDER_MOST)

@@ -1,0 +1,139 @@
+"""One step: the series at its start, as far as they may be trusted, summed up."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.integration.switching.mathematics import exp, log
+from desire_tui.engine.integration.taylor.memory import GAVE_UP, NO_COEFFICIENTS
+
+if TYPE_CHECKING:
+    from desire_tui.engine.integration.plain_types import Reals
+    from desire_tui.engine.integration.taylor.memory import Taylor
+
+DONE, AT_STOP = 0, 1
+_LARGEST = 1.7976931348623157e308
+_SAFETY = 0.7
+"""exp(-0.7/(order - 1)): what a step is less than the radius of convergence divided by e² (Jorba and Zou)."""
+
+
+def restart(s: Taylor, t: float) -> None:
+    """Begin anew from the states in `y`."""
+    for i in range(s.n):
+        s.rest[i] = 0.0
+    s.t = t
+    s.t_base = t
+    s.h_last = 0.0
+
+
+def advance(s: Taylor, t_stop: float) -> int:
+    """Take one step, never beyond `t_stop`; `y` and `t` are then the solution. Return a flag."""
+    n = s.n
+    t0 = s.t
+    for i in range(n):
+        s.base[i] = s.y[i]
+        s.base_rest[i] = s.rest[i]
+    if s.expand(s.problem, t0, s.y) != 0:
+        return GAVE_UP
+    s.t_base = t0
+    h = reach(s)
+    if not h > 0.0:
+        find_worst(s)
+        return NO_COEFFICIENTS
+    if s.h_most > 0.0:
+        h = min(h, s.h_most)
+    flag = DONE
+    t1 = t0 + h
+    if t1 >= t_stop:
+        t1 = t_stop
+        flag = AT_STOP
+    h = t1 - t0
+    s.t = t1
+    s.h_last = h
+    s.steps += 1
+    add_up(s, h)
+    return flag
+
+
+def reach(s: Taylor) -> float:
+    """Return how far the series may be trusted: from the last two coefficients. nan: one is not finite."""
+    order = s.order
+    before = 0.0
+    last = 0.0
+    for k in range(s.piece_count):
+        first = s.pieces[4 * k]
+        place = s.pieces[4 * k + 2] + order * s.pieces[4 * k + 3]
+        down = place - s.pieces[4 * k + 3]
+        for i in range(s.pieces[4 * k + 1]):
+            size = max(s.largest[first + i], abs(s.y[first + i]))
+            s.largest[first + i] = size
+            if size == 0.0:
+                size = 1.0
+            size = 1.0 / max(size, s.absolute)
+            a = abs(s.coefficients[down + i]) * size
+            b = abs(s.coefficients[place + i]) * size
+            before = before if a <= before else a  # nan stays
+            last = last if b <= last else b
+    if not before + last <= _LARGEST:
+        return -1.0
+    if before == 0.0 and last == 0.0:
+        return inf
+    radius = 0.0  # its reciprocal's logarithm
+    if last > 0.0:
+        radius = log(last) / order
+    if before > 0.0:
+        other = log(before) / (order - 1)
+        radius = max(radius, other) if last > 0.0 else other
+    return exp(-radius - 2.0 - _SAFETY / (order - 1))
+
+
+def find_worst(s: Taylor) -> None:
+    """Name a state with a coefficient that is not finite."""
+    s.worst = 0
+    order = s.order
+    for k in range(s.piece_count):
+        place = s.pieces[4 * k + 2] + order * s.pieces[4 * k + 3]
+        down = place - s.pieces[4 * k + 3]
+        for i in range(s.pieces[4 * k + 1]):
+            if not abs(s.coefficients[down + i]) + abs(s.coefficients[place + i]) <= _LARGEST:
+                s.worst = s.pieces[4 * k] + i
+
+
+def add_up(s: Taylor, h: float) -> None:
+    """Put the solution at the step's end into `y`, and what it is rounded by into `rest` (Kahan; Knuth's sum).
+
+    So errors of rounding grow with the square root of the number of steps and not faster (Brouwer's law).
+    """
+    c: Reals = s.coefficients
+    order = s.order
+    for k in range(s.piece_count):
+        first = s.pieces[4 * k]
+        base = s.pieces[4 * k + 2]
+        apart = s.pieces[4 * k + 3]
+        for i in range(s.pieces[4 * k + 1]):
+            total: float = c[base + order * apart + i]
+            for down in range(order - 1):
+                total = total * h + c[base + (order - 1 - down) * apart + i]
+            x: float = s.base[first + i]
+            change = total * h + s.base_rest[first + i]
+            moved = x + change
+            part = moved - x
+            s.y[first + i] = moved
+            s.rest[first + i] = (x - (moved - part)) + (change - part)
+
+
+def put_inside(s: Taylor, t: float, out: Reals) -> None:
+    """Write the solution inside the last step to `out`."""
+    c: Reals = s.coefficients
+    order = s.order
+    h = t - s.t_base
+    for k in range(s.piece_count):
+        first = s.pieces[4 * k]
+        base = s.pieces[4 * k + 2]
+        apart = s.pieces[4 * k + 3]
+        for i in range(s.pieces[4 * k + 1]):
+            total: float = c[base + order * apart + i]
+            for down in range(order - 1):
+                total = total * h + c[base + (order - 1 - down) * apart + i]
+            out[first + i] = s.base[first + i] + (total * h + s.base_rest[first + i])

@@ -1,0 +1,175 @@
+"""Taylor coefficients of a segment's states by NumPy: the yardstick of `codegen.taylor`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.integration.taylor.memory import ORDER_MOST
+from desire_tui.engine.lowered.expressions import Const
+from desire_tui.engine.passes.series.nodes import Constant, Series
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from desire_tui.engine.passes.series.nodes import Operand, SeriesProgram
+
+    Array = NDArray[np.float64]
+
+
+class ReferenceSeries:
+    """Computes the coefficients from the values at a step's start; `data` are all values.
+
+    `pieces` and `room`: where `give` writes the states' coefficients (`integration.taylor.solver.Layout`).
+    """
+
+    def __init__(self, program: SeriesProgram, data: Array) -> None:
+        self._program, self._data = program, data
+        self.pieces: list[tuple[int, int, int, int]] = []
+        self.room = 0
+        for piece in program.states:
+            self.pieces.append((piece.first, piece.count, self.room, piece.count))
+            self.room += piece.count * (ORDER_MOST + 1)
+        self._derivatives = {piece.series.number: piece.derivative for piece in program.states}
+        self._rows: dict[int, Array] = {}
+
+    def compute(self, order: int) -> None:
+        """Compute coefficients 0 … `order` of all series: what `values_pass` sets must be there."""
+        nodes = self._program.nodes
+        self._rows = {node.number: np.zeros((order + 1, node.size)) for node in nodes}
+        for node in nodes:
+            self._rows[node.number][0] = self._data[node.slot : node.slot + node.size]
+        for k in range(1, order + 1):
+            for node in nodes:
+                self._rows[node.number][k] = self._coefficient(node, k)
+
+    def give(self, order: int, coefficients: Array) -> None:
+        """Compute the states' coefficients, and write them where the solver reads them."""
+        self.compute(order)
+        for piece, (_, count, place, _) in zip(self._program.states, self.pieces, strict=True):
+            flat = self._rows[piece.series.number].reshape(-1)
+            coefficients[place : place + count * (order + 1)] = flat
+
+    def rows(self, operand: Operand) -> Array:
+        """Return an operand's coefficients, shape (order + 1, number of elements)."""
+        if isinstance(operand, Series):
+            return self._rows[operand.number]
+        order = len(next(iter(self._rows.values())))
+        made = np.zeros((order, operand.count or 1))
+        made[0] = self._constant(operand)
+        return made
+
+    def _constant(self, constant: Constant) -> Array | float:
+        if isinstance(constant.value, Const):
+            return constant.value.value
+        return self._data[constant.slot : constant.slot + (constant.count or 1)]
+
+    def _coefficient(self, node: Series, k: int) -> Array | float:
+        if node.kind == "time":
+            return float(k == 1)
+        if node.kind == "state":
+            derivative = self._derivatives[node.number]
+            if isinstance(derivative, Constant):
+                return self._constant(derivative) if k == 1 else 0.0
+            return self._rows[derivative.number][k - 1] / k
+        return _RECURRENCES[node.kind](self, node, k)
+
+    def _series(self, node: Series, kind: type[Series] = Series) -> list[Array]:
+        return [self._rows[o.number] for o in node.operands if isinstance(o, kind)]
+
+    def _of_series(self, node: Series, k: int) -> Array:
+        """The k-th coefficient of the only series among the operands."""
+        (rows,) = self._series(node)
+        return rows[k]
+
+    def _other(self, node: Series) -> Array | float:
+        """The constant among the operands."""
+        return next(self._constant(o) for o in node.operands if isinstance(o, Constant))
+
+    def _mul(self, node: Series, k: int) -> Array:
+        a, b = (self.rows(o) for o in node.operands)
+        return _convolution(a, b, k, 0, k)
+
+    def _div(self, node: Series, k: int) -> Array:
+        u = self._rows[node.number]
+        a, b = (self.rows(o) for o in node.operands)
+        return (a[k] - _convolution(u, b, k, 0, k - 1)) / b[0]
+
+    def _sqrt(self, node: Series, k: int) -> Array:
+        u = self._rows[node.number]
+        return (self._of_series(node, k) - _convolution(u, u, k, 1, k - 1)) / (2.0 * u[0])
+
+    def _integral(self, node: Series, k: int) -> Array:
+        a, b = (self.rows(o) for o in node.operands)
+        j = np.arange(len(b))[:, None]
+        return _convolution(j * b, a, k, 1, k) / k
+
+    def _quotient(self, node: Series, k: int) -> Array:
+        u = self._rows[node.number]
+        a, b = (self.rows(o) for o in node.operands)
+        j = np.arange(len(u))[:, None]
+        return (k * a[k] - _convolution(j * u, b, k, 1, k - 1)) / (b[0] * k)
+
+    def _select(self, node: Series, k: int) -> Array:
+        condition, yes, no = node.operands
+        assert isinstance(condition, Constant)
+        return np.where(np.asarray(self._constant(condition)) > 0.0, self.rows(yes)[k], self.rows(no)[k])
+
+    def _shift(self, node: Series, k: int) -> Array:
+        row = self._of_series(node, k)
+        moved = np.zeros_like(row)
+        n, by = len(row), node.by
+        if abs(by) < n:
+            moved[max(-by, 0) : n - max(by, 0)] = row[max(by, 0) : n - max(-by, 0)]
+        return moved
+
+    def _product(self, node: Series, k: int) -> Array:
+        assert node.matrix is not None
+        slot, rows, columns, transposed = node.matrix
+        matrix = self._data[slot : slot + rows * columns].reshape(rows, columns)
+        result: Array = (matrix.T if transposed else matrix) @ self._of_series(node, k)
+        return result
+
+    def _gather(self, node: Series, k: int) -> Array:
+        return np.array([0.0 if isinstance(o, Constant) else self._rows[o.number][k][at] for o, at in node.lanes])
+
+    def _add(self, node: Series, k: int) -> Array:
+        a, b = self._series(node) if len(node.operands) == 2 else ()
+        return a[k] + b[k]
+
+    def _sub(self, node: Series, k: int) -> Array:
+        a, b = self._series(node)
+        return a[k] - b[k]
+
+
+def _convolution(a: Array, b: Array, k: int, first: int, last: int) -> Array:
+    """Sum a_j·b_{k-j} for j from `first` to `last`."""
+    width = max(a.shape[1], b.shape[1])
+    total = np.zeros(width)
+    for j in range(first, last + 1):
+        total = total + a[j] * b[k - j]
+    return total
+
+
+_RECURRENCES: dict[str, Callable[[ReferenceSeries, Series, int], Array | float]] = {
+    "raised": ReferenceSeries._of_series,
+    "add": ReferenceSeries._add,
+    "sub": ReferenceSeries._sub,
+    "neg": lambda s, node, k: -s._of_series(node, k),
+    "times": lambda s, node, k: s._of_series(node, k) * s._other(node),
+    "over": lambda s, node, k: s._of_series(node, k) / s._other(node),
+    "mul": ReferenceSeries._mul,
+    "div": ReferenceSeries._div,
+    "sqrt": ReferenceSeries._sqrt,
+    "integral": ReferenceSeries._integral,
+    "quotient": ReferenceSeries._quotient,
+    "select": ReferenceSeries._select,
+    "shift": ReferenceSeries._shift,
+    "product": ReferenceSeries._product,
+    "total": lambda s, node, k: s._of_series(node, k).sum(),
+    "element": lambda s, node, k: s._of_series(node, k)[node.by],
+    "gather": ReferenceSeries._gather,
+}
