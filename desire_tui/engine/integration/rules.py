@@ -47,7 +47,7 @@ class Rule:
 
     @property
     def has_interpolant(self) -> bool:
-        """Whether its steps may go beyond communication points: the solution is known everywhere inside them."""
+        """Whether its steps may go beyond communication points: it knows the solution inside them."""
         return self.kind in ("multistep", "series")
 
     @property

@@ -15,6 +15,7 @@ from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
 from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.tableaus import EULER
+from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.reference.moments import connect
 from desire_tui.engine.reference.steps import chattering
 from desire_tui.engine.reference.stiff import StiffReferenceModel
@@ -186,7 +187,10 @@ class StiffMomentModel(StiffReferenceModel):
         """Return the states at a time in the last step."""
         if t == self.system.problem.t:
             return np.array(self.system.last)
-        return interpolated(self.system.solver, t, self.order)
+        solver = self.system.solver
+        if isinstance(solver, TaylorSolver):
+            return np.array(self.system.interpolate(t))
+        return interpolated(solver, t, self.order)
 
     def _remember_step(self, t0: float) -> None:
         m, t1 = self._stepper.moments, self.cells[T]

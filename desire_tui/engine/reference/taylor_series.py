@@ -34,33 +34,34 @@ class ReferenceSeries:
             self.pieces.append((piece.first, piece.count, self.room, piece.count))
             self.room += piece.count * (ORDER_MOST + 1)
         self._derivatives = {piece.series.number: piece.derivative for piece in program.states}
-        self._rows: dict[int, Array] = {}
+        self._rows: dict[int, list[Array]] = {}
 
     def compute(self, order: int) -> None:
         """Compute coefficients 0 … `order` of all series: what `values_pass` sets must be there."""
         nodes = self._program.nodes
-        self._rows = {node.number: np.zeros((order + 1, node.size)) for node in nodes}
-        for node in nodes:
-            self._rows[node.number][0] = self._data[node.slot : node.slot + node.size]
+        self._order = order
+        self._rows = {
+            node.number: [self._data[node.slot : node.slot + node.size].copy()]
+            + [np.zeros(node.size) for _ in range(order)]
+            for node in nodes
+        }
         for k in range(1, order + 1):
             for node in nodes:
-                self._rows[node.number][k] = self._coefficient(node, k)
+                self._rows[node.number][k][:] = self._coefficient(node, k)
 
     def give(self, order: int, coefficients: Array) -> None:
         """Compute the states' coefficients, and write them where the solver reads them."""
         self.compute(order)
         for piece, (_, count, place, _) in zip(self._program.states, self.pieces, strict=True):
-            flat = self._rows[piece.series.number].reshape(-1)
+            flat = np.concatenate(self._rows[piece.series.number])
             coefficients[place : place + count * (order + 1)] = flat
 
-    def rows(self, operand: Operand) -> Array:
-        """Return an operand's coefficients, shape (order + 1, number of elements)."""
+    def rows(self, operand: Operand) -> list[Array]:
+        """Return an operand's coefficients, one array of all elements for each order."""
         if isinstance(operand, Series):
             return self._rows[operand.number]
-        order = len(next(iter(self._rows.values())))
-        made = np.zeros((order, operand.count or 1))
-        made[0] = self._constant(operand)
-        return made
+        size = operand.count or 1
+        return [np.zeros(size) + self._constant(operand)] + [np.zeros(size) for _ in range(self._order)]
 
     def _constant(self, constant: Constant) -> Array | float:
         if isinstance(constant.value, Const):
@@ -75,18 +76,16 @@ class ReferenceSeries:
             if isinstance(derivative, Constant):
                 return self._constant(derivative) if k == 1 else 0.0
             return self._rows[derivative.number][k - 1] / k
-        return _RECURRENCES[node.kind](self, node, k)
+        recurrence: Callable[[Series, int], Array | float] = getattr(self, f"_{node.kind}")
+        return recurrence(node, k)
 
-    def _series(self, node: Series, kind: type[Series] = Series) -> list[Array]:
-        return [self._rows[o.number] for o in node.operands if isinstance(o, kind)]
-
-    def _of_series(self, node: Series, k: int) -> Array:
-        """The k-th coefficient of the only series among the operands."""
-        (rows,) = self._series(node)
+    def _raised(self, node: Series, k: int) -> Array:
+        """Return the k-th coefficient of the only series among the operands."""
+        (rows,) = (self._rows[o.number] for o in node.operands if isinstance(o, Series))
         return rows[k]
 
     def _other(self, node: Series) -> Array | float:
-        """The constant among the operands."""
+        """Return the constant among the operands."""
         return next(self._constant(o) for o in node.operands if isinstance(o, Constant))
 
     def _mul(self, node: Series, k: int) -> Array:
@@ -100,18 +99,16 @@ class ReferenceSeries:
 
     def _sqrt(self, node: Series, k: int) -> Array:
         u = self._rows[node.number]
-        return (self._of_series(node, k) - _convolution(u, u, k, 1, k - 1)) / (2.0 * u[0])
+        return (self._raised(node, k) - _convolution(u, u, k, 1, k - 1)) / (2.0 * u[0])
 
     def _integral(self, node: Series, k: int) -> Array:
         a, b = (self.rows(o) for o in node.operands)
-        j = np.arange(len(b))[:, None]
-        return _convolution(j * b, a, k, 1, k) / k
+        return _convolution(_slopes(b), a, k, 1, k) / k
 
     def _quotient(self, node: Series, k: int) -> Array:
         u = self._rows[node.number]
         a, b = (self.rows(o) for o in node.operands)
-        j = np.arange(len(u))[:, None]
-        return (k * a[k] - _convolution(j * u, b, k, 1, k - 1)) / (b[0] * k)
+        return (k * a[k] - _convolution(_slopes(u), b, k, 1, k - 1)) / (b[0] * k)
 
     def _select(self, node: Series, k: int) -> Array:
         condition, yes, no = node.operands
@@ -119,7 +116,7 @@ class ReferenceSeries:
         return np.where(np.asarray(self._constant(condition)) > 0.0, self.rows(yes)[k], self.rows(no)[k])
 
     def _shift(self, node: Series, k: int) -> Array:
-        row = self._of_series(node, k)
+        row = self._raised(node, k)
         moved = np.zeros_like(row)
         n, by = len(row), node.by
         if abs(by) < n:
@@ -130,46 +127,47 @@ class ReferenceSeries:
         assert node.matrix is not None
         slot, rows, columns, transposed = node.matrix
         matrix = self._data[slot : slot + rows * columns].reshape(rows, columns)
-        result: Array = (matrix.T if transposed else matrix) @ self._of_series(node, k)
+        result: Array = (matrix.T if transposed else matrix) @ self._raised(node, k)
         return result
 
     def _gather(self, node: Series, k: int) -> Array:
-        return np.array([0.0 if isinstance(o, Constant) else self._rows[o.number][k][at] for o, at in node.lanes])
+        return np.array(
+            [0.0 if isinstance(o, Constant) else self._rows[o.number][k][at] for o, at in node.lanes]
+        )
 
     def _add(self, node: Series, k: int) -> Array:
-        a, b = self._series(node) if len(node.operands) == 2 else ()
+        a, b = (self.rows(o) for o in node.operands)
         return a[k] + b[k]
 
     def _sub(self, node: Series, k: int) -> Array:
-        a, b = self._series(node)
+        a, b = (self.rows(o) for o in node.operands)
         return a[k] - b[k]
 
+    def _neg(self, node: Series, k: int) -> Array:
+        return -self._raised(node, k)
 
-def _convolution(a: Array, b: Array, k: int, first: int, last: int) -> Array:
+    def _times(self, node: Series, k: int) -> Array:
+        return self._raised(node, k) * self._other(node)
+
+    def _over(self, node: Series, k: int) -> Array:
+        return self._raised(node, k) / self._other(node)
+
+    def _total(self, node: Series, k: int) -> float:
+        return float(self._raised(node, k).sum())
+
+    def _element(self, node: Series, k: int) -> float:
+        return float(self._raised(node, k)[node.by])
+
+
+def _slopes(rows: list[Array]) -> list[Array]:
+    """Return j times the j-th coefficients."""
+    return [j * row for j, row in enumerate(rows)]
+
+
+def _convolution(a: list[Array], b: list[Array], k: int, first: int, last: int) -> Array:
     """Sum a_j·b_{k-j} for j from `first` to `last`."""
-    width = max(a.shape[1], b.shape[1])
+    width = max(len(a[0]), len(b[0]))
     total = np.zeros(width)
     for j in range(first, last + 1):
         total = total + a[j] * b[k - j]
     return total
-
-
-_RECURRENCES: dict[str, Callable[[ReferenceSeries, Series, int], Array | float]] = {
-    "raised": ReferenceSeries._of_series,
-    "add": ReferenceSeries._add,
-    "sub": ReferenceSeries._sub,
-    "neg": lambda s, node, k: -s._of_series(node, k),
-    "times": lambda s, node, k: s._of_series(node, k) * s._other(node),
-    "over": lambda s, node, k: s._of_series(node, k) / s._other(node),
-    "mul": ReferenceSeries._mul,
-    "div": ReferenceSeries._div,
-    "sqrt": ReferenceSeries._sqrt,
-    "integral": ReferenceSeries._integral,
-    "quotient": ReferenceSeries._quotient,
-    "select": ReferenceSeries._select,
-    "shift": ReferenceSeries._shift,
-    "product": ReferenceSeries._product,
-    "total": lambda s, node, k: s._of_series(node, k).sum(),
-    "element": lambda s, node, k: s._of_series(node, k)[node.by],
-    "gather": ReferenceSeries._gather,
-}

@@ -205,7 +205,9 @@ def _series_text() -> str:
     structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Taylor": Taylor}
     pointers = _of_the_problem() | {"expand": of_function(Expand, "")}
     public = frozenset(("interval", "state_at"))
-    return write_program(_modules(_TAYLOR), Outside(structures, pointers, {"expand": "expand"}), "solver_", public)
+    return write_program(
+        _modules(_TAYLOR), Outside(structures, pointers, {"expand": "expand"}), "solver_", public
+    )
 
 
 def _of_the_problem() -> dict[str, Signature]:

@@ -13,8 +13,8 @@ from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
-from desire_tui.engine.codegen.taylor.series_code import SeriesCode
 from desire_tui.engine.codegen.switching.watch_routines import watch_functions
+from desire_tui.engine.codegen.taylor.series_code import SeriesCode
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import is_own, plan
@@ -116,7 +116,7 @@ class StiffModel:
             ModelFunctions(**addresses),
             directions=directions,
             array=array,
-            layout=self._series and self._series.layout,
+            layout=self._series.layout if self._series is not None else None,
         )
         self._tables = PieceTables(code, passes)
         self._fill_context(segment)

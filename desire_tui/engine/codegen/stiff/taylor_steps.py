@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.taylor.memory import Taylor
 
 
-def begin(problem: SolverProblem, t: float, first_step: float) -> None:
+def begin(problem: SolverProblem, t: float, first_step: float) -> None:  # noqa: ARG001 - others do
     """Begin anew from the states in `problem.states`; it needs no first step."""
     solver: Taylor = problem.solver
     restart(solver, t)
@@ -37,7 +37,7 @@ def last_size(problem: SolverProblem) -> float:
     return size
 
 
-def failures(problem: SolverProblem) -> int:
+def failures(problem: SolverProblem) -> int:  # noqa: ARG001 - others do
     """Return the number of tries that failed: no step is tried twice."""
     return 0
 

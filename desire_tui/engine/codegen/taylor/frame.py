@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 class Frame:
     """Names of values in the text.
 
-    `%v` are the values, `%c` the coefficients, `%p` the order; inside the loop `%k` is the order in turn, `%kf`
-    the same as a double, `%ki` one over it. `now` holds the k-th coefficients of numbers' series.
+    `%v` are the values, `%c` the coefficients, `%p` the order; inside the loop `%k` is the order in turn,
+    `%kf` the same as a double, `%ki` one over it. `now` holds the k-th coefficients of numbers' series.
     """
 
     def __init__(self, text: IrText, layout: Layout) -> None:

@@ -35,11 +35,11 @@ class Layout:
         self._placed = False
         self._program = program
 
-    def extra(self, what: str, node: Series) -> int:
+    def row_for(self, what: str, node: Series) -> int:
         """Return the place of a row that belongs to a number's series besides its coefficients."""
-        assert not self._placed
         key = what, node.number
         if key not in self._extra:
+            assert not self._placed
             self._extra[key] = self._row()
         return self._extra[key]
 
@@ -64,9 +64,7 @@ class Layout:
     @property
     def pieces(self) -> list[tuple[int, int, int, int]]:
         """The states' places, as `integration.taylor.memory.Taylor` wants them."""
-        return [
-            (p.first, p.count, self.place(p.series), apart(p.series)) for p in self._program.states
-        ]
+        return [(p.first, p.count, self.place(p.series), apart(p.series)) for p in self._program.states]
 
 
 def apart(node: Series) -> int:

@@ -39,7 +39,7 @@ def recurrences(program: SeriesProgram, layout: Layout) -> Piece:
         sums += node.kind in {"mul", "div", "sqrt", "integral", "quotient"}
     wide = _broadcast(program)
     for node in wide:
-        layout.extra("wide", node)
+        layout.row_for("wide", node)
     layout.finish()
     scalar, vector = ScalarRecurrences(frame, _HELPER), VectorRecurrences(frame, machine().width)
     _begin(program, frame, vector, wide)
@@ -69,7 +69,7 @@ def recurrences(program: SeriesProgram, layout: Layout) -> Piece:
         else:
             scalar.write(node)
         if node.number in broadcast:
-            frame.put(layout.extra("wide", node), frame.now[node.number], "%k")
+            frame.put(layout.row_for("wide", node), frame.now[node.number], "%k")
     scalar.end_turn()
     for number, cell in cells.items():
         derivative = derivatives[number]
@@ -87,7 +87,9 @@ def recurrences(program: SeriesProgram, layout: Layout) -> Piece:
     inline = sums <= INLINE_MOST
     digest = "t" + blake2b(f"{inline}{body}".encode(), digest_size=10).hexdigest()
     name = f"{_HELPER}.{digest}"
-    function = f"define void @{digest}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}".replace(f"@{_HELPER}(", f"@{name}(")
+    function = f"define void @{digest}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}".replace(
+        f"@{_HELPER}(", f"@{name}("
+    )
     return Piece(digest, helper(name, inline=inline) + "\n" + function, frozenset(text.declarations))
 
 
@@ -114,7 +116,7 @@ def _begin(program: SeriesProgram, frame: Frame, vector: VectorRecurrences, wide
         else:
             vector.load_first(node)
     for node in wide:
-        frame.put(layout.extra("wide", node), frame.first(node))
+        frame.put(layout.row_for("wide", node), frame.first(node))
     for node in program.nodes:
         for operand in node.operands:
             if isinstance(operand, Constant):
@@ -139,7 +141,11 @@ def _derivative_cells(program: SeriesProgram, frame: Frame) -> dict[int, str]:
 
 
 def _state(
-    node: Series, derivative: Series | Constant, frame: Frame, vector: VectorRecurrences, cells: dict[int, str]
+    node: Series,
+    derivative: Series | Constant,
+    frame: Frame,
+    vector: VectorRecurrences,
+    cells: dict[int, str],
 ) -> None:
     if node.count is not None:
         vector.state(node, derivative)

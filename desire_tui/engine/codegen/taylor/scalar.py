@@ -1,11 +1,11 @@
 """Recurrences of numbers' series.
 
-A sum Σ a_j·b_{k-j} is not summed up when its turn comes: as soon as a_k and b_k are known their products with
-lower coefficients are added to all sums to come, several at a time, so that nothing waits for a long sum:
+A sum Σ a_j·b_{k-j} is not summed up when its turn comes: as soon as a_k and b_k are known, their products
+with lower coefficients are added to all sums to come, several at a time, so that nothing waits for a long sum:
 
     sum[k + i] += a_k·b_i + b_k·a_i    0 < i < k, k + i ≤ order;    the products with i = 0 and i = k apart.
 
-For that no row may show coefficient k before all such products are made: rows are written at the end of a turn.
+For that no row may show coefficient k before all such products are made: rows are written at a turn's end.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def helper(name: str, *, inline: bool) -> str:
     """Write the function that adds a turn's products to the sums behind `s`."""
     vector = f"<{STRIP} x double>"
     return f"""define internal void @{name}(ptr noalias %s, double %a, ptr %b, double %d, ptr %e, i64 %n) \
-{'alwaysinline ' if inline else 'noinline '}nounwind {{
+{"alwaysinline " if inline else "noinline "}nounwind {{
 entry:
 %a1 = insertelement {vector} poison, double %a, i64 0
 %av = shufflevector {vector} %a1, {vector} poison, <{STRIP} x i32> zeroinitializer
@@ -90,13 +90,13 @@ class ScalarRecurrences:
             if node.kind == "integral" and isinstance(node.operands[0], Constant):
                 return
             for what in ("sums", "squares"):
-                frame.layout.extra(what, node)
+                frame.layout.row_for(what, node)
         if node.kind == "integral":
             inner = node.operands[1]
             assert isinstance(inner, Series)
-            frame.layout.extra("slope", inner)
+            frame.layout.row_for("slope", inner)
         if node.kind == "quotient":
-            frame.layout.extra("slope", node)
+            frame.layout.row_for("slope", node)
 
     @staticmethod
     def prepare(frame: Frame, node: Series) -> None:
@@ -149,19 +149,21 @@ class ScalarRecurrences:
     def _running(self, node: Series) -> str:
         """Return the sum of the products with lower coefficients, those with coefficient 0 left out."""
         layout = self._frame.layout
-        sums = self._frame.get(layout.extra("sums", node), "%k")
-        return self._lanes.add(sums, self._frame.get(layout.extra("squares", node), "%k"))
+        sums = self._frame.get(layout.row_for("sums", node), "%k")
+        return self._lanes.add(sums, self._frame.get(layout.row_for("squares", node), "%k"))
 
     def _add_to_sums(self, node: Series, first: tuple[str, int], second: tuple[str, int]) -> None:
         layout = self._frame.layout
-        self._sums.append(_Sum(layout.extra("sums", node), layout.extra("squares", node), (first, second)))
+        self._sums.append(
+            _Sum(layout.row_for("sums", node), layout.row_for("squares", node), (first, second))
+        )
 
     def _factor(self, series: Series) -> tuple[str, int]:
         return self._frame.coefficient(series), self._frame.layout.place(series)
 
     def _slope(self, series: Series) -> tuple[str, int]:
         """Return k·a_k and the row of all of them, for products with a derivative."""
-        place = self._frame.layout.extra("slope", series)
+        place = self._frame.layout.row_for("slope", series)
         value = self._rows.get(place)
         if value is None:
             value = self._rows[place] = self._lanes.mul("%kf", self._frame.coefficient(series))
@@ -204,7 +206,8 @@ class ScalarRecurrences:
             ends = lanes.mul(lanes.mul(literal(2.0), frame.first(a)), frame.coefficient(a))
         else:
             ends = lanes.add(
-                lanes.mul(frame.coefficient(a), frame.first(b)), lanes.mul(frame.first(a), frame.coefficient(b))
+                lanes.mul(frame.coefficient(a), frame.first(b)),
+                lanes.mul(frame.first(a), frame.coefficient(b)),
             )
         self._add_to_sums(node, self._factor(a), self._factor(b))
         return lanes.add(self._running(node), ends)
@@ -246,7 +249,7 @@ class ScalarRecurrences:
         lanes, frame = self._lanes, self._frame
         rest = lanes.sub(lanes.mul("%kf", frame.coefficient(a)), self._running(node))
         slope = lanes.mul(rest, frame.reciprocal(b))
-        place = frame.layout.extra("slope", node)
+        place = frame.layout.row_for("slope", node)
         self._rows[place] = slope
         self._add_to_sums(node, (slope, place), self._factor(b))
         return lanes.mul(slope, "%ki")

@@ -129,7 +129,14 @@ class VectorRecurrences:
         return lanes.choose(flags, self._of(yes, i), self._of(no, i))
 
     def _products(
-        self, a: Series | Constant, b: Series | Constant, i: str, first: int, less: int, *, slope: bool = False
+        self,
+        a: Series | Constant,
+        b: Series | Constant,
+        i: str,
+        first: int,
+        less: int,
+        *,
+        slope: bool = False,
     ) -> str:
         """Return Σ a_j·b_{k-j}, j from `first` to k - `less`; `slope`: each times j."""
         text, lanes = self._frame.text, self._lanes
@@ -176,7 +183,9 @@ class VectorRecurrences:
                 while place + count < node.size and node.lanes[place + count] == (operand, at + count):
                     count += 1
                 to = self._frame.text.op(f"getelementptr double, ptr {target}, i64 {place}")
-                source = self._frame.text.op(f"getelementptr double, ptr {self._frame.row(operand)}, i64 {at}")
+                source = self._frame.text.op(
+                    f"getelementptr double, ptr {self._frame.row(operand)}, i64 {at}"
+                )
                 self._copy(to, source, count)
             else:
                 put(one, target, str(place), self._frame.coefficient(operand))
@@ -231,7 +240,7 @@ class VectorRecurrences:
 
     def _at_order(self, operand: Series, order: str, i: str) -> str:
         if operand.count is None:
-            return self._lanes.splat(self._frame.get(self._frame.layout.extra("wide", operand), order))
+            return self._lanes.splat(self._frame.get(self._frame.layout.row_for("wide", operand), order))
         return fetch(self._lanes, self._frame.row(operand, order), i)
 
     def _first(self, operand: Series | Constant, i: str) -> str:

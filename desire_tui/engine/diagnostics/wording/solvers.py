@@ -20,6 +20,14 @@ MESSAGES: dict[str, Wording] = {
         "rules 9 to 13 and 16 need SUNDIALS {wanted}, found {found}",
         "install scikit-sundae 1.2.0, or use rules 14, 15 (stiff systems) or 0 to 8, which need nothing",
     ),
+    "no-series": Wording(
+        540,
+        "rule 17 follows Taylor series, and {what} has none",
+        "use {instead}",
+        "Rule 17 derives the solution's Taylor series from the equations. Kinks, relations, `if` and tables of"
+        " one argument are taken apart at the places where they switch; what is drawn at random, delayed or"
+        " remembered from the pass before has no series.",
+    ),
     "solver-gave-up": Wording(
         220,
         f"rule {{rule}} got nowhere {_AT}",

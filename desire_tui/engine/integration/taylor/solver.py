@@ -60,7 +60,7 @@ class TaylorSolver:
         return self._arrays.coefficients
 
     def begin(self, tolerance: float, absolute: float, largest: float) -> None:
-        """Prepare a run: the relative tolerance, what a state counts as at least, the largest step (0: none)."""
+        """Prepare a run: relative tolerance, absolute one, the largest step (0: none)."""
         taylor = self.taylor
         taylor.order = order_for(tolerance)
         taylor.absolute = absolute / tolerance if tolerance > 0.0 else 0.0

@@ -73,8 +73,8 @@ def reach(s: Taylor) -> float:
             size = 1.0 / max(size, s.absolute)
             a = abs(s.coefficients[down + i]) * size
             b = abs(s.coefficients[place + i]) * size
-            before = before if a <= before else a  # nan stays
-            last = last if b <= last else b
+            before = max(before, a)  # nan stays
+            last = max(last, b)
     if not before + last <= _LARGEST:
         return -1.0
     if before == 0.0 and last == 0.0:
@@ -101,7 +101,7 @@ def find_worst(s: Taylor) -> None:
 
 
 def add_up(s: Taylor, h: float) -> None:
-    """Put the solution at the step's end into `y`, and what it is rounded by into `rest` (Kahan; Knuth's sum).
+    """Put the solution at the step's end into `y`, what it is rounded by into `rest` (Kahan; Knuth's sum).
 
     So errors of rounding grow with the square root of the number of steps and not faster (Brouwer's law).
     """

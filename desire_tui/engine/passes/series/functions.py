@@ -1,7 +1,7 @@
 """Library functions of series, by the differential equations that they satisfy.
 
-Each takes operands of which at least one is a series. Knuth, "The Art of Computer Programming" 4.7; Griewank and
-Walther, "Evaluating Derivatives", table 13.2.
+Each takes operands of which at least one is a series. Knuth, "The Art of Computer Programming" 4.7; Griewank
+and Walther, "Evaluating Derivatives", table 13.2.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def power(g: Graph, a: Operand, b: Operand) -> Operand:
         return FUNCTIONS["exp"](g, exponent)
     if isinstance(a, Constant):
         return g.computed("pow", a, b)
-    if isinstance(b.value, Const) and b.value.value == 0.5:  # noqa: RUF069 - just this number
+    if isinstance(b.value, Const) and b.value.value == 0.5:
         return _sqrt(g, a)
     count = widest(a, b)
     base = a if count == a.count else _spread(g, a, count)
@@ -134,7 +134,9 @@ def _exp(g: Graph, a: Series) -> Operand:
     return g.complete(made, made, a)
 
 
-def _pair(g: Graph, a: Series, first: str, second: str, sign: Callable[[Graph, Operand], Operand]) -> tuple[Series, Series]:
+def _pair(
+    g: Graph, a: Series, first: str, second: str, sign: Callable[[Graph, Operand], Operand]
+) -> tuple[Series, Series]:
     """Return two functions that are each other's derivative, the second's with a sign."""
     one = g.integral(Op(first, (g.value(a),)), a)
     other = g.integral(Op(second, (g.value(a),)), a)

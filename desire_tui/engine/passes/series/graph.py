@@ -60,7 +60,8 @@ class Graph:
 
     def stored(self, constant: Constant) -> Constant:
         """Return a constant that stands in a slot, or is a number that the program's text tells."""
-        if constant.slot != _NO_SLOT or isinstance(constant.value, Const):
+        told = constant.count is None and isinstance(constant.value, Const)
+        if constant.slot != _NO_SLOT or told:
             return constant
         known = self._stored.get(id(constant))
         if known is None:
@@ -100,7 +101,8 @@ class Graph:
     ) -> Series:
         """Return a series with a value of its own at a step's start."""
         placed = tuple(self.stored(o) if isinstance(o, Constant) else o for o in operands)
-        key = (kind, *map(id, placed), by, matrix, count)
+        name = value.name if isinstance(value, Op) else ""  # a + 1 and a - 1 are both raised
+        key = (kind, name, *map(id, placed), by, matrix, count)
         known = self._known.get(key)
         if known is None:
             slot = self._allocate(count or 1)
@@ -124,7 +126,9 @@ class Graph:
         integral.operands = (self.stored(factor) if isinstance(factor, Constant) else factor, inner)
         return integral
 
-    def pair(self, key: tuple[str, Series], make: Callable[[], tuple[Series, Series]]) -> tuple[Series, Series]:
+    def pair(
+        self, key: tuple[str, Series], make: Callable[[], tuple[Series, Series]]
+    ) -> tuple[Series, Series]:
         """Return two series that are made together, once."""
         known = self._pairs.get((key[0], key[1].number))
         if known is None:
@@ -175,7 +179,7 @@ class Graph:
         """Return the sum of an array's elements, at a step's start in `slot`."""
         array = self.placed(product) if isinstance(product, Constant) else product
         term = DotTerm(1.0, Vec(array.slot, length), None)
-        self.values_pass.append(SetDot(slot, (term,), False, self.where))  # noqa: FBT003 - a node
+        self.values_pass.append(SetDot(slot, (term,), False, self.where))
         if isinstance(array, Constant):
             return Constant(Load(slot), slot, None)
         made = Series(len(self.nodes), "total", slot, None, (array,))

@@ -44,7 +44,7 @@ class Series:
     """A number (`count` None) or an array whose Taylor coefficients are computed in each step.
 
     `slot`: where coefficient 0 stands among the values. `by`: see `Kind`. `matrix` of a product: its slot,
-    rows, columns, whether it is transposed. `lanes` of a gather: each element's operand, its element's number.
+    rows, columns, whether it is transposed. `lanes` of a gather: each element's operand, which element of it.
     """
 
     number: int

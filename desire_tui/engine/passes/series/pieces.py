@@ -105,8 +105,9 @@ def _statement(action: SimpleAction) -> SimpleAction:
             return SetVec(action.slot, action.count, _value(action.value, known), action.where, action.mode,
                           action.mask_slot, action.persistent)  # fmt: skip
         case SetMat():
-            return SetMat(action.slot, action.rows, action.cols, _value(action.value, known), action.where,
-                          action.mode, action.lower, action.upper, action.mask_slot, action.persistent)  # fmt: skip
+            value = _value(action.value, known)
+            return SetMat(action.slot, action.rows, action.cols, value, action.where, action.mode,
+                          action.lower, action.upper, action.mask_slot, action.persistent)  # fmt: skip
         case Deriv():
             return Deriv(action.state, _value(action.value, known), action.where)
         case DerivVec():

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.expressions import Load, Vec
-
 from desire_tui.engine.passes.series.nodes import Constant
 
 if TYPE_CHECKING:
@@ -78,8 +77,13 @@ class Slots:
         """Take over what two branches have put: the first's where the condition is above 0."""
         held = self._graph.held(condition)
         numbers = {**yes._numbers, **no._numbers}
-        changed = [s for s in numbers if not yes._numbers.get(s) is no._numbers.get(s) is self._numbers.get(s)]
-        arrays = {(a[0], a[2]) for side in (yes, no) for a in side._arrays if a not in self._arrays}
+        changed = [
+            s for s in numbers if not yes._numbers.get(s) is no._numbers.get(s) is self._numbers.get(s)
+        ]
+        both = [*yes._arrays, *no._arrays]
+        arrays = {
+            (first, count) for first, operand, count in both if (first, operand, count) not in self._arrays
+        }
         for first, count in sorted(arrays):
             self.put(first, self._graph.select(held, yes.array(first, count), no.array(first, count)), count)
         for slot in changed:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, assert_never
+from typing import TYPE_CHECKING, NoReturn, assert_never
 
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.lowered.effects import count_draws, expressions, reads_replaced, role
@@ -55,8 +55,8 @@ class NoSeriesError(Exception):
 
 
 _TWO = {
-    "add": functions.add, "sub": functions.sub, "mul": functions.mul, "div": functions.div, "pow": functions.power,
-    "atan2": functions.angle,
+    "add": functions.add, "sub": functions.sub, "mul": functions.mul, "div": functions.div,
+    "pow": functions.power, "atan2": functions.angle,
 }  # fmt: skip
 _HELD = frozenset(("swtch", "sgn", "deadc", "rect", "round", "trnc"))
 """What stays as it is until the next switch, where a step ends."""
@@ -65,7 +65,7 @@ _HELD = frozenset(("swtch", "sgn", "deadc", "rect", "round", "trnc"))
 def series_program(
     segment: Segment, switching: Switching | None, allocate: Callable[[int], int]
 ) -> SeriesProgram:
-    """Translate a segment whose switches are frozen (`passes.switching`) and whose kinks are choices (`pieces`).
+    """Translate a segment whose switches are frozen (`passes.switching`), whose kinks are choices (`pieces`).
 
     `allocate(count)` gives the first of `count` slots. NoSeriesError: a statement has no series.
     """
@@ -91,7 +91,10 @@ class _Translator:
             self._slots.put(piece.slot, piece, piece.count)
         begin = self._slots.copy()
         self._run(self._actions)
-        rows = {first: derivative for first, _, derivative in self._derivatives}
+        rows = {
+            first: self._graph.stored(derivative) if isinstance(derivative, Constant) else derivative
+            for first, _, derivative in self._derivatives
+        }
         states = tuple(
             StatePiece(piece, first, piece.size, rows[first])
             for piece, first in zip(pieces, self._firsts, strict=True)
@@ -150,10 +153,10 @@ class _Translator:
             case Deriv():
                 self._derivatives.append((action.state, None, self._of(action.value)))
             case DerivVec():
-                value = self._wide(self._of(action.value), action.count)
-                self._derivatives.append((action.state, action.count, value))
+                row = self._wide(self._of(action.value), action.count)
+                self._derivatives.append((action.state, action.count, row))
             case Set() | SetVec() | SetMat() | SetDot():
-                if any(count_draws(value) for value in expressions(action)):
+                if count_draws(*expressions(action)):
                     self._refuse("noise")
                 if role(action) != "definition":
                     self._refuse("remembers")
@@ -291,9 +294,8 @@ class _Translator:
             return g.computed(name, *(g.held(operand) for operand in operands))
         if name in _TWO:
             return _TWO[name](g, *operands)
-        function = functions.FUNCTIONS.get(name)
-        (operand,) = operands if len(operands) == 1 else (None,)
-        if function is None or operand is None or isinstance(operand, Constant):
+        function, operand = functions.FUNCTIONS.get(name), operands[0]
+        if function is None or isinstance(operand, Constant):
             self._refuse("function", name)
         return function(g, operand)
 
@@ -362,5 +364,5 @@ class _Translator:
             self._refuse("matrix")
         return self._graph.constant(("row", slot, size), value, count)
 
-    def _refuse(self, what: str, name: str = "") -> None:
+    def _refuse(self, what: str, name: str = "") -> NoReturn:
         raise NoSeriesError(self._where, what if not name else f"{what}:{name}")
