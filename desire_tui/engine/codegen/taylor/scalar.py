@@ -1,7 +1,7 @@
 """Recurrences of numbers' series.
 
 A sum Σ a_j·b_{k-j} is not summed up when its turn comes: as soon as a_k and b_k are known, their products
-with lower coefficients are added to all sums to come, several at a time, so that nothing waits for a long sum:
+with lower coefficients are added to all sums to come, several at a time, so that nothing waits for long sums:
 
     sum[k + i] += a_k·b_i + b_k·a_i    0 < i < k, k + i ≤ order;    the products with i = 0 and i = k apart.
 

@@ -242,7 +242,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     "fft-length": Wording(72, "a transform of length {n} is not possible", "the length is 2 or more"),
     # ------------------------------------------------------------------------------ devices
-    "no-such-rule": Wording(86, "there is no integration rule {rule}", "rules are 0 … 5 and 7 … 16"),
+    "no-such-rule": Wording(86, "there is no integration rule {rule}", "rules are 0 … 5 and 7 … 17"),
     "plot-arguments": Wording(
         44, "plot takes x, y and a colour, or a COMPLEX z and a colour", "plot x, y, 14"
     ),

@@ -24,9 +24,9 @@ MESSAGES: dict[str, Wording] = {
         540,
         "rule 17 follows Taylor series, and {what} has none",
         "use {instead}",
-        "Rule 17 derives the solution's Taylor series from the equations. Kinks, relations, `if` and tables of"
-        " one argument are taken apart at the places where they switch; what is drawn at random, delayed or"
-        " remembered from the pass before has no series.",
+        "Rule 17 derives the solution's Taylor series from the equations. Kinks, relations, `if` and tables"
+        " of one argument are taken apart at the places where they switch; what is drawn at random, delayed"
+        " or remembered from the pass before has no series.",
     ),
     "solver-gave-up": Wording(
         220,
