@@ -12,7 +12,7 @@ from desire_tui.engine.passes.replication import LockStepError
 from desire_tui.engine.session.prepared_run import RunStart
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -38,6 +38,8 @@ class LockStep:
         self._prepared, self._way, self._follow = prepared, way, varied.follow
         self._given = list(dict.fromkeys((*varied.slots, *varied.computed)))
         self._places = [self._given.index(slot) for slot in varied.slots]
+        self._follows, self._overwritten = varied.computed, frozenset(way.computed)
+        self._computed = [self._given.index(slot) for slot in varied.computed]
         self._model = prepared.lanes(self._given, columns, fast=fast)
         self.draws = self._model.draws
         """Whether the model takes random numbers."""
@@ -50,10 +52,10 @@ class LockStep:
         """End the runs that go on; from any thread."""
         self._model.memory.stop = 1
 
-    def run(self, settings: Floats, random: Sequence[int] | None) -> LaneRows:
+    def run(self, settings: Floats, random: NDArray[np.uint64] | None) -> LaneRows:
         """Make runs; those flagged have to be made alone. `random`: where their random numbers begin."""
         runs = len(settings)
-        seeds = np.zeros(runs, dtype=np.uint64) if random is None else np.array(random, dtype=np.uint64)
+        seeds = np.zeros(runs, dtype=np.uint64) if random is None else random
         try:
             starts, plan, failed = self._starts(settings)
         except DesireError:
@@ -62,11 +64,6 @@ class LockStep:
         self.runs_most = self._model.width * max(1, min(64, _NUMBERS_MOST // (plan.rows_most * self._row)))
         made = self._model.run(plan, starts, seeds)
         return made._replace(flagged=made.flagged | failed)
-
-    def _assign(self, row: Sequence[float]) -> None:
-        assert self._way.slots is not None
-        for slot, value in zip(self._way.slots, row, strict=True):
-            self._prepared.values.assign(slot, value)
 
     def _starts(self, settings: Floats) -> tuple[Floats, RunPlan, NDArray[np.bool_]]:
         """Return what each run begins with, the plan of all, and whose script fails on its way there."""
@@ -80,14 +77,29 @@ class LockStep:
             return np.empty((len(settings), len(self._given))), plan, ~failed
         starts = np.repeat(data[None, self._given], len(settings), axis=0)
         if self._follow is not None:
-            for number, row in enumerate(settings.tolist()):
-                self._assign(row)
-                try:
-                    self._follow()
-                except DesireError:
-                    failed[number] = True
-                    continue
-                self._assign(row)
-                starts[number] = data[self._given]
+            failed = self._let_follow(self._follow, settings, way.slots, starts)
         starts[:, self._places] = settings[:, : len(self._places)]
         return starts, plan, failed
+
+    def _let_follow(
+        self, follow: Callable[[], None], settings: Floats, slots: Sequence[int], starts: Floats
+    ) -> NDArray[np.bool_]:
+        """Put what the script computes from each run's settings into its start; return whose script fails."""
+        failed = np.zeros(len(settings), dtype=np.bool_)
+        cells = self._prepared.values.cells  # the plan's run has defined all of them
+        computed = starts[:, self._computed]
+        again = not self._overwritten.isdisjoint(slots)
+        for number, row in enumerate(settings.tolist()):
+            for slot, value in zip(slots, row, strict=True):
+                cells[slot] = value
+            try:
+                follow()
+            except DesireError:
+                failed[number] = True
+                continue
+            if again:
+                for slot, value in zip(slots, row, strict=True):
+                    cells[slot] = value
+            computed[number] = [cells[slot] for slot in self._follows]
+        starts[:, self._computed] = computed
+        return failed

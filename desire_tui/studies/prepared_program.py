@@ -14,7 +14,7 @@ from desire_tui.engine.session.prepared_run import RunStart
 from desire_tui.studies.keep import kept
 from desire_tui.studies.lock_step import LockStep
 from desire_tui.studies.reductions import reduce
-from desire_tui.studies.streams import first_state, stream
+from desire_tui.studies.streams import first_state, stream, streams
 from desire_tui.studies.task import Chunk
 
 if TYPE_CHECKING:
@@ -94,8 +94,8 @@ class PreparedProgram:
         first = 0
         while first < len(settings) and not stopped():
             count = min(lock_step.runs_most, len(settings) - first)
-            numbers = range(made.first + first, made.first + first + count)
-            random = [stream(self.first_state(), number) for number in numbers] if lock_step.draws else None
+            begin = made.first + first
+            random = streams(self.first_state(), begin, count) if lock_step.draws else None
             table, counts, left = lock_step.run(settings[first : first + count], random)
             good = np.flatnonzero(~left)
             if len(good) == count:

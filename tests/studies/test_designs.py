@@ -8,7 +8,7 @@ import pytest
 from desire_tui.studies.design import METHODS, Design
 from desire_tui.studies.design_forms import over_texts, sample_texts
 from desire_tui.studies.plan import boxes
-from desire_tui.studies.streams import stream
+from desire_tui.studies.streams import stream, streams
 
 SIX = sample_texts(
     ["a=uniform(0,1), b=uniform(0,1), c=normal(3,2), d=uniform(0,1), e=uniform(0,1), f=randint(1,7)"]
@@ -55,6 +55,11 @@ def test_streams_of_random_numbers_differ():
     }
     assert len(states) == 20_000
     assert stream(99, 0) == 99, "run 0 is the program"
+
+
+@pytest.mark.parametrize(("state", "first"), [(99, 0), (2**48 - 1, 1), (5, 10**12)])
+def test_streams_of_many_runs_are_those_of_each(state, first):
+    assert streams(state, first, 50).tolist() == [stream(state, first + k) for k in range(50)]
     assert all(0 <= state < 1 << 48 for state in states)
 
 

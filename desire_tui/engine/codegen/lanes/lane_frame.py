@@ -12,13 +12,13 @@ class LaneMemory(ctypes.Structure):
         ("values", ctypes.c_uint64),  # address of slot 0
         ("starts", ctypes.c_uint64),  # (groups, given slots, width)
         ("random", ctypes.c_uint64),  # int64 (groups, width): where the random numbers begin
-        ("rows", ctypes.c_uint64),  # (groups, samples, 1 + columns, width): t, then the columns
+        ("rows", ctypes.c_uint64),  # (samples, 1 + columns, runs): t, then the columns
         ("arrays", ctypes.c_uint64),  # (groups, elements of all histories, width)
         ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
         ("counts", ctypes.c_uint64),  # int64 (groups, width): samples
         ("flagged", ctypes.c_uint64),  # int64 (groups, width): not 0: to be made again alone
         ("groups", ctypes.c_int64),
-        ("samples", ctypes.c_int64),  # room for so many
+        ("runs", ctypes.c_int64),  # groups·width
         ("t_start", ctypes.c_double),
         ("t_max", ctypes.c_double),
         ("comint", ctypes.c_double),
@@ -29,11 +29,10 @@ class LaneMemory(ctypes.Structure):
     )
 
 
-def lane_frame(name: str, *, width: int, given: int, columns: int, elements: int) -> str:
+def lane_frame(name: str, *, width: int, given: int, elements: int) -> str:
     """Return the function `i32 NAME(ptr LaneMemory)`, which calls NAME.group for each group of runs.
 
-    `width` runs are a group; `given` slots have a start for each run; `columns` beside t are sampled;
-    `elements` are those of all histories.
+    `width` runs are a group; `given` slots have a start for each run; `elements` are those of all histories.
     """
     loads = [
         line
@@ -45,7 +44,7 @@ def lane_frame(name: str, *, width: int, given: int, columns: int, elements: int
     ]
     return _FRAME.format(
         name=name, loads="\n".join(loads), stop=_offset("stop"), width=width, given=given * width,
-        row=(1 + columns) * width, elements=elements * width,
+        elements=elements * width,
     )  # fmt: skip
 
 
@@ -55,13 +54,12 @@ def _offset(field: str) -> int:
 
 _LOADED = (
     ("values", "ptr"), ("starts", "ptr"), ("random", "ptr"), ("rows", "ptr"), ("arrays", "ptr"),
-    ("counts", "ptr"), ("flagged", "ptr"), ("groups", "i64"), ("samples", "i64"),
+    ("counts", "ptr"), ("flagged", "ptr"), ("groups", "i64"),
 )  # fmt: skip
 _FRAME = """
 define i32 @{name}(ptr %a) #0 {{
 entry:
 {loads}
-  %room = mul i64 %samples, {row}
   %pstop = getelementptr i8, ptr %a, i64 {stop}
   br label %next
 next:
@@ -73,12 +71,11 @@ next:
   br i1 %over, label %done, label %work
 work:
   %oin = mul i64 %g, {given}
-  %orow = mul i64 %g, %room
   %olane = mul i64 %g, {width}
   %oarrays = mul i64 %g, {elements}
   %gin = getelementptr double, ptr %starts, i64 %oin
   %gseeds = getelementptr i64, ptr %random, i64 %olane
-  %grows = getelementptr double, ptr %rows, i64 %orow
+  %grows = getelementptr double, ptr %rows, i64 %olane
   %garrays = getelementptr double, ptr %arrays, i64 %oarrays
   %gcounts = getelementptr i64, ptr %counts, i64 %olane
   %gflags = getelementptr i64, ptr %flagged, i64 %olane

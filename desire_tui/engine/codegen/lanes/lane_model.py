@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -108,11 +109,12 @@ class LaneModel:
         self._compiled = code.fast(loop.piece(), slp=False)
         self._run = _RUN(self._compiled.address)
         self.memory = LaneMemory(values=values.address)
+        self._samples = np.empty(0)
 
     def run(self, plan: RunPlan, starts: Floats, random: NDArray[np.uint64]) -> LaneRows:
         """Make runs; `starts` (runs, given slots), `random` where each one's random numbers begin.
 
-        Everything else begins as the values say.
+        Everything else begins as the values say. The samples returned are gone with the next call.
         """
         runs, width = starts.shape[0], self.width
         groups = -(-runs // width)
@@ -120,7 +122,7 @@ class LaneModel:
         own = np.ascontiguousarray(starts[lanes].reshape(groups, width, -1).transpose(0, 2, 1))
         seeds = random[lanes].astype(np.int64)
         samples = plan.rows_most
-        rows = np.empty((groups, samples, 1 + len(self._columns), width))
+        rows = self._room((samples, 1 + len(self._columns), groups * width))
         counts, flagged = np.zeros(groups * width, dtype=np.int64), np.zeros(groups * width, dtype=np.int64)
         memory = self.memory
         memory.starts, memory.random, memory.rows = own.ctypes.data, seeds.ctypes.data, rows.ctypes.data
@@ -131,10 +133,17 @@ class LaneModel:
         for counter, records in self._delays.lags(self._segment, plan, self._values).items():
             lags[counter] = records
         memory.arrays, memory.lags = arrays.ctypes.data, lags.ctypes.data
-        memory.groups, memory.samples, memory.stop = groups, samples, 0
+        memory.groups, memory.runs, memory.stop = groups, groups * width, 0
         memory.t_start, memory.t_max, memory.comint = plan.t0, plan.t_max, plan.comint
         memory.dt, memory.every, memory.nn = plan.dt, plan.every, plan.nn
         self._run(ctypes.addressof(memory))
         used = max(int(counts.max()), 1)
-        table = rows[:, :used].transpose(2, 1, 0, 3).reshape(1 + len(self._columns), used, groups * width)
+        table = rows[:used].transpose(1, 0, 2)
         return LaneRows(table[:, :, :runs], counts[:runs], (flagged[:runs] != 0) | (counts[:runs] == 0))
+
+    def _room(self, shape: tuple[int, ...]) -> Floats:
+        """Return memory for samples, that of the last call if it is large enough: new pages take time."""
+        wanted = math.prod(shape)
+        if self._samples.size < wanted:
+            self._samples = np.empty(wanted)
+        return self._samples[:wanted].reshape(shape)

@@ -1,0 +1,101 @@
+"""Steps of runs in lock step under a rule with fixed steps: stages, new states, t."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.lanes.lane_cells import Number
+from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE
+from desire_tui.engine.codegen.loop.stage_sums import scaled, weighted
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.codegen.lanes.lane_points import LanePoints
+    from desire_tui.engine.codegen.lanes.lane_variables import LaneVariables
+    from desire_tui.engine.integration.tableaus import Row, Tableau
+
+_CHECK_EVERY = 1024
+"""Steps between two looks for inf and nan inside a communication interval, as in `loop.fixed_steps`."""
+
+
+class LaneSteps:
+    """Writes the blocks `again` … `attend`. `states` are their slots."""
+
+    def __init__(
+        self, loop: LaneVariables, points: LanePoints, tableau: Tableau, states: Sequence[int]
+    ) -> None:
+        self.loop, self.text, self.runs = loop, loop.text, loop.runs
+        self.one, self.cells, self.memory = loop.one, loop.cells, loop.memory
+        self.points, self.tableau, self.states = points, tableau, states
+
+    def write(self) -> None:
+        """Write everything from a step's start to the next one or to a communication point."""
+        self._again()
+        self._step()
+        self._attend()
+
+    def _again(self) -> None:
+        text = self.text
+        text.begin("again")
+        self.loop.clear_fired()
+        self.loop.run_pass("step", 1)
+        if not self.loop.may_end:
+            text.jump("step")
+            return
+        fired = self.runs.both(self.loop.flags("fired"), self.loop.flags("alive"))
+        text.branch(self.runs.any(fired), "tail", "step")
+        text.begin("tail")
+        self.loop.run_pass("tail", 1, fired)
+        self.points.sample(fired)
+        self.loop.freeze(fired)
+        text.branch(self.runs.any(self.loop.flags("alive")), "step", "exit")
+
+    def _step(self) -> None:
+        text, cells, tableau = self.text, self.cells, self.tableau
+        text.begin("step")
+        for number, slot in enumerate(self.states):
+            cells.keep("x0", number, cells.load(slot))
+        dt = self.memory.load("dt")
+        for stage in range(1, tableau.stages):
+            self._advance(tableau.a[stage], dt)
+            cells.store(T, Number(self._counted_time(float(tableau.c[stage]), dt), wide=False))
+            self.loop.run_pass("derivative", stage + 1)
+        self._advance(tableau.b, dt)
+        cells.store(T, Number(self._counted_time(1.0, dt), wide=False))
+        for name in ("k", "steps"):
+            self.loop.put("i64", name, text.op(f"add i64 {self.loop.get('i64', name)}, 1"))
+        slack = self.one.mul(self.one.const(TOLERANCE), dt)
+        reached = self.one.compare(
+            "oge", self.loop.t(), self.one.sub(self.loop.get("double", "t_next"), slack)
+        )
+        since = text.op(f"and i64 {self.loop.get('i64', 'steps')}, {_CHECK_EVERY - 1}")
+        due = text.op(f"icmp eq i64 {since}, 0")
+        self.loop.put("i1", "reached", reached)
+        text.branch(text.op(f"or i1 {due}, {reached}"), "attend", "again")
+
+    def _counted_time(self, c: float, dt: str) -> str:
+        k = self.text.op(f"sitofp i64 {self.loop.get('i64', 'k')} to double")
+        return self.one.add(self.memory.load("t_start"), self.one.mul(self.one.add(k, self.one.const(c)), dt))
+
+    def _advance(self, row: Row, dt: str) -> None:
+        """States ← saved states + dt·Σ row·k."""
+        factor = scaled(self.one, row, dt)
+        for number, slot in enumerate(self.states):
+            wide = slot in self.cells.differing
+            lanes = self.runs if wide else self.one
+            total = weighted(lanes, row, lambda stage, n=number: self.cells.kept(f"k{stage}", n).name)  # type: ignore[misc]  # n=: bound now
+            by = self.runs.splat(factor) if wide else factor
+            moved = lanes.add(self.cells.kept("x0", number).name, lanes.mul(by, total))
+            self.cells.store(slot, Number(moved, wide))
+
+    def _attend(self) -> None:
+        text = self.text
+        text.begin("attend")
+        self.loop.flag(self.loop.wild(self.states))
+        stop = text.op(f"icmp ne i64 {self.memory.load('stop', volatile=True)}, 0")
+        none = text.op(f"xor i1 {self.runs.any(self.loop.flags('alive'))}, true")
+        text.branch(text.op(f"or i1 {stop}, {none}"), "exit", "attend.on")
+        text.begin("attend.on")
+        text.branch(self.loop.get("i1", "reached"), "point", "again")
