@@ -55,12 +55,12 @@ def test_streams_of_random_numbers_differ():
     }
     assert len(states) == 20_000
     assert stream(99, 0) == 99, "run 0 is the program"
+    assert all(0 <= state < 1 << 48 for state in states)
 
 
 @pytest.mark.parametrize(("state", "first"), [(99, 0), (2**48 - 1, 1), (5, 10**12)])
 def test_streams_of_many_runs_are_those_of_each(state, first):
     assert streams(state, first, 50).tolist() == [stream(state, first + k) for k in range(50)]
-    assert all(0 <= state < 1 << 48 for state in states)
 
 
 def test_boxes_cover_neighbouring_runs():
