@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from desire_tui.api.block import Block
     from desire_tui.api.equations import JacobianMatrix, RightHandSide
     from desire_tui.api.run_start import Initial, Number
+    from desire_tui.api.sensitive_runs import SensitiveRuns
     from desire_tui.api.simulation import Simulation
     from desire_tui.api.sweep_result import Keep
     from desire_tui.engine.outputs.run import Run
@@ -189,6 +190,23 @@ class Model:
             settings = self._starts.numbers(set or {}, parameters, instance)
             start = self._starts.start(instance, settings, initial, None, parameters)
         return Simulation(instance, self._starts, self._source, replace(start, t0=t))
+
+    def sensitive_runs(self, parameters: Iterable[str], record: Iterable[str]) -> SensitiveRuns:
+        """Return a function that makes runs with the derivatives of what is recorded by some parameters.
+
+        `parameters`: names of parameters, and of states for their initial values. The derivatives are
+        integrated along the run: exactly those of the solution, jumps at events included. `runs({"k": 2.0})`
+        has `t`, `values` and `derivatives`, an array (parameters, outputs, samples).
+        DesireError: a name that is not there.
+        """
+        from desire_tui.api.sensitive_runs import SensitiveRuns
+
+        made = SensitiveRuns(self._pool, self._starts, parameters, record, self.states)
+        with Interrupts(), self._pool.one() as instance:
+            names = tuple(name for name in made.parameters if name not in self.states)
+            self._starts.way(instance, names, {})
+            instance.prepared.sampled(made.record)
+        return made
 
     # ------------------------------------------------------------------ for other people's solvers
 

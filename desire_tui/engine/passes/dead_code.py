@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.effects import reads, role, writes
 from desire_tui.engine.lowered.statements import Guard
-from desire_tui.engine.lowered.walk import with_bodies
+from desire_tui.engine.lowered.walk import walk_actions, with_bodies
 from desire_tui.engine.passes.slot_set import SlotSet
 
 if TYPE_CHECKING:
@@ -26,6 +26,15 @@ def without_dead_code(actions: Actions, always: frozenset[int] = frozenset()) ->
     `always` are the ids of statements that are kept in any case.
     """
     return _keep_live(actions, SlotSet(), always)
+
+
+def needed_by(actions: Actions, then: Actions) -> Actions:
+    """Leave out what the statements `then` do not use."""
+    live = SlotSet()
+    for action in walk_actions(then):
+        for slot, count in reads(action):
+            live.add(slot, count)
+    return _keep_live(actions, live, frozenset())
 
 
 def _keep_live(actions: Actions, live: SlotSet, always: frozenset[int]) -> Actions:

@@ -73,7 +73,7 @@ def _integer_power(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
 
 def _power(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
     base = times(op("mul", x[1], op("pow", x[0], op("sub", x[1], ONE))), d[0])
-    return plus(base, times(op("mul", op("pow", *x), op("ln", x[0])), d[1]))
+    return plus(base, times(op("comp", x[0], ZERO, op("mul", op("pow", *x), op("ln", x[0]))), d[1]))
 
 
 def _factor(factor: Callable[[Value], Value]) -> DerivativeRule:
@@ -118,6 +118,11 @@ def choose(control: Value, negative: Tangent, positive: Tangent) -> Tangent:
     return op("comp", control, negative or ZERO, positive or ZERO)
 
 
+def _root(x: Sequence[Value], d: Sequence[Tangent]) -> Tangent:
+    """Return 0 at 0, where the slope is infinite: what starts there (an empty tank) has to go on."""
+    return None if d[0] is None else op("comp", x[0], ZERO, op("div", d[0], op("mul", TWO, op("sqrt", x[0]))))
+
+
 def _sinc(x: Value) -> Value:
     derivative = op("div", op("sub", op("cos", x), op("sinc", x)), x)
     return op("comp", op("abs", x), ZERO, derivative)
@@ -152,7 +157,7 @@ DERIVATIVE_RULES: dict[str, DerivativeRule] = {
     "cosh": _factor(lambda x: op("sinh", x)),
     "tanh": _factor(lambda x: op("sub", ONE, _square(op("tanh", x)))),
     "exp": _factor(lambda x: op("exp", x)),
-    "sqrt": _divisor(lambda x: op("mul", TWO, op("sqrt", x))),
+    "sqrt": _root,
     "abs": _factor(lambda x: op("sgn", x)),
     "ln": _divisor(lambda x: x),
     "log": _divisor(lambda x: op("mul", Const(natural_log(10.0)), x)),

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, assert_never
 
-from desire_tui.engine.lowered.effects import reads_replaced, role
+from desire_tui.engine.lowered.effects import reads_replaced, role, writes
 from desire_tui.engine.lowered.expressions import (
     Const,
     Load,
@@ -36,17 +36,18 @@ from desire_tui.engine.lowered.statements import (
     SetMat,
     SetVec,
 )
+from desire_tui.engine.lowered.walk import walk_actions, with_bodies
 from desire_tui.engine.passes.dead_code import without_dead_code
 from desire_tui.engine.passes.derivative_rules import DERIVATIVE_RULES, ZERO, op, plus
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.passes.tangents import NotDifferentiable, Tangents
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.segment import Segment, StateRange
-    from desire_tui.engine.lowered.statements import Action, Assignment
+    from desire_tui.engine.lowered.statements import Action, Assignment, SimpleAction
 
 _NUDGE = Const(1e-6)
 """Relative distance over which a table is differenced: exact inside an interval, where it is linear."""
@@ -68,7 +69,10 @@ def differentiate(segment: Segment, allocate: Callable[[int], int]) -> TangentPa
     actions = derivative_slice(segment)
     tangents = Tangents(segment.states, actions, allocate)
     body = [_copied(slot, tangents.directions + s.first, s) for slot, s in tangents.copies]
-    body += _Differentiator(tangents).actions(actions)
+    for action in walk_actions(actions):
+        if action.kind != "if" if isinstance(action, Guard) else role(action) == "effect":
+            raise NotDifferentiable(action)
+    body += with_tangents([Differentiator(tangents)], actions, derivatives=False)
     return TangentPass(without_dead_code(tuple(body)), tangents.directions)
 
 
@@ -79,41 +83,71 @@ def _copied(slot: int, source: int, states: StateRange) -> Action:
     return SetVec(slot, states.count, Vec(source, states.count), states.where)
 
 
-class _Differentiator:
-    def __init__(self, tangents: Tangents) -> None:
+def with_tangents(
+    differentiators: Sequence[Differentiator], actions: Iterable[Action], *, derivatives: bool = True
+) -> tuple[Action, ...]:
+    """Return statements, each behind those which compute its tangents.
+
+    Without `derivatives` those themselves are left out, and only their tangents are there.
+    """
+    made: list[Action] = []
+    for action in actions:
+        if isinstance(action, Guard):
+            body, orelse = (
+                with_tangents(differentiators, part, derivatives=derivatives)
+                for part in (action.body, action.orelse)
+            )
+            made.append(with_bodies(action, body, orelse))
+            continue
+        for differentiator in differentiators:
+            made += differentiator.tangent(action)
+        if derivatives or role(action) != "derivative":
+            made.append(action)
+    return tuple(made)
+
+
+class Differentiator:
+    """Writes tangents where `tangents` has room for them.
+
+    The derivatives' tangents are those of the states from number `first_state` on. `delayed` writes the
+    tangent of an operation `delayed`, which has none without it.
+    """
+
+    def __init__(
+        self,
+        tangents: Tangents,
+        first_state: int = 0,
+        delayed: Callable[[Differentiator, Op], Value | None] | None = None,
+    ) -> None:
         self._tangents = tangents
+        self._first = first_state
+        self._delayed = delayed
         self._known: dict[int, tuple[Value, Value | None]] = {}
 
     # ------------------------------------------------------------------ statements
 
-    def actions(self, actions: Iterable[Action]) -> list[Action]:
-        made: list[Action] = []
-        for action in actions:
-            self._known.clear()  # an expression means something only within its statement
-            self._action(action, made)
-        return made
+    def tangent(self, action: SimpleAction) -> Iterator[Action]:
+        """Yield the statement that computes a statement's tangent, to be executed before it; none for 0.
 
-    def _action(self, action: Action, made: list[Action]) -> None:
+        NotDifferentiable: it has no derivative.
+        """
+        self._known.clear()  # an expression means something only within its statement
         match action:
             case Deriv():
-                made.append(Deriv(action.state, self.of(action.value) or ZERO, action.where))
+                yield Deriv(self._first + action.state, self.of(action.value) or ZERO, action.where)
             case DerivVec():
-                made.append(DerivVec(action.state, action.count, self.of(action.value) or ZERO, action.where))
-            case Guard():
-                if action.kind != "if":
-                    raise NotDifferentiable(action)
-                body, orelse = tuple(self.actions(action.body)), tuple(self.actions(action.orelse))
-                made.append(Guard("if", body, action.where, action.condition, orelse, action.every))
+                yield DerivVec(
+                    self._first + action.state, action.count, self.of(action.value) or ZERO, action.where
+                )
             case Set() | SetVec() | SetMat() | SetDot():
-                if role(action) != "definition":
-                    raise NotDifferentiable(action)
                 if reads_replaced(action):
                     raise NotDifferentiable(action)
-                made.extend(self._assignment(action))
-                made.append(action)
+                yield from self._assignment(action)
             case _:
                 if isinstance(action, EffectAction):
-                    raise NotDifferentiable(action)
+                    if any(self._tangents.slot(slot) is not None for slot, _ in writes(action)):
+                        raise NotDifferentiable(action)
+                    return
                 assert_never(action)
 
     def _assignment(self, action: Assignment) -> Iterable[Action]:
@@ -124,21 +158,26 @@ class _Differentiator:
         if isinstance(action, SetDot):
             terms = tuple(self._dot_terms(action))
             if terms:
-                yield SetDot(slot, terms, action.average, action.where)
+                yield SetDot(slot, terms, action.average, action.where, action.persistent)
             else:
-                yield Set(slot, ZERO, action.where)
+                yield Set(slot, ZERO, action.where, action.persistent)
             return
         value = self.of(action.value) or ZERO
         if isinstance(action, Set):
-            yield Set(slot, value, action.where)
-        elif action.mode != "set":
-            raise NotDifferentiable(action)
+            yield Set(slot, value, action.where, action.persistent)
         elif isinstance(action, SetVec):
-            yield SetVec(slot, action.count, value, action.where, mask_slot=action.mask_slot)
+            if action.mode == "largest":
+                raise NotDifferentiable(action)
+            yield SetVec(
+                slot, action.count, value, action.where, action.mode, action.mask_slot, action.persistent
+            )
         elif action.lower is not None or action.upper is not None:
             raise NotDifferentiable(action)
         else:
-            yield SetMat(slot, action.rows, action.cols, value, action.where, mask_slot=action.mask_slot)
+            yield SetMat(
+                slot, action.rows, action.cols, value, action.where, action.mode,
+                mask_slot=action.mask_slot, persistent=action.persistent,
+            )  # fmt: skip
 
     def _dot_terms(self, action: SetDot) -> Iterable[DotTerm]:
         vector = self._tangents.vector
@@ -190,6 +229,8 @@ class _Differentiator:
         return self._table(value)
 
     def _operation(self, value: Op) -> Value | None:
+        if value.name == "delayed" and self._delayed is not None:
+            return self._delayed(self, value)
         rule = DERIVATIVE_RULES.get(value.name)
         if rule is None:
             raise NotDifferentiable(value)

@@ -30,7 +30,7 @@ def conditions_pass(segment: Segment, now: int) -> Actions:
         for number, event in enumerate(segment.events)
         if event.condition is not None
     )
-    return without_dead_code(_definitions(segment.body) + computed, frozenset(map(id, computed)))
+    return without_dead_code(definitions(segment.body) + computed, frozenset(map(id, computed)))
 
 
 def blocks_pass(segment: Segment, due: int) -> Actions:
@@ -40,7 +40,7 @@ def blocks_pass(segment: Segment, due: int) -> Actions:
         for number, event in enumerate(segment.events)
         if event.body
     )
-    return without_dead_code(_definitions(segment.body) + blocks, frozenset(map(id, simple_actions(blocks))))
+    return without_dead_code(definitions(segment.body) + blocks, frozenset(map(id, simple_actions(blocks))))
 
 
 def sources_pass(segment: Segment, source: int) -> Actions:
@@ -48,16 +48,16 @@ def sources_pass(segment: Segment, source: int) -> Actions:
     computed = tuple(
         Set(source + number, delayed.source, delayed.where) for number, delayed in enumerate(segment.delays)
     )
-    return without_dead_code(_definitions(segment.body) + computed, frozenset(map(id, computed)))
+    return without_dead_code(definitions(segment.body) + computed, frozenset(map(id, computed)))
 
 
-def _definitions(actions: Iterable[Action]) -> Actions:
+def definitions(actions: Iterable[Action]) -> Actions:
     """Return what only computes variables from others, in every pass."""
     kept: list[Action] = []
     for action in actions:
         if isinstance(action, Guard):
             if action.kind == "if":
-                body, orelse = _definitions(action.body), _definitions(action.orelse)
+                body, orelse = definitions(action.body), definitions(action.orelse)
                 if body or orelse:
                     kept.append(with_bodies(action, body, orelse))
         elif role(action) == "definition" and timing(action) == "always":

@@ -11,7 +11,7 @@ from desire_tui.engine.lowered.expressions import Table1, Vec
 from desire_tui.engine.lowered.walk import simple_actions
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from desire_tui.engine.lowered.expressions import Table2
     from desire_tui.engine.lowered.segment import StateRange
@@ -30,28 +30,48 @@ class Tangents:
     tangents are the direction v: `directions` and on, in the order of the states. Where a region holds more
     than states, or holds them in another order, the pass copies them into room of its own: `copies` (slot
     there, states).
+
+    `seeds` (slot, count) are further numbers that are given tangents, parameters for instance. `in_place`:
+    states' tangents are numbers like the others, each region's in one piece; there are no `directions`.
     """
 
     def __init__(
-        self, states: Sequence[StateRange], actions: Sequence[Action], allocate: Callable[[int], int]
+        self,
+        states: Sequence[StateRange],
+        actions: Sequence[Action],
+        allocate: Callable[[int], int],
+        seeds: Iterable[tuple[int, int]] = (),
+        *,
+        in_place: bool = False,
     ) -> None:
         flat = list(simple_actions(actions))
-        pieces = [(s.slot, s.count) for s in states]
+        given = list(seeds)
+        pieces = [*given, *((s.slot, s.count) for s in states)]
         for action in flat:
             pieces += reads(action)
             pieces += writes(action)
         self._starts, self._ends = _regions(pieces)
         self._base: list[int | None] = [None] * len(self._starts)
-        self.directions = allocate(max(sum(s.count for s in states), 1))
         self.copies: list[tuple[int, StateRange]] = []
-        for region, group in groupby(
-            sorted(states, key=lambda s: s.slot), key=lambda s: self._region(s.slot)
-        ):
-            self._place_states(region, list(group), allocate)
+        self.directions = 0
+        for slot, _ in given:
+            self._base[self._region(slot)] = -1
+        if in_place:
+            for s in states:
+                self._base[self._region(s.slot)] = -1
+        else:
+            self._place_directions(states, allocate)
         self._propagate(flat)
         for region, known in enumerate(self._base):
             if known == -1:
                 self._base[region] = allocate(self._size(region))
+
+    def _place_directions(self, states: Sequence[StateRange], allocate: Callable[[int], int]) -> None:
+        self.directions = allocate(max(sum(s.count for s in states), 1))
+        for region, group in groupby(
+            sorted(states, key=lambda s: s.slot), key=lambda s: self._region(s.slot)
+        ):
+            self._place_states(region, list(group), allocate)
 
     def _place_states(self, region: int, states: list[StateRange], allocate: Callable[[int], int]) -> None:
         start = self._starts[region]
@@ -69,6 +89,12 @@ class Tangents:
             return None
         base = self._base[region]
         return None if base is None else base + slot - self._starts[region]
+
+    def pieces(self) -> Iterator[tuple[int, int, int]]:
+        """Yield what has tangents: first slot, first slot of the tangents, how many numbers."""
+        for region, base in enumerate(self._base):
+            if base is not None:
+                yield self._starts[region], base, self._size(region)
 
     def vector(self, value: Vec) -> Vec | None:
         """Return the tangent of an array."""

@@ -145,6 +145,13 @@ class StartValues:
         return dict(zip(self.names[count:], self.values[count:].tolist(), strict=True))
 
 
+def start_slots(segment: Segment) -> NDArray[np.intp]:
+    """Return all slots that a segment reads, and those of its states, in their order."""
+    states = ((states.slot, states.count) for states in segment.states)
+    found = {slot for first, count in (*_read(segment), *states) for slot in range(first, first + count)}
+    return np.array(sorted(slot for slot in found if slot >= SYSTEM_SLOTS), dtype=np.intp)
+
+
 def _actions(segment: Segment) -> Iterator[Action]:
     """Yield every statement of a segment, those of its events too."""
     for body in (segment.body, *(event.body for event in segment.events)):

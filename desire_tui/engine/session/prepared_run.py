@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -11,9 +12,10 @@ import numpy as np
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.passes.replication import LockStepError
+from desire_tui.engine.passes.variational import variational
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
 from desire_tui.engine.runtime.run_record import RunRecord
-from desire_tui.engine.runtime.start_values import StartQuantities
+from desire_tui.engine.runtime.start_values import StartQuantities, start_slots
 from desire_tui.engine.runtime.tables import check_tables
 from desire_tui.engine.session.checkpoint import Checkpoint
 from desire_tui.engine.session.fault_place import with_part
@@ -27,8 +29,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.codegen.lanes.lane_model import LaneModel
-    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.segment import SampleColumn, Segment
     from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.passes.variational import Variational
     from desire_tui.engine.runtime.equations import Equations
     from desire_tui.engine.runtime.pause_and_stop import Control
     from desire_tui.engine.runtime.plan import RunPlan
@@ -91,6 +94,7 @@ class PreparedRun:
         workspace.segments.model(self.segment, rule if self.segment.order else DUMMY)
         self.base = Checkpoint.taken(self.values, runs.simulator)
         self._recording: dict[tuple[str, ...], Segment] = {(): self.segment}
+        self._sensitive: dict[tuple[object, ...], Variational] = {}
         self._states = np.array(
             [slot for s in self.segment.states for slot in range(s.slot, s.slot + s.count)], dtype=np.intp
         )
@@ -115,16 +119,18 @@ class PreparedRun:
         *,
         continues: bool = False,
         explains: bool = True,
+        form: Segment | None = None,
     ) -> tuple[RunRecord, DesireError | None]:
         """Make the run; an error leaves the samples that came before it.
 
         `record` names what is sampled besides the program's own requests; `base` is another place to begin
         at, `checkpoint()` of an earlier run which this one `continues` perhaps. `explains`: of an inf or nan
-        the error says what made it, which takes some milliseconds. DesireError: the run cannot begin.
+        the error says what made it, which takes some milliseconds. `form` is another form of the segment in
+        place of that which samples `record`, such as that of `sensitive`. DesireError: the run cannot begin.
         """
         began = perf_counter()
         workspace, simulator = self._workspace, self._runs.simulator
-        segment = self.sampled(record)
+        segment = form or self.sampled(record)
         self.begin(start, base)
         if segment.recover:
             path = workspace.stash_path("read", lambda _: False)
@@ -236,6 +242,35 @@ class PreparedRun:
         known = self._recording.get(record)
         if known is None:
             known = self._recording[record] = recording(self.segment, record, self.values)
+        return known
+
+    def outputs(self, record: tuple[str, ...]) -> tuple[SampleColumn, ...]:
+        """Return the columns that names stand for: of an array all its elements. DesireError 409."""
+        columns = {column.name: column for column in self.sampled(record).columns}
+        return tuple(
+            column
+            for column in columns.values()
+            if any(column.name == name or column.name.startswith(f"{name}[") for name in record)
+        )
+
+    @cached_property
+    def start_slots(self) -> NDArray[np.intp]:
+        """Where the numbers stand that a run begins with: what the segment reads, and the states."""
+        return start_slots(self.segment)
+
+    def sensitive(
+        self, record: tuple[str, ...], directions: tuple[tuple[str, tuple[int, ...]], ...]
+    ) -> Variational:
+        """Return the segment with the derivatives of what is recorded: see `passes.variational`.
+
+        DesireError 409: a name that is not there. NotDifferentiable: there are no such derivatives.
+        """
+        key = record, directions
+        known = self._sensitive.get(key)
+        if known is None:
+            segment = self.sampled(record)
+            outputs = self.outputs(record)
+            known = self._sensitive[key] = variational(segment, directions, outputs, self.values.room)
         return known
 
     def _assign(self, start: RunStart) -> None:
