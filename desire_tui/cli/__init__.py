@@ -9,6 +9,7 @@ from __future__ import annotations
 from desire_tui.cli.analysis_commands import analysis_commands
 from desire_tui.cli.check_command import check
 from desire_tui.cli.completion_command import completion
+from desire_tui.cli.convert_command import convert
 from desire_tui.cli.group import ide, main
 from desire_tui.cli.information import config, examples, help_
 from desire_tui.cli.run_command import run
@@ -19,6 +20,7 @@ for _command in (
     ide,
     run,
     check,
+    convert,
     help_,
     examples,
     config,

@@ -12,7 +12,7 @@ from importlib import import_module
 
 from desire_tui.engine.diagnostics.wording.entry import Wording
 
-STAGES = ("syntax", "analysis", "script", "run", "solvers", "system", "studies", "analyses")
+STAGES = ("syntax", "analysis", "script", "run", "solvers", "system", "studies", "analyses", "conversion")
 
 
 @cache
