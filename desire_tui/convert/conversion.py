@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from desire_tui.convert.ordering import Circular
 from desire_tui.convert.program_text import program_text
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
     from desire_tui.convert.model import Model
-    from desire_tui.engine.source import Source
 
 ENDINGS = (".ode", ".xml", ".sbml")
 """Names of files that can be converted end so."""
@@ -67,5 +67,7 @@ def _read(source: Source) -> Model:
 
 
 def _renaming(source: Source, old: str, new: str) -> Diagnostic:
-    span = None
+    whole = Span(0, len(source.text))
+    span = source.name_within(whole, old)
+    span = None if span == whole else span
     return Diagnostic("convert-renamed", span, {"old": old, "new": new}, source, "warning")

@@ -28,13 +28,16 @@ def program_text(model: Model) -> tuple[str, dict[str, str]]:
 def _lines(model: Model, names: NameTable) -> Iterator[str]:
     is_map = model.settings.rule == 0
     next_names = {state.name: names.fresh(f"next_{names(state.name)}") for state in model.states if is_map}
+    ended = names.fresh("ended") if any(event.ends_run for event in model.events) else ""
     yield f"-- {model.title} -- converted from {model.origin}"
     yield from comment_lines(model.comment)
     yield from _notes(model, names)
     yield from script_lines(model, names, next_names)
+    if ended:
+        yield f"{ended} = 0"
     yield from run_lines(model.settings)
     yield "DYNAMIC"
-    yield from segment_lines(model, names, next_names)
+    yield from segment_lines(model, names, next_names, ended)
 
 
 def _notes(model: Model, names: NameTable) -> Iterator[str]:

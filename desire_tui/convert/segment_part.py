@@ -27,8 +27,14 @@ SHOWN_MOST = 12
 """How many curves are drawn of a model that does not say which."""
 
 
-def segment_lines(model: Model, names: NameTable, next_names: Mapping[str, str]) -> Iterator[str]:
-    """Yield the lines behind DYNAMIC; `next_names`: what holds the next value of each state of a map."""
+def segment_lines(
+    model: Model, names: NameTable, next_names: Mapping[str, str], ended: str
+) -> Iterator[str]:
+    """Yield the lines behind DYNAMIC.
+
+    `next_names`: what holds the next value of each state of a map; `ended`: what an event sets that ends the
+    run, "" if there is none.
+    """
     yield from joined(f"{names(state)} = {later}" for state, later in next_names.items())
     for noise in model.noises:
         yield from comment_lines(noise.comment)
@@ -44,12 +50,12 @@ def segment_lines(model: Model, names: NameTable, next_names: Mapping[str, str])
         yield from comment_lines(shown.comment)
         yield from _assignment(shown, names)
     yield from _display(model, names)
-    yield from _ends(model, names)
+    yield from _ends(model, names, ended)
     if model.markov:
         yield "step"
         for process in model.markov:
             yield from _markov(process, names)
-    yield from _events(model, names)
+    yield from _events(model, names, ended)
 
 
 def _assignment(quantity: Quantity, names: NameTable) -> Iterator[str]:
@@ -72,7 +78,9 @@ def _display(model: Model, names: NameTable) -> Iterator[str]:
         yield from broken(f"dispt {', '.join(curves)}")
 
 
-def _ends(model: Model, names: NameTable) -> Iterator[str]:
+def _ends(model: Model, names: NameTable, ended: str) -> Iterator[str]:
+    if ended:
+        yield f"term {ended}"
     bound = model.settings.bound
     if bound is not None:
         yield from joined(f"term abs({names(state.name)}) - {number_text(bound)}" for state in model.states)
@@ -100,11 +108,10 @@ def _next_state(process: MarkovProcess, draw: str) -> Expression:
     return result
 
 
-def _events(model: Model, names: NameTable) -> Iterator[str]:
+def _events(model: Model, names: NameTable, ended: str) -> Iterator[str]:
     for event in model.events:
         if event.condition is not None:
             yield from comment_lines(event.comment)
             yield from broken(f"event {expression_text(event.condition, names)}")
-            yield from joined(
-                f"{names(one.name)} = {expression_text(one.value, names)}" for one in event.assignments
-            )
+            block = [f"{names(one.name)} = {expression_text(one.value, names)}" for one in event.assignments]
+            yield from joined([*block, f"{ended} = 1"] if event.ends_run else block)

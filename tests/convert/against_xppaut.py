@@ -14,17 +14,23 @@ import subprocess
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 import desire_tui
-from desire_tui.convert.names import NameTable, names_of
-from desire_tui.convert.xppaut.reader import read_ode
 from desire_tui.convert.conversion import convert
+from desire_tui.convert.program_text import program_text
+from desire_tui.convert.xppaut.reader import read_ode
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.files import read_source
 
+if TYPE_CHECKING:
+    from desire_tui.engine.outputs.run import Run
+
 SECONDS = 60.0
+_IDLE = re.compile(r"^[ \t]*(only\s.*|set\s[^}]*\})", re.MULTILINE | re.IGNORECASE)
+"""Lines that change what `-silent` writes: it runs each `set` by itself."""
 FINER = ",toler=1e-9,atoler=1e-9"
 RESOLVED = 1e-5
 """Of a state's size: what single precision and XPPAUT's interpolation of flags leave."""
@@ -32,7 +38,7 @@ RESOLVED = 1e-5
 
 def by_xppaut(path: Path, more: str = "") -> np.ndarray:
     """Return XPPAUT's samples: the time, states, auxiliary quantities in columns."""
-    text = re.sub(r"^\s*only\s.*$", "", read_source(path).text, flags=re.MULTILINE | re.IGNORECASE)
+    text = _IDLE.sub("", read_source(path).text)
     with TemporaryDirectory() as name:
         folder = Path(name)
         for beside in path.parent.glob("*.tab"):
@@ -41,7 +47,7 @@ def by_xppaut(path: Path, more: str = "") -> np.ndarray:
         head = text[: done.start()] if done else text
         file = folder / "model.ode"
         file.write_text(f"{head.rstrip()}\n{more}\ndone\n")
-        subprocess.run(["xppaut", file.name, "-silent", "-internset", "0", "-outfile", "output.dat"], cwd=folder, timeout=SECONDS,
+        subprocess.run(["xppaut", file.name, "-silent", "-outfile", "output.dat"], cwd=folder, timeout=SECONDS,
                        capture_output=True, check=False)  # fmt: skip
         output = folder / "output.dat"
         if not output.exists():
@@ -60,14 +66,14 @@ def compared(path: Path) -> str:
         first = next(problem for problem in conversion.problems if problem.severity == "error")
         return f"not converted, line {first.line}: {first.message}"
     model = read_ode(source)
-    names = NameTable(names_of(model))
-    states = [names(state.name) for state in model.states]
-    try:
-        run = desire_tui.load(conversion.text).run(record=[*states, "t"], timeout=SECONDS)
-    except (DesireError, ValueError, TypeError) as error:
-        return f"DIFFERS: the program does not run: {str(error).splitlines()[0]}"
-    if run.error is not None:
-        return f"DIFFERS: the run ends: {str(run.error).splitlines()[0]}"
+    model.settings.ordinates = tuple(state.name for state in model.states)
+    model.settings.abscissa = None
+    text, renamed = program_text(model)
+    states = [renamed.get(state.name, state.name) for state in model.states]
+    result = desire_tui.run(text, timeout=SECONDS)
+    if result.error is not None or not result.runs:
+        return f"DIFFERS: the program does not run: {str(result.error).splitlines()[0]}"
+    run = result.runs[-1]
     if re.search(r"\b(white|ran|gauss)\(", conversion.text):
         return f"runs (random): {len(states)} states to t = {run.t[-1]:g}"
     step = model.settings.step
@@ -82,27 +88,34 @@ def compared(path: Path) -> str:
     return _verdict(run, states, theirs, finer)
 
 
-def _verdict(run, states: list[str], theirs: np.ndarray, finer: np.ndarray) -> str:
-    ours = np.column_stack([run[state] for state in states])
-    rows = [int(np.argmin(abs(run.t - t))) for t in theirs[:, 0]]
-    near = np.array(
-        [abs(run.t[row] - t) < 1e-4 * max(1.0, abs(t)) for row, t in zip(rows, theirs[:, 0], strict=True)]
+def _verdict(run: Run, states: list[str], theirs: np.ndarray, finer: np.ndarray) -> str:
+    """Compare at the times that all have, up to where XPPAUT's own error is a tenth of a state's size."""
+    times = theirs[:, 0]
+    rows, near = _at(run.t, times)
+    finer_rows, finer_near = _at(finer[:, 0], times)
+    used = np.flatnonzero(near & finer_near)
+    finer = finer[finer_rows]
+    width = len(states) + 1
+    size = np.maximum(np.max(abs(theirs[used, 1:width]), axis=0), 1e-30)
+    own = np.maximum.accumulate(abs(theirs[used, 1:width] - finer[used, 1:width]))
+    lost = np.flatnonzero((own > 0.1 * size).any(axis=1))
+    count = int(lost[0]) if len(lost) else len(used)
+    if count < 2:
+        return f"XPPAUT is beyond comparison: {len(used)} common times, own error at once a tenth"
+    off = abs(np.column_stack([run[state] for state in states])[rows[used]] - finer[used, 1:width])
+    ratio = (off / (3 * own + RESOLVED * size))[:count]
+    worst = np.unravel_index(int(np.argmax(np.nan_to_num(ratio, nan=np.inf))), ratio.shape)
+    verdict = "agrees" if ratio[worst] <= 1 else "DIFFERS"
+    return (
+        f"{verdict}: {len(states)} states, {count} of {len(times)} times, worst {states[worst[1]]} "
+        f"{ratio[worst]:.2g} of the bound at t = {times[used[worst[0]]]:g}"
     )
-    count = min(len(theirs), len(finer))
-    used = np.flatnonzero(near[:count])
-    if len(used) < 2:
-        return "DIFFERS: no common times"
-    worst = (0.0, "", 0.0)
-    for column, state in enumerate(states, 1):
-        size = max(float(np.max(abs(theirs[used, column]))), 1e-30)
-        own = np.maximum.accumulate(abs(theirs[used, column] - finer[used, column]))
-        off = abs(ours[np.array(rows)[used], column - 1] - finer[used, column])
-        ratio = off / (3 * own + RESOLVED * size)
-        at = int(np.argmax(ratio))
-        if not ratio[at] <= worst[0]:
-            worst = (float(ratio[at]), state, float(theirs[used[at], 0]))
-    verdict = "agrees" if worst[0] <= 1 else "DIFFERS"
-    return f"{verdict}: {len(states)} states, {len(used)} of {len(theirs)} times, worst {worst[1]} {worst[0]:.2g} at t = {worst[2]:g}"
+
+
+def _at(t: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the rows of `t` nearest to some times, and whether they are these times (in single precision)."""
+    rows = np.array([int(np.argmin(abs(t - one))) for one in times])
+    return rows, abs(t[rows] - times) < 1e-6 * np.maximum(1.0, abs(times))
 
 
 def main(names: list[str]) -> int:
