@@ -12,7 +12,7 @@ from desire_tui.cli.group import PROGRAMS
 
 @click.command()
 @click.argument("file", type=PROGRAMS)
-@click.option("-o", "--output", metavar="FILE", type=click.Path(writable=False, readable=False, allow_dash=True),
+@click.option("-o", "--output", metavar="FILE", type=click.Path(allow_dash=True),
               help="Where the program goes; - or nothing: to standard output.")  # fmt: skip
 @click.option(
     "--partial", is_flag=True, help="Write the program even if parts of the model are missing in it."

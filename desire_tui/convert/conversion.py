@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from desire_tui.convert.ordering import Circular
+from desire_tui.convert.ordering import CircularError
 from desire_tui.convert.program_text import program_text
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.source import Source, Span
@@ -47,7 +47,7 @@ def convert(source: Source) -> Conversion:
     model = _read(source)
     try:
         text, renamed = program_text(model)
-    except Circular as circle:
+    except CircularError as circle:
         facts = {"what": circle.names[0], "reason": f"these wait for each other: {circle}"}
         raise DesireError(*model.problems, Diagnostic("convert-part", None, facts, source)) from None
     notes = [_renaming(source, old, new) for old, new in renamed.items()]
@@ -55,10 +55,6 @@ def convert(source: Source) -> Conversion:
 
 
 def _read(source: Source) -> Model:
-    if source.text.lstrip("\ufeff \t\r\n").startswith("<"):
-        from desire_tui.convert.sbml.reader import read_sbml
-
-        return read_sbml(source)
     if not source.name.lower().endswith(".ode"):
         raise DesireError(Diagnostic("convert-kind", facts={"path": source.file_name}))
     from desire_tui.convert.xppaut.reader import read_ode
@@ -68,6 +64,7 @@ def _read(source: Source) -> Model:
 
 def _renaming(source: Source, old: str, new: str) -> Diagnostic:
     whole = Span(0, len(source.text))
-    span = source.name_within(whole, old)
-    span = None if span == whole else span
-    return Diagnostic("convert-renamed", span, {"old": old, "new": new}, source, "warning")
+    place = source.name_within(whole, old)
+    return Diagnostic(
+        "convert-renamed", None if place == whole else place, {"old": old, "new": new}, source, "warning"
+    )

@@ -20,7 +20,7 @@ def comment_lines(comment: str) -> Iterator[str]:
 def broken(statement: str) -> Iterator[str]:
     """Yield a statement in lines of at most WIDTH characters, where it has places to break it.
 
-    A line goes on in the next if it ends in an operator, or in `_` behind a comma. Texts in quotes stay whole.
+    A line goes on in the next if it ends in an operator, or in `_` behind a comma. Quoted texts stay whole.
     """
     rest, indent = statement, ""
     while len(indent) + len(rest) > WIDTH:

@@ -40,6 +40,7 @@ class NameTable:
         self.renamed = {old: new for old, new in self._given.items() if old != new}
 
     def __call__(self, name: str) -> str:
+        """Return the program's name for one of the model's."""
         return self._given.get(name, name)
 
     def fresh(self, wanted: str) -> str:
@@ -53,7 +54,7 @@ class NameTable:
 
 
 def _spelled(name: str) -> str:
-    """Return a name made of letters, digits and underscores that begins with a letter and ends in none `_`."""
+    """Return a name of letters, digits and underscores that begins with a letter and does not end in `_`."""
     plain = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_") or "q"
     return plain if plain[0].isalpha() else f"q{plain}"
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from desire_tui.convert.model import Function
 
 
-class Circular(Exception):
+class CircularError(Exception):
     """Quantities that wait for each other: `names`, in the order in which each waits for the next."""
 
     def __init__(self, names: list[str]) -> None:
@@ -39,7 +39,7 @@ def needed_by(expression: Expression, functions: Mapping[str, Function]) -> set[
 
 
 def in_order(needs: Mapping[str, set[str]]) -> list[str]:
-    """Return the names so that each stands behind those it needs, else in the order given. Circular.
+    """Return the names so that each stands behind those it needs, else in the order given. CircularError.
 
     What is needed and has no entry of its own is there already.
     """
@@ -59,7 +59,7 @@ def in_order(needs: Mapping[str, set[str]]) -> list[str]:
                 del path[name]
             elif other in path:
                 waiting = list(path)
-                raise Circular([*waiting[waiting.index(other) :], other])
+                raise CircularError([*waiting[waiting.index(other) :], other])
             else:
                 path[other] = waiting_for(other)
     return list(done)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def program_text(model: Model) -> tuple[str, dict[str, str]]:
     """Return the program, and what it calls otherwise than the model's file: old names with new ones.
 
-    Circular: parameters or initial values wait for each other.
+    CircularError: parameters or initial values wait for each other.
     """
     names = NameTable(names_of(model))
     return "\n".join(_lines(model, names)) + "\n", names.renamed

@@ -16,11 +16,14 @@ if TYPE_CHECKING:
     from desire_tui.convert.names import NameTable
 
 _BEYOND = 1e6
-"""How far a table's outer lines are drawn out, in widths of the table: `func1` is constant beyond its ends."""
+"""How far a table's outer lines are drawn out, in its widths: `func1` is constant beyond its ends."""
 
 
 def script_lines(model: Model, names: NameTable, next_names: Mapping[str, str]) -> Iterator[str]:
-    """Yield the script's lines; `next_names`: what holds the next value of each state of a map. Circular."""
+    """Yield the script's lines. CircularError.
+
+    `next_names`: what holds the next value of each state of a map.
+    """
     for function in model.functions:
         yield from comment_lines(function.comment)
         yield from broken(_function(function, names))
@@ -52,7 +55,7 @@ def _assignments(preset: Preset, names: NameTable) -> Iterator[str]:
 
 
 def beginnings(model: Model) -> list[Quantity | Table]:
-    """Return what has a value before the run, each behind what it is computed from. Circular.
+    """Return what has a value before the run, each behind what it is computed from. CircularError.
 
     Those are parameters, tables and starts of states; variables only where one of these needs them.
     """

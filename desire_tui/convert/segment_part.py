@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 from desire_tui.convert.expression_text import expression_text, number_text
 from desire_tui.convert.expressions import (
+    ZERO,
     Binary,
     Choice,
     Expression,
     Name,
     Relation,
-    ZERO,
     number,
     total,
 )
@@ -27,9 +27,7 @@ SHOWN_MOST = 12
 """How many curves are drawn of a model that does not say which."""
 
 
-def segment_lines(
-    model: Model, names: NameTable, next_names: Mapping[str, str], ended: str
-) -> Iterator[str]:
+def segment_lines(model: Model, names: NameTable, next_names: Mapping[str, str], ended: str) -> Iterator[str]:
     """Yield the lines behind DYNAMIC.
 
     `next_names`: what holds the next value of each state of a map; `ended`: what an event sets that ends the

@@ -123,10 +123,11 @@ def main(names: list[str]) -> int:
     results = {}
     for name in names:
         results[name] = compared(Path(name))
-        print(f"{Path(name).name}: {results[name]}", flush=True)
+        sys.stdout.write(f"{Path(name).name}: {results[name]}\n")
+        sys.stdout.flush()
     kinds = ("agrees", "runs", "DIFFERS", "not converted", "XPPAUT")
     counts = {kind: sum(line.startswith(kind) for line in results.values()) for kind in kinds}
-    print(", ".join(f"{kind} {count}" for kind, count in counts.items()))
+    sys.stdout.write(", ".join(f"{kind} {count}" for kind, count in counts.items()) + "\n")
     return 1 if counts["DIFFERS"] else 0
 
 

@@ -5,7 +5,7 @@ The files in `ode/` are our own, written from published equations.
 
 from __future__ import annotations
 
-from math import cos, exp, log, pi, sin, sqrt, tanh
+from math import cos, exp, log, sin, sqrt, tanh
 from pathlib import Path
 
 import numpy as np
@@ -119,35 +119,37 @@ def test_smooth_models_against_scipy(name):
 def test_a_ball_against_its_parabolas():
     """Impacts come with the speeds c·0.8^k."""
     g, keep, y, v, t = 9.8, 0.8, 50.0, 0.0, 0.0
-    flight = sqrt(2*y/g)
+    flight = sqrt(2 * y / g)
     while t + flight < 10:
         t += flight
-        v = keep*(abs(v - g*flight) if y else v)
-        y, flight = 0.0, 2*v/g
+        v = keep * (abs(v - g * flight) if y else v)
+        y, flight = 0.0, 2 * v / g
     rest = 10 - t
-    assert final("bouncing_ball", "y", "v") == pytest.approx([y + v*rest - g*rest**2/2, v - g*rest], rel=1e-6)
+    assert final("bouncing_ball", "y", "v") == pytest.approx(
+        [y + v * rest - g * rest**2 / 2, v - g * rest], rel=1e-6
+    )
 
 
 def test_an_integrator_that_fires_at_multiples_of_ln_2():
-    count = int(10/log(2))
+    count = int(10 / log(2))
     assert final("integrate_and_fire", "n", "v") == pytest.approx(
-        [count, 2*(1 - exp(-(10 - count*log(2))))], rel=1e-6
+        [count, 2 * (1 - exp(-(10 - count * log(2))))], rel=1e-6
     )
 
 
 def test_flags_with_hysteresis_and_one_that_stops():
     """On for 10·ln(12/8), off for 10·ln(22/18) from the first rise on; `arret` ends the run at 40."""
-    t, q, on = 10*log(12/8), 22.0, 0
+    t, q, on = 10 * log(12 / 8), 22.0, 0
     while True:
-        span = 10*log(22/18) if not on else 10*log(12/8)
+        span = 10 * log(22 / 18) if not on else 10 * log(12 / 8)
         if t + span > 40:
             break
         t, q, on = t + span, 18.0 if not on else 22.0, 1 - on
-    goal = 30.0*on
+    goal = 30.0 * on
     run = desire_tui.load(converted("thermostat").text).run(record=["q", "on"])
     assert run.t[-1] == pytest.approx(40, abs=0.02)
     assert run["on"][-1] == on
-    assert run["q"][-1] == pytest.approx(goal + (q - goal)*exp(-(run.t[-1] - t)/10), rel=1e-6)
+    assert run["q"][-1] == pytest.approx(goal + (q - goal) * exp(-(run.t[-1] - t) / 10), rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -167,39 +169,39 @@ def test_maps_are_iterated_together_and_start_at_t_0():
     x, right = 0.3, []
     for _ in range(41):
         right.append(x)
-        x = 3.7*x*(1 - x)
+        x = 3.7 * x * (1 - x)
     assert run["x"] == pytest.approx(right, rel=1e-9)
-    assert run["double"] == pytest.approx(2*run["x"])
+    assert run["double"] == pytest.approx(2 * run["x"])
     assert list(run.t) == list(range(41))
     x, y = 0.1, 0.1
     for _ in range(30):
-        x, y = 1 - 1.4*x*x + y, 0.3*x
+        x, y = 1 - 1.4 * x * x + y, 0.3 * x
     assert final("henon", "x", "y") == pytest.approx([x, y], rel=1e-9)
 
 
 def test_arrays_are_written_out():
     matrix = np.diag(np.full(11, -2.0)) + np.diag(np.ones(10), 1) + np.diag(np.ones(10), -1)
     assert final("heat_rod", *(f"u{k}" for k in range(11))) == pytest.approx(
-        expm(2*matrix) @ np.ones(11), rel=1e-7
+        expm(2 * matrix) @ np.ones(11), rel=1e-7
     )
     assert final("repeated_block", "x1", "x2", "x3") == pytest.approx(
-        [cos(5*sqrt(k)) for k in (1, 2, 3)], rel=1e-6
+        [cos(5 * sqrt(k)) for k in (1, 2, 3)], rel=1e-6
     )
 
 
 def test_tables_run_straight_between_and_beyond_their_points():
     """Chords of t² at 0, 0.5 … 2: their integrals are sums of trapezes."""
-    upto_2 = sum((a*a + b*b)/4 for a, b in ((0, 0.5), (0.5, 1), (1, 1.5), (1.5, 2)))
-    beyond = (4 + 7.5)/2
-    assert final("table_formula", "x", "y") == pytest.approx([upto_2 + beyond, -0.5*9/2], rel=1e-5)
-    assert final("table_file", "x") == pytest.approx([(1 + 3)/2 + (3 + 2)/2 + (2 + 1)/2], rel=1e-5)
+    upto_2 = sum((a * a + b * b) / 4 for a, b in ((0, 0.5), (0.5, 1), (1, 1.5), (1.5, 2)))
+    beyond = (4 + 7.5) / 2
+    assert final("table_formula", "x", "y") == pytest.approx([upto_2 + beyond, -0.5 * 9 / 2], rel=1e-5)
+    assert final("table_file", "x") == pytest.approx([(1 + 3) / 2 + (3 + 2) / 2 + (2 + 1) / 2], rel=1e-5)
 
 
 def test_presets_are_procedures_of_the_script():
     text = converted("presets").text
     called = text.replace("\ndrun\n", "\ncall set_long\ndrun\n").replace("\nx = 0.5", "\nx = 0.5 | v = 0")
     run = desire_tui.load(called).run(record="x", check=True)
-    right = solve_ivp(lambda _, x: (x[1], -9.81/4*sin(x[0])), (0, 5), [1, 0], rtol=1e-10, atol=1e-10)
+    right = solve_ivp(lambda _, x: (x[1], -9.81 / 4 * sin(x[0])), (0, 5), [1, 0], rtol=1e-10, atol=1e-10)
     assert run["x"][-1] == pytest.approx(right.y[0, -1], rel=1e-6)
     assert "PROCEDURE set_moon" in text
     assert "TMAX = 20" in text
@@ -212,7 +214,7 @@ def test_names_that_mean_something_in_a_program_are_others_and_listed():
     assert [p.line for p in conversion.problems if p.key == "convert-renamed"] == [2, 2, 4]
     run = desire_tui.load(conversion.text).run(record="v", check=True)
     assert run["v"][-1] == pytest.approx(exp(-2), rel=1e-6)
-    assert run["dt"][-1] == pytest.approx(exp(-2)/2, rel=1e-6)
+    assert run["dt"][-1] == pytest.approx(exp(-2) / 2, rel=1e-6)
 
 
 def test_operators_bind_as_in_xppaut():
@@ -236,7 +238,7 @@ def test_noise_has_its_variance():
 
 def test_a_chain_is_open_for_its_share_of_the_time():
     """Rates 2 and 1: open for 2/3 of the time; the standard error over 2000 units is 0.0086."""
-    assert final("channel", "x")[0]/2000 == pytest.approx(2/3, abs=0.03)
+    assert final("channel", "x")[0] / 2000 == pytest.approx(2 / 3, abs=0.03)
 
 
 @pytest.mark.parametrize(

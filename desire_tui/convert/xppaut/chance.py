@@ -31,13 +31,13 @@ def processes(building: Building) -> Iterator[MarkovProcess]:
             if row.kind != "matrix row" or len(cells) >= count * count:
                 break
             cells.extend(braced(row.line.text))
-            building.rates_read.append(row)
+            building.used.append(row)
         if len(cells) != count * count:
             building.refuse(
                 one.line, f"{count * count} rates in braces should follow, there are {len(cells)}"
             )
             continue
         rates = [
-            [building.expression(cells[i * count + k], one.line) for k in range(count)] for i in range(count)
+            [building.formula(cells[i * count + k], one.line) for k in range(count)] for i in range(count)
         ]
         yield MarkovProcess(building.spelling[words[0].lower()], rates, comment=one.line.comment)

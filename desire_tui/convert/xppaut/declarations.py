@@ -23,20 +23,18 @@ _WORDS: tuple[tuple[str, Kind], ...] = (
 )  # fmt: skip
 """Words that begin a line. XPPAUT looks at their first letters only; one letter stands for the first here."""
 
-_EQUATIONS: tuple[tuple[re.Pattern[str], Kind], ...] = tuple(
-    (re.compile(pattern, re.IGNORECASE | re.ASCII), kind)
-    for pattern, kind in (
-        (r"(?P<name>[a-z_]\w*)\s*'\s*=(?P<right>.*)", "rate"),
-        (r"d(?P<name>[a-z_]\w*)\s*/\s*dt\s*=(?P<right>.*)", "rate"),
-        (r"(?P<name>[a-z_]\w*)\s*\(\s*t\s*\+\s*1\s*\)\s*=(?P<right>.*)", "next"),
-        (r"(?P<name>[a-z_]\w*)\s*\(\s*0\s*\)\s*=(?P<right>.*)", "initial"),
-        (r"(?P<name>[a-z_]\w*)\s*\(\s*t\s*\)\s*=(?P<right>.*\bint\s*[\[{].*)", "volterra"),
-        (r"(?P<name>[a-z_]\w*)\s*\((?P<dummies>[^()]*)\)\s*=(?P<right>.*)", "function"),
-        (r"0\s*=(?P<name>)(?P<right>.*)", "algebraic"),
-        (r"!\s*(?P<name>[a-z_]\w*)\s*=(?P<right>.*)", "derived"),
-        (r"(?P<name>[a-z_]\w*)\s*=(?P<right>.*)", "fixed"),
-    )
+_FORMS: tuple[tuple[str, Kind], ...] = (
+    (r"(?P<name>[a-z_]\w*)\s*'\s*=(?P<right>.*)", "rate"),
+    (r"d(?P<name>[a-z_]\w*)\s*/\s*dt\s*=(?P<right>.*)", "rate"),
+    (r"(?P<name>[a-z_]\w*)\s*\(\s*t\s*\+\s*1\s*\)\s*=(?P<right>.*)", "next"),
+    (r"(?P<name>[a-z_]\w*)\s*\(\s*0\s*\)\s*=(?P<right>.*)", "initial"),
+    (r"(?P<name>[a-z_]\w*)\s*\(\s*t\s*\)\s*=(?P<right>.*\bint\s*[\[{].*)", "volterra"),
+    (r"(?P<name>[a-z_]\w*)\s*\((?P<dummies>[^()]*)\)\s*=(?P<right>.*)", "function"),
+    (r"0\s*=(?P<name>)(?P<right>.*)", "algebraic"),
+    (r"!\s*(?P<name>[a-z_]\w*)\s*=(?P<right>.*)", "derived"),
+    (r"(?P<name>[a-z_]\w*)\s*=(?P<right>.*)", "fixed"),
 )
+_EQUATIONS = tuple((re.compile(pattern, re.IGNORECASE | re.ASCII), kind) for pattern, kind in _FORMS)
 _WORD = re.compile(r"([a-z]+)\s+(\S.*)", re.IGNORECASE)
 
 

@@ -37,7 +37,7 @@ def _of(one: Declaration, building: Building) -> Iterator[Event]:
         building.refuse(line, "flags in maps have no counterpart here")
         return
     sign = int(found[1])
-    condition = building.expression((found[2] or found[3]).strip(), line)
+    condition = building.formula((found[2] or found[3]).strip(), line)
     assignments: list[Quantity] = []
     ends_run = False
     for part in found[4].split(";"):
@@ -53,7 +53,7 @@ def _of(one: Declaration, building: Building) -> Iterator[Event]:
             building.refuse(line, f"'{part.strip()}' assigns to nothing that is declared")
         else:
             target = building.spelling[key]
-            assignments.append(Quantity(target, building.expression(formula, line)))
+            assignments.append(Quantity(target, building.formula(formula, line)))
     if sign == 0 and condition == Name("t"):  # the usual way to compute initial values
         yield Event(None, assignments, line.comment, at_start=Relation("=", condition, number(0.0)))
         return

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-
 if TYPE_CHECKING:
     from desire_tui.convert.model import Settings
 
@@ -21,10 +20,14 @@ SAME_FORMULA = frozenset({"discrete", "euler", "modeuler", "rungekutta"})
 TOLERANCES = {4: 1e-6, 9: 1e-6, 14: 1e-8}
 """What is asked of rules that test their steps where the file asks for less, or nothing.
 
-Rule 14 errs more in the long run than XPPAUT's stiff methods with the same tolerance: it gets a hundredth of it.
+Rule 14 errs more in the long run than XPPAUT's stiff methods with the same tolerance: it gets a
+hundredth of it.
 """
-_NUMBERS = frozenset("total dt t0 trans transient njmp nout bound bounds seed toler tol tolerance atoler atol xlo "
-                     "xhi ylo yhi dtmin dtmax delay".split())  # fmt: skip
+_NUMBERS = frozenset({
+    "total", "dt", "t0", "trans", "transient", "njmp", "nout", "bound", "bounds", "seed", "toler", "tol",
+    "tolerance",
+    "atoler", "atol", "xlo", "xhi", "ylo", "yhi", "dtmin", "dtmax", "delay",
+})  # fmt: skip
 _WORDS = frozenset({"meth", "method", "xp", "xplot", "yp", "yplot"})
 
 
@@ -36,13 +39,13 @@ class Options:
         self._words: dict[str, str] = {}
 
     def read(self, name: str, value: str) -> str | None:
-        """Take an option; return why it has no meaning here, or None."""
+        """Take an option; return what is to be said of it: "" that it has no meaning here, None nothing."""
         key = name.lower()
         if key in _WORDS:
             self._words[key] = value.lower()
             return None if not key.startswith("meth") else self._method_problem(value.lower())
         if key not in _NUMBERS:
-            return "it has no meaning here"
+            return ""
         try:
             self._numbers[key] = float(value)
         except ValueError:
@@ -102,12 +105,12 @@ class Options:
             settings.transient = float(round(settings.transient))
             every = 1
         shown = total - settings.transient
-        settings.samples = max(2, round(shown/(abs(step)*every)) + 1)
-        settings.step = min(abs(step), shown/(settings.samples - 1)) if shown > 0 else abs(step)
+        settings.samples = max(2, round(shown / (abs(step) * every)) + 1)
+        settings.step = min(abs(step), shown / (settings.samples - 1)) if shown > 0 else abs(step)
         settings.duration = total if step > 0 else -total
         if rule in TOLERANCES:
             asked = self._number("toler", "tol", "tolerance") or 1.0
-            settings.tolerance = min(TOLERANCES[rule]/TOLERANCES[4]*asked, TOLERANCES[rule])
+            settings.tolerance = min(TOLERANCES[rule] / TOLERANCES[4] * asked, TOLERANCES[rule])
         seed = self._number("seed")
         settings.seed = None if seed is None else round(seed)
         settings.bound = self._number("bound", "bounds")
@@ -142,5 +145,3 @@ def preset_setting(name: str, value: float) -> tuple[str, float] | None:
             return "ERMAX", value
         case _:
             return None
-
-
