@@ -75,6 +75,8 @@ def test_command_lines_in_the_documentation_work(commands, shown, tmp_path, monk
     del shown
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     monkeypatch.chdir(tmp_path)
+    for model in DOCS.glob("*.ode"):
+        (tmp_path / model.name).symlink_to(model)
     targets = set(re.findall(r"^(\w+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
     for line in commands.splitlines():
         words = shlex.split(line, comments=True)
@@ -86,6 +88,7 @@ def test_command_lines_in_the_documentation_work(commands, shown, tmp_path, monk
             ["help"],
             ["completion"],
             ["study"],
+            ["convert"],
         ):
             result = CliRunner().invoke(main, words[1:])
             assert result.exit_code == 0, f"{line}\n{result.output}"

@@ -71,6 +71,12 @@ ELSEWHERE = {
     "analysis-form": "tests/analysis/test_request.py::test_mistakes_are_told_at_their_place",
     "analysis-failed": "tests/analysis/test_spectrum.py::test_a_run_of_few_samples_says_nothing",
     "analysis-library": "tests/analysis/test_front_ends.py::test_a_library_that_is_missing_is_named",
+    "convert-part": (
+        "tests/convert/test_command.py::test_what_is_missing_keeps_a_program_back_unless_it_is_asked_for"
+    ),
+    "convert-note": "tests/convert/test_command.py::test_options_without_a_meaning_are_listed_and_methods_told",
+    "convert-renamed": "tests/convert/test_command.py::test_a_converted_program_runs_and_writes_its_samples",
+    "convert-kind": "tests/convert/test_command.py::test_files_that_are_no_models",
     "file-binary": "tests/batch/test_headless.py::test_files_that_are_no_programs",
 }
 """Messages that no program text alone produces, and the tests that do."""
