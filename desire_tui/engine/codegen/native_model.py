@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
+from desire_tui.engine.codegen.lanes.replica_steps import replica_steps
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
 from desire_tui.engine.codegen.loop.looks import looks
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
@@ -18,7 +19,9 @@ from desire_tui.engine.codegen.scalar.slot_usage import survey
 from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.switching.setup import Watcher
+from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
+from desire_tui.engine.passes.replicas import replicated
 from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
@@ -79,6 +82,7 @@ class NativeModel:
         for kind in PASSES:
             setattr(self.context, kind, self._tables.addresses[kind])
         self._kept: list[object] = []
+        self._no_pass = ctypes.c_uint64(0)
         self._stage_memory()
         self._watcher: Watcher | None = None
         self._watched = NOTHING
@@ -148,7 +152,23 @@ class NativeModel:
         yield
         if not small:
             yield from self._tables.improve()
+            yield from self._take_whole_steps()
         self.improved = True
+
+    def _take_whole_steps(self) -> Iterator[None]:
+        """Compile the whole step of a model of replicas, and put it in the place of passes."""
+        if self._segment.order == 0 or rule_numbered(self._rule).kind != "fixed":
+            return
+        model = replicated(self._passes, self._segment.states)
+        if model is None:
+            return
+        step = self._store.fast(replica_steps(model, TABLEAUS[self._rule]), slp=False)
+        self._kept.append(step)
+        self.context.whole_step = (
+            step.address
+        )  # first: who still finds a pass in the table computes it in vain
+        self.context.step = ctypes.addressof(self._no_pass)
+        yield
 
     def _is_small(self) -> bool:
         if self._segment.order > SMALL or len(self._segment.body) > SMALL:

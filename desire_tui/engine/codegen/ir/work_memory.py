@@ -59,6 +59,7 @@ class WorkMemory(ctypes.Structure):
         ("modes_frozen", ctypes.c_uint64),  # rows of modes (`lowered.switching.ModeSlots`)
         ("modes_first", ctypes.c_uint64),
         ("modes_second", ctypes.c_uint64),
+        ("whole_step", ctypes.c_uint64),  # `lanes.replica_steps`: takes the place of stages; or 0
     )
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.lanes.lane_cells import Number
+from desire_tui.engine.codegen.lanes.lane_stages import advance, save
 from desire_tui.engine.codegen.loop.fixed_steps import TOLERANCE
-from desire_tui.engine.codegen.loop.stage_sums import scaled, weighted
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.lanes.lane_points import LanePoints
     from desire_tui.engine.codegen.lanes.lane_variables import LaneVariables
-    from desire_tui.engine.integration.tableaus import Row, Tableau
+    from desire_tui.engine.integration.tableaus import Tableau
 
 _CHECK_EVERY = 1024
 """Steps between two looks for inf and nan inside a communication interval, as in `loop.fixed_steps`."""
@@ -55,14 +55,13 @@ class LaneSteps:
     def _step(self) -> None:
         text, cells, tableau = self.text, self.cells, self.tableau
         text.begin("step")
-        for number, slot in enumerate(self.states):
-            cells.keep("x0", number, cells.load(slot))
+        save(cells, self.states)
         dt = self.memory.load("dt")
         for stage in range(1, tableau.stages):
-            self._advance(tableau.a[stage], dt)
+            advance(cells, self.states, tableau.a[stage], dt)
             cells.store(T, Number(self._counted_time(float(tableau.c[stage]), dt), wide=False))
             self.loop.run_pass("derivative", stage + 1)
-        self._advance(tableau.b, dt)
+        advance(cells, self.states, tableau.b, dt)
         cells.store(T, Number(self._counted_time(1.0, dt), wide=False))
         for name in ("k", "steps"):
             self.loop.put("i64", name, text.op(f"add i64 {self.loop.get('i64', name)}, 1"))
@@ -78,17 +77,6 @@ class LaneSteps:
     def _counted_time(self, c: float, dt: str) -> str:
         k = self.text.op(f"sitofp i64 {self.loop.get('i64', 'k')} to double")
         return self.one.add(self.memory.load("t_start"), self.one.mul(self.one.add(k, self.one.const(c)), dt))
-
-    def _advance(self, row: Row, dt: str) -> None:
-        """States ← saved states + dt·Σ row·k."""
-        factor = scaled(self.one, row, dt)
-        for number, slot in enumerate(self.states):
-            wide = slot in self.cells.differing
-            lanes = self.runs if wide else self.one
-            total = weighted(lanes, row, lambda stage, n=number: self.cells.kept(f"k{stage}", n).name)  # type: ignore[misc]  # n=: bound now
-            by = self.runs.splat(factor) if wide else factor
-            moved = lanes.add(self.cells.kept("x0", number).name, lanes.mul(by, total))
-            self.cells.store(slot, Number(moved, wide))
 
     def _attend(self) -> None:
         text = self.text

@@ -97,6 +97,10 @@ class ArrayStorage:
 
         self._states(one)
 
+    def whole_step(self) -> str:
+        """Read it: models of replicas have one as soon as it is compiled."""
+        return self.context.load("whole_step")
+
     def restore(self) -> None:
         """States ← saved states."""
         self._states(lambda lanes, i, base, at: put(lanes, base, at, fetch(lanes, "%x0", i)))

@@ -32,15 +32,34 @@ class FixedStep:
         else:
             driver.put("h", driver.get("dt_base"))
         dt = driver.get("h")
+        whole = storage.whole_step()
+        if whole:
+            self._whole(whole, dt)
+        storage.save()
         for stage in range(1, tableau.stages):
             storage.advance(tableau.a[stage], dt, last=False)
             storage.store(T, driver.counted_time(float(tableau.c[stage]), dt))
             driver.run_pass("derivative", stage + 1)
         storage.advance(tableau.b, dt, last=True)
+        if whole:
+            driver.text.jump("step.taken")
+            driver.text.begin("step.taken")
         storage.store(T, driver.counted_time(1.0, dt))
         driver.count("k")
         driver.count("steps")
         driver.arrived(self._reached(), check_every=_CHECK_EVERY)
+
+    def _whole(self, function: str, dt: str) -> None:
+        """Let a function take the step, if there is one."""
+        driver, text = self.driver, self.driver.text
+        text.branch(text.op(f"icmp eq ptr {function}, null"), "step.stages", "step.whole")
+        text.begin("step.whole")
+        k = text.op(f"sitofp i64 {driver.get('k')} to double")
+        text.do(f"call void {function}(ptr %v, double {driver.get('t_base')}, double {k}, double {dt})")
+        for _ in range(1, self.tableau.stages):
+            driver.count("calls")
+        text.jump("step.taken")
+        text.begin("step.stages")
 
     def _reached(self) -> str:
         lanes = self.driver.lanes

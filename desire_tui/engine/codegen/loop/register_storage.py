@@ -106,6 +106,10 @@ class RegisterStorage:
             total = weighted(self.lanes, row, lambda stage, n=number: self._k(stage, n))  # type: ignore[misc]  # n=: bound now
             self.cells.store(slot, self.lanes.add(self._x0(number), self.lanes.mul(factor, total)))
 
+    def whole_step(self) -> str:
+        """Return nothing: all stages are in this function."""
+        return ""
+
     def restore(self) -> None:
         """States ← saved states."""
         for number, slot in enumerate(self.states):

@@ -192,12 +192,14 @@ class Driver(LoopFrame):
         if self.watched:
             write_departure(self)
         self.text.begin("step")
+        if not self.watched and not tableau.variable:
+            FixedStep(self, tableau).write()
+            return
         self.storage.save()
         if self.watched:
             SwitchedStep(self, tableau, self.watches).write()
-            return
-        step = VariableStep if tableau.variable else FixedStep
-        step(self, tableau).write()
+        else:
+            VariableStep(self, tableau).write()
 
     def _attend(self) -> None:
         """Write what happens where a step has ended and something is to be looked at."""

@@ -39,6 +39,13 @@ class Storage(Protocol):
     def advance(self, row: Row, dt: str, *, last: bool) -> None:
         """States ← saved states + dt·Σ row·k."""
 
+    def whole_step(self) -> str:
+        """Return the address of what takes a fixed step as a whole, perhaps null; "": there is no such thing.
+
+        Called with the values, t_base, k and DT.
+        """
+        ...
+
     def restore(self) -> None:
         """States ← saved states."""
 

@@ -1,0 +1,139 @@
+"""A whole step of a vector model of replicas, block by block, in registers.
+
+All stages of some replicas are computed before the next ones are read. The numbers are those of passes over
+whole vectors: the same operations, the same functions of the vector library.
+"""
+
+from __future__ import annotations
+
+from hashlib import blake2b
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir.lanes import Lanes
+from desire_tui.engine.codegen.ir.text import IrText
+from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.jit.piece import Piece
+from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
+from desire_tui.engine.codegen.lanes.lane_expressions import LaneExpressions
+from desire_tui.engine.codegen.lanes.lane_stages import advance, save
+from desire_tui.engine.codegen.lanes.replicas import Replicas
+from desire_tui.engine.lowered.statements import Set
+from desire_tui.engine.values import T
+
+if TYPE_CHECKING:
+    from desire_tui.engine.integration.tableaus import Tableau
+    from desire_tui.engine.passes.replicas import ReplicatedModel
+
+
+def replica_steps(model: ReplicatedModel, tableau: Tableau) -> Piece:
+    """Return `void NAME(ptr values, double t_base, double k, double dt)`: the step from t_base + k·dt."""
+    return _ReplicaSteps(model, tableau).piece()
+
+
+class _ReplicaSteps:
+    def __init__(self, model: ReplicatedModel, tableau: Tableau) -> None:
+        self.model, self.tableau, self.text = model, tableau, IrText()
+        piece = machine().width
+        self.runs = Replicas(self.text, 2 * piece, piece)
+        self.one = Lanes(self.text)
+        vectors = frozenset((*model.states, *model.read, *model.assigned))
+        self.scalars = sorted(model.scalars | {T})
+        self.cells = LaneCells(
+            self.text, self.runs, {*vectors, *self.scalars}, vectors, model.states, tableau.stages
+        )
+
+    def piece(self) -> Piece:
+        """Write everything."""
+        text, width = self.text, self.runs.width
+        whole = self.model.replicas // width * width
+        text.alloca("i64", "%i")
+        for slot in self.scalars:  # before the loop: what is written there may not change them
+            text.do(f"%g{slot} = load double, ptr {text.op(f'getelementptr double, ptr %v, i64 {slot}')}")
+        text.do("store i64 0, ptr %i")
+        text.jump("next")
+        text.begin("next")
+        index = text.op("load i64, ptr %i")
+        text.do(f"%full = icmp sle i64 {index}, {whole - width}")
+        self._move(index, (*self.model.states, *sorted(self.model.read)), store=False)
+        self._step()
+        self._move(index, self.model.states, store=True)
+        following = text.op(f"add i64 {index}, {width}")
+        text.do(f"store i64 {following}, ptr %i")
+        text.branch(text.op(f"icmp slt i64 {following}, {self.model.replicas}"), "next", "done")
+        text.begin("done")
+        text.do("ret void")
+        body = text.body()
+        declared = frozenset(text.declarations)
+        name = "b" + blake2b("\n".join((body, *sorted(declared))).encode(), digest_size=10).hexdigest()
+        arguments = "ptr noalias %v, double %t_base, double %k, double %dt"
+        return Piece(name, f"define void @{name}({arguments}) #0 {{\n{body}\n}}", declared)
+
+    def _move(self, index: str, vectors: tuple[int, ...], *, store: bool) -> None:
+        """Read a block of vectors, or write it; the last block may be a part of one."""
+        text, what = self.text, "put" if store else "get"
+        places = [
+            text.op(f"getelementptr double, ptr %v, i64 {text.op(f'add i64 {index}, {slot}')}")
+            for slot in vectors
+        ]
+        rest = self.model.replicas % self.runs.width
+        labels = [f"{what}.{part}" for part in ("full", "part", "done")]
+        if rest:
+            text.branch("%full", labels[0], labels[1])
+        else:
+            text.jump(labels[0])
+        for label, mask in zip(labels, (None, self._mask(rest)), strict=False):
+            if mask is not None and not rest:
+                continue
+            text.begin(label)
+            for slot, place in zip(vectors, places, strict=True):
+                if store:
+                    self._put(place, self.cells.load(slot).name, mask)
+                else:
+                    self.cells.store(slot, Number(self._get(place, mask), wide=True))
+            text.jump(labels[2])
+        text.begin(labels[2])
+
+    def _mask(self, rest: int) -> str:
+        return "<" + ", ".join(f"i1 {int(lane < rest)}" for lane in range(self.runs.width)) + ">"
+
+    def _get(self, place: str, mask: str | None) -> str:
+        runs = self.runs
+        if mask is None:
+            return self.text.op(f"load {runs.kind}, ptr {place}, align 8")
+        name = f"llvm.masked.load.{runs.suffix}.p0"
+        self.text.declarations.add(f"declare {runs.kind} @{name}(ptr, i32, {runs.flags}, {runs.kind})")
+        return self.text.op(
+            f"call {runs.kind} @{name}(ptr {place}, i32 8, {runs.flags} {mask}, {runs.kind} zeroinitializer)"
+        )
+
+    def _put(self, place: str, value: str, mask: str | None) -> None:
+        runs = self.runs
+        if mask is None:
+            self.text.do(f"store {runs.kind} {value}, ptr {place}, align 8")
+            return
+        name = f"llvm.masked.store.{runs.suffix}.p0"
+        self.text.declarations.add(f"declare void @{name}({runs.kind}, ptr, i32, {runs.flags})")
+        self.text.do(f"call void @{name}({runs.kind} {value}, ptr {place}, i32 8, {runs.flags} {mask})")
+
+    def _step(self) -> None:
+        cells, states, tableau = self.cells, self.model.states, self.tableau
+        for slot in self.scalars:
+            cells.store(slot, Number(f"%g{slot}", wide=False))
+        save(cells, states)
+        self._derivatives(1)
+        for stage in range(1, tableau.stages):
+            advance(cells, states, tableau.a[stage], "%dt")
+            moved = self.one.mul(self.one.add("%k", self.one.const(float(tableau.c[stage]))), "%dt")
+            cells.store(T, Number(self.one.add("%t_base", moved), wide=False))
+            self._derivatives(stage + 1)
+        advance(cells, states, tableau.b, "%dt")
+
+    def _derivatives(self, stage: int) -> None:
+        values = LaneExpressions(self.runs, self.cells)
+        for statement in self.model.statements:
+            values.forget()
+            value = values.value(statement.value)
+            if isinstance(statement, Set):
+                self.cells.store(statement.slot, value)
+            else:
+                self.cells.keep(f"k{stage}", statement.state, value)
