@@ -10,8 +10,10 @@ from desire_tui.cli.analysis_commands import analysis_commands
 from desire_tui.cli.check_command import check
 from desire_tui.cli.completion_command import completion
 from desire_tui.cli.convert_command import convert
+from desire_tui.cli.format_command import fmt
 from desire_tui.cli.group import ide, main
 from desire_tui.cli.information import config, examples, help_
+from desire_tui.cli.lsp_command import lsp
 from desire_tui.cli.run_command import run
 from desire_tui.cli.serve_command import serve, served
 from desire_tui.cli.study_command import study
@@ -28,6 +30,8 @@ for _command in (
     serve,
     served,
     study,
+    fmt,
+    lsp,
     *analysis_commands(),
 ):
     main.add_command(_command)

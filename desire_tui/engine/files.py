@@ -15,12 +15,19 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import IO
 
+    from desire_tui.engine.text_encoding import TextEncoding
+
 PROGRAM_BYTES_MAX = 1 << 26
 """No program is longer; a file that is was named by mistake."""
 
 
 def read_source(path: Path) -> Source:
     """Read a program, encoded as `text_encoding` knows. DesireError 38: missing, unreadable, not a text."""
+    return Source(read_encoded(path)[0], str(path), path)
+
+
+def read_encoded(path: Path) -> tuple[str, TextEncoding]:
+    """Read a program's text, and how it was encoded. DesireError 38."""
     try:
         size = path.stat().st_size
         if size > PROGRAM_BYTES_MAX:
@@ -31,13 +38,17 @@ def read_source(path: Path) -> Source:
     except OSError as reason:
         facts = {"path": path, "reason": reason.strerror or reason}
         raise DesireError(Diagnostic("file-unreadable", facts=facts)) from None
-    return Source(decoded(data, str(path)), str(path), path)
+    return _decoded(data, str(path))
 
 
 def decoded(data: bytes, name: str) -> str:
     """Return a program's text. DesireError 38 where it is none."""
+    return _decoded(data, name)[0]
+
+
+def _decoded(data: bytes, name: str) -> tuple[str, TextEncoding]:
     try:
-        return decode(data)[0]
+        return decode(data)
     except NotText:
         raise DesireError(Diagnostic("file-binary", facts={"path": name})) from None
 

@@ -23,7 +23,7 @@ from desire_tui.engine.values import SYSTEM_SLOTS, Kind, Quantity
 from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from desire_tui.engine.nodes.declarations import Declared, DeclaredGroup
     from desire_tui.engine.nodes.expressions import Expr
@@ -66,6 +66,16 @@ class DeclaredNames:
     def array_names(self) -> frozenset[str]:
         """Every array's name."""
         return frozenset(name for name, q in self._seen.quantities.items() if q.shape)
+
+    @property
+    def quantities(self) -> Mapping[str, Quantity]:
+        """What is declared, by its name; a size that only a run knows is `UNKNOWN`."""
+        return self._seen.quantities
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """The scalars to which the script assigns a constant value, once."""
+        return self._constants
 
     @property
     def everything(self) -> frozenset[str]:

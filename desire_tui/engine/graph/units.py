@@ -19,6 +19,16 @@ def units_of(text: str) -> dict[str, str]:
     return {pair[1]: pair[2] for pair in found if pair is not None}
 
 
+def named_in(text: str) -> list[tuple[int, str]]:
+    """Return the quantities of such a text with the offsets of their names, subscripts left out."""
+    found, start = [], 0
+    for part in _COMMA.split(text):
+        if pair := _NAMED.fullmatch(part):
+            found.append((start + pair.start(1), pair[1].partition("[")[0]))
+        start += len(part) + 1
+    return found
+
+
 def with_units(names: str, units: Mapping[str, str]) -> str:
     """Return `x, y [m]` for names that share a unit, `x [m], v [m/s]` for others."""
     if not units:
