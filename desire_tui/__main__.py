@@ -10,7 +10,7 @@ from desire_tui.systems import reason_against
 COMMANDS = frozenset({
     "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide",
     "average", "histogram", "maximise", "minimise", "section", "spectrum",
-    "fmt", "lsp",
+    "fmt", "lsp", "convert",
 })  # fmt: skip
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 

@@ -16,6 +16,7 @@ from desire_tui.engine.diagnostics.wording import all_wordings
 from desire_tui.engine.integration.rules import markdown_table
 from desire_tui.help.page_catalogue import topics
 from desire_tui.panes.example_catalogue import CHAPTERS, Example, examples
+from docs.editor_grammars import textmate, vim
 from docs.man_page import man_page
 from docs.python_reference import python_reference
 from tests.programs.coverage import markdown as tested_where
@@ -161,6 +162,8 @@ PAGES: dict[str, Callable[[], str]] = {
     "examples.md": gallery,
     "coverage.md": coverage,
     "desire.1": man_page,
+    "../editors/vscode/syntaxes/desire.tmLanguage.json": textmate,
+    "../editors/neovim/syntax/desire.vim": vim,
     "python_reference.md": lambda: python_reference(NOTE),
 }
 

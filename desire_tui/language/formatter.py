@@ -16,7 +16,7 @@ from desire_tui.engine.source import Source
 from desire_tui.engine.structure.blocks import MISMATCHES
 from desire_tui.engine.structure.structure import structure
 from desire_tui.engine.syntax.parse import is_header, logical_lines, numbered, parse
-from desire_tui.engine.syntax.statement_tokens import RAW, STRING
+from desire_tui.engine.syntax.statement_tokens import CLASSES, RAW, STRING, TokenFault
 from desire_tui.engine.syntax.tokens import mark_logical_words, scan
 from desire_tui.language.spacing import blanks_before
 
@@ -28,9 +28,19 @@ if TYPE_CHECKING:
 
 WIDTH = 2
 """Blanks a level."""
+BLANKS = " \t\r\f\v\x1a"
+"""What the tokenizer takes for a blank within a row; other characters, visible or not, are the author's."""
 BLANK_ROWS_MAX = 2
 """So many blank rows may follow each other."""
 _JOINT = re.compile(r"_[ \t\r]*\n")
+
+
+class _Line(NamedTuple):
+    """The rows of a line; `level` None: nobody knows how deep it stands."""
+
+    text: str
+    level: int | None
+    is_readable: bool
 
 
 @dataclass
@@ -61,8 +71,8 @@ def formatted(text: str) -> str:
 
 def layout(text: str) -> list[LaidOut]:
     """Return the rows of a program in order, each line (with those that go on in it) in the usual layout."""
-    source = Source(text)
-    rows = [_laid_out(line, level) for line, level in _with_levels(source)]
+    source = Source(text.removesuffix("\n"))
+    rows = [_laid_out(line) for line in _lines(source)]
     _align(rows)
     found: list[LaidOut] = []
     at = 0
@@ -82,19 +92,21 @@ def layout(text: str) -> list[LaidOut]:
 # ------------------------------------------------------------------------------------------ levels
 
 
-def _with_levels(source: Source) -> Iterator[tuple[str, int | None]]:
-    """Yield the rows of each line, and how deep it stands; None: nobody knows."""
+def _lines(source: Source) -> Iterator[_Line]:
+    """Yield the lines of a program in order."""
     lines = source.text.split("\n")
-    joined = {rows.start: (at, rows) for _, at, _, rows in logical_lines(source.text)}
+    joined = {rows.start: (entry, at, rows) for entry, at, _, rows in logical_lines(source.text)}
     opening, closing, known = _blocks(source)
     depth = row = 0
     while row < len(lines):
-        at, rows = joined.get(row, (None, range(row, row + 1)))
+        level = depth if known else None
+        if row not in joined:
+            yield _Line(lines[row], level, is_readable=False)
+            row += 1
+            continue
+        entry, at, rows = joined[row]
         text = "\n".join(lines[row : rows.stop])
         row = rows.stop
-        if at is None:
-            yield text, depth if known else None
-            continue
         starts = _statement_starts(text, at - source.line_starts[rows.start], source.line_starts[rows.start])
         leading = 0
         for start in starts:
@@ -103,7 +115,8 @@ def _with_levels(source: Source) -> Iterator[tuple[str, int | None]]:
             leading += 1
             if start in opening:  # `else`
                 break
-        yield text, max(depth - leading, 0) if known else None
+        is_readable = bool(entry[0]) and not any(isinstance(item, TokenFault) for item, _ in entry[0])
+        yield _Line(text, max(depth - leading, 0) if known else None, is_readable)
         depth += sum((start in opening) - (start in closing) for start in starts)
         depth = max(depth, 0)
 
@@ -144,19 +157,20 @@ def _moments(body: Iterable[Placed]) -> Iterator[tuple[int, int]]:
 # -------------------------------------------------------------------------------------------- rows
 
 
-def _laid_out(text: str, level: int | None) -> _Row:
+def _laid_out(here: _Line) -> _Row:
     """Return a line in the usual layout."""
-    bare = text.rstrip()
+    text, level, is_readable = here
+    bare = text.rstrip(BLANKS)
     if is_header(text) or _JOINT.search(text):
         return _Row(text if "\n" in text else bare)  # `_` joins what stands at the rows' ends and beginnings
     skipped = numbered(text)
-    number, line = text[:skipped].strip(), text[skipped:]
+    number, line = text[:skipped].strip(BLANKS), text[skipped:]
     scanned = scan(line)
-    if not scanned.chunks or any(chunk.fault is not None for chunk in scanned.chunks):
+    if not is_readable:
         return _unread(number, line, scanned, level)
     code = _code(line, scanned)
     if not _says_the_same(scanned, code):
-        code = line[: _code_end(scanned)].strip()
+        code = line[: _code_end(scanned)].strip(BLANKS)
     margin = _margin(line) if level is None else " " * (WIDTH * level)
     head = f"{number} " if number else ""
     whole = head + margin + _shifted(code, len(margin) - len(_margin(line)))
@@ -165,18 +179,18 @@ def _laid_out(text: str, level: int | None) -> _Row:
     start, end = scanned.comments[-1]
     last = text.rfind("\n", 0, skipped + start) + 1
     gap = line[_code_end(scanned) : start]
-    return _Row(whole, line[start:end].rstrip(), skipped + start - last, len(gap.expandtabs()) < 2)
+    return _Row(whole, line[start:end].rstrip(BLANKS), skipped + start - last, len(gap.expandtabs()) < 2)
 
 
 def _unread(number: str, line: str, scanned: LogicalLine, level: int | None) -> _Row:
     """Return a row without statements, or one that cannot be read: a comment moves with its block."""
-    bare = line.rstrip()
+    bare = line.rstrip(BLANKS)
     head = f"{number} " if number else ""
     if not bare:
         return _Row(number)
-    if scanned.chunks or level is None or not bare.lstrip().startswith("--") or bare.startswith("--"):
+    if scanned.chunks or level is None or not bare.lstrip(BLANKS).startswith("--") or bare.startswith("--"):
         return _Row(head + bare if not number else f"{number}{bare}")
-    return _Row(head + " " * (WIDTH * level) + bare.lstrip())
+    return _Row(head + " " * (WIDTH * level) + bare.lstrip(BLANKS))
 
 
 def _margin(line: str) -> str:
@@ -218,16 +232,22 @@ def _code(line: str, scanned: LogicalLine) -> str:
             else:
                 pieces.append(blank)
             end = chunk.base + chunk.ends[place]
-            written = line[start:end]
-            pieces.append(written if chunk.kinds[place] in {STRING, RAW} else " ".join(written.split()))
+            pieces.append(_written(line[start:end], chunk.kinds[place]))
     return "".join(pieces)
+
+
+def _written(token: str, kind: str) -> str:
+    """Return a token as it is written: `end  while` with one blank, a typographic minus as a plain one."""
+    if kind in {STRING, RAW}:
+        return token
+    return " ".join(token.split()) if kind in CLASSES or kind[0].isalpha() else kind
 
 
 def _row_ends(gap: str) -> str:
     """Return the row ends between two tokens, with the comments there and the blanks before the second."""
     rows = gap.split("\n")
-    first = rows[0].strip()
-    middle = [row.rstrip() for row in rows[1:-1]]
+    first = rows[0].strip(BLANKS)
+    middle = [row.rstrip(BLANKS) for row in rows[1:-1]]
     return "\n".join((f" {first}" if first else "", *middle, rows[-1]))
 
 

@@ -80,7 +80,7 @@ def _blank(kinds: list[str], place: int, signs: set[int], brackets: list[str], g
     if _is_mark(kinds, place - 1):
         return ""
     if kind in {"%", "#"} and not _is_mark(kinds, place):
-        return " " if kind == "#" and place == len(kinds) - 1 and gap else ""
+        return " " if kinds[0] == "CLEARN" and place == len(kinds) - 1 and gap else ""
     if kind == "^" and kinds[place + 1 : place + 2] == ["="]:
         return ""
     if place > 1 and (kind in _TIGHT or before in _TIGHT) and kind != "=":
