@@ -89,6 +89,7 @@ def test_command_lines_in_the_documentation_work(commands, shown, tmp_path, monk
             ["completion"],
             ["study"],
             ["convert"],
+            ["fmt"],
         ):
             result = CliRunner().invoke(main, words[1:])
             assert result.exit_code == 0, f"{line}\n{result.output}"
