@@ -54,6 +54,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.integration.plan import SolverPlan
+    from desire_tui.engine.integration.taylor.memory import Taylor
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.passes.series.nodes import SeriesProgram
     from desire_tui.engine.runtime.run_memory import RunMemory
@@ -144,6 +145,12 @@ class StiffReferenceModel(ReferenceModel):
         self._place(t, y)
         self._at_start()
         self._series.give(solver.taylor.order, solver.coefficients)
+
+    def _taylor(self) -> Taylor | None:
+        """Return rule 17's solver if the modes' arguments have series."""
+        solver = self.system.solver
+        known = isinstance(solver, TaylorSolver) and solver.taylor.argument_count
+        return solver.taylor if isinstance(solver, TaylorSolver) and known else None
 
     def tangent(self, t: float, y: Array, direction: Array, out: Array) -> None:
         """Run the tangent pass."""
@@ -300,7 +307,7 @@ class StiffReferenceModel(ReferenceModel):
         memory.dt_most = max(memory.dt_most, cells[DT])
         memory.steps += 1
         if self.switches is not None:
-            found = self.switches.look_back(t_from, t)
+            found = self.switches.look_back(t_from, t, self._taylor())
             problem.settled = int(found < 0)
             if found > 0:
                 self._solution()[:] = self._states()

@@ -9,6 +9,7 @@ import numpy as np
 from desire_tui.engine.integration.switching import watch as watching
 from desire_tui.engine.integration.switching.memory import Compute, Place
 from desire_tui.engine.integration.switching.setup import Watcher
+from desire_tui.engine.integration.taylor.roots import look_along
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.runtime.moments.memory import Depart, Limit, Look, Moments
@@ -16,6 +17,7 @@ from desire_tui.engine.runtime.moments.memory import Depart, Limit, Look, Moment
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from desire_tui.engine.integration.taylor.memory import Taylor
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Where
     from desire_tui.engine.lowered.switching import Switching
@@ -71,8 +73,10 @@ class Switches:
         """See `watch.limit`."""
         return watching.limit(self._watch, t, wish)
 
-    def look_back(self, t0: float, t1: float) -> int:
-        """See `watch.look_back`."""
+    def look_back(self, t0: float, t1: float, series: Taylor | None = None) -> int:
+        """See `watch.look_back`; `series`: of the step, in which the modes' arguments have some."""
+        if series is not None:
+            return self._checked(look_along(series, self._watch, t0, t1))
         return self._checked(watching.look_back(self._watch, t0, t1))
 
     def serve(self, stepper: Stepper) -> None:

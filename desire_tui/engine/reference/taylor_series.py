@@ -33,6 +33,10 @@ class ReferenceSeries:
         for piece in program.states:
             self.pieces.append((piece.first, piece.count, self.room, piece.count))
             self.room += piece.count * (ORDER_MOST + 1)
+        self.arguments: list[tuple[int, int]] = []
+        for operand, _ in program.arguments:
+            self.arguments.append((self.room, 1) if isinstance(operand, Series) else (-1, 0))
+            self.room += ORDER_MOST + 1
         self._derivatives = {piece.series.number: piece.derivative for piece in program.states}
         self._rows: dict[int, list[Array]] = {}
 
@@ -50,11 +54,14 @@ class ReferenceSeries:
                 self._rows[node.number][k][:] = self._coefficient(node, k)
 
     def give(self, order: int, coefficients: Array) -> None:
-        """Compute the states' coefficients, and write them where the solver reads them."""
+        """Compute the coefficients of states and modes' arguments, and write them where the solver reads them."""
         self.compute(order)
         for piece, (_, count, place, _) in zip(self._program.states, self.pieces, strict=True):
             flat = np.concatenate(self._rows[piece.series.number])
             coefficients[place : place + count * (order + 1)] = flat
+        for (operand, at), (place, _) in zip(self._program.arguments, self.arguments, strict=True):
+            if isinstance(operand, Series):
+                coefficients[place : place + order + 1] = [row[at] for row in self._rows[operand.number]]
 
     def rows(self, operand: Operand) -> list[Array]:
         """Return an operand's coefficients, one array of all elements for each order."""

@@ -21,6 +21,7 @@ from desire_tui.engine.codegen.stiff.cvode_steps import (
     failures,
     interpolate,
     last_size,
+    look,
     take_step,
 )
 from desire_tui.engine.codegen.stiff.model_calls import gather, scatter
@@ -127,7 +128,7 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
     values[DT] = size
     record_step(memory, size)
     if problem.watch != 0:
-        found: int = problem.look(problem.watch, t_from, t)
+        found: int = look(problem, t_from, t)
         if found > 0:
             gather(problem)
             problem.t_step = values[T]

@@ -9,7 +9,7 @@ from desire_tui.engine.integration.bdf.step import advance, put_inside
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.bdf.memory import Bdf
-    from desire_tui.engine.integration.plain_types import Reals
+    from desire_tui.engine.integration.plain_types import Int32, Reals
     from desire_tui.engine.integration.problem import SolverProblem
 
 
@@ -46,3 +46,8 @@ def interpolate(problem: SolverProblem, t: float) -> None:
     solver: Bdf = problem.solver
     between: Reals = problem.between
     put_inside(solver, t, between)
+
+
+def look(problem: SolverProblem, t0: float, t1: float) -> Int32:
+    """Find the first switching in the last step (`switching.watch.look_back`)."""
+    return problem.look(problem.watch, t0, t1)

@@ -33,7 +33,10 @@ from desire_tui.engine.integration.sundials import signatures
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import CVODE, address
 from desire_tui.engine.integration.switching import memory as switching
+from desire_tui.engine.integration.switching import located
+from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
 from desire_tui.engine.integration.taylor import memory as taylor_memory
+from desire_tui.engine.integration.taylor import roots
 from desire_tui.engine.integration.taylor import step as taylor_step
 from desire_tui.engine.integration.taylor.memory import Expand, Taylor
 from desire_tui.engine.recently_used import RecentlyUsed
@@ -53,7 +56,7 @@ _CALLED = (
 _MODEL = (model_calls, jacobian_fill, rounding, sliding, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
-_TAYLOR = (*_MODEL, taylor_steps, taylor_step)
+_TAYLOR = (*_MODEL, taylor_steps, taylor_step, roots, located)
 _CONSTANTS = (memory, taylor_memory, problem, run_memory, signatures, switching)
 _ENGINE = files("desire_tui.engine")
 
@@ -173,7 +176,7 @@ class SolverRoutines:
 @lru_cache(2 * SIZES_KEPT)
 def _name(n: int) -> str:
     layouts = repr(
-        [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory, Taylor))]
+        [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory, Taylor, Watch))]
     )
     everything = _DEPENDS_ON + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
     return f"bdf-{n}-{blake2b(everything, digest_size=8).hexdigest()}"
@@ -202,8 +205,9 @@ def _own_text(n: int) -> str:
 
 
 def _series_text() -> str:
-    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Taylor": Taylor}
-    pointers = _of_the_problem() | {"expand": of_function(Expand, "")}
+    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Taylor": Taylor, "Watch": Watch}
+    kinds = {"expand": Expand, "modes": Compute, "place": Place}
+    pointers = _of_the_problem() | {name: of_function(kind, "") for name, kind in kinds.items()}
     public = frozenset(("interval", "state_at"))
     return write_program(
         _modules(_TAYLOR), Outside(structures, pointers, {"expand": "expand"}), "solver_", public

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.stiff.model_calls import scatter
+from desire_tui.engine.integration.taylor.roots import look_along
 from desire_tui.engine.integration.taylor.step import advance, put_inside, restart
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.plain_types import Int32, Reals
     from desire_tui.engine.integration.problem import SolverProblem
+    from desire_tui.engine.integration.switching.memory import Watch
     from desire_tui.engine.integration.taylor.memory import Taylor
 
 
@@ -60,3 +62,12 @@ def expand(problem: SolverProblem, t: float, y: Reals) -> Int32:
     solver.at_start(problem.memory, problem.spare)
     solver.recurrences(values, coefficients, solver.order)
     return 0
+
+
+def look(problem: SolverProblem, t0: float, t1: float) -> Int32:
+    """Find the first switching in the last step, by the arguments' series where they have one."""
+    solver: Taylor = problem.solver
+    watch: Watch = problem.watch
+    if solver.argument_count == 0:
+        return problem.look(problem.watch, t0, t1)
+    return look_along(solver, watch, t0, t1)

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.taylor.memory import ORDER_MOST
 
+from desire_tui.engine.passes.series.nodes import Series
+
 if TYPE_CHECKING:
-    from desire_tui.engine.passes.series.nodes import Series, SeriesProgram
+    from desire_tui.engine.passes.series.nodes import SeriesProgram
 
 ROW = 32
 """Numbers kept for one number's series: orders up to ORDER_MOST, and what vector code reads beyond."""
@@ -65,6 +67,15 @@ class Layout:
     def pieces(self) -> list[tuple[int, int, int, int]]:
         """The states' places, as `integration.taylor.memory.Taylor` wants them."""
         return [(p.first, p.count, self.place(p.series), apart(p.series)) for p in self._program.states]
+
+
+    @property
+    def arguments(self) -> list[tuple[int, int]]:
+        """The places of the modes' arguments, as `integration.taylor.memory.Taylor` wants them."""
+        return [
+            (self.place(o) + at, apart(o)) if isinstance(o, Series) else (-1, 0)
+            for o, at in self._program.arguments
+        ]
 
 
 def apart(node: Series) -> int:

@@ -5,6 +5,7 @@ Plain Python, compiled by `codegen.plain_python` for native code; the reference 
     `program`   expressions of t as instructions
     `bounds`    what their values are over an interval of t, or at one t
     `ahead`     the next place where one of them switches
+    `located`   whether a mode has switched, and where
     `watch`     what the run loops call: how far a step may go, what has switched in it, what follows
     `memory`    the structure that they share
 """

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.integration.switching.ahead import begin_ahead, inputs_changed, look_ahead
+from desire_tui.engine.integration.switching.located import has_switched, locate, resolution
 from desire_tui.engine.integration.switching.margins import are_far, begin_margins
 from desire_tui.engine.integration.switching.memory import CHATTERS, JUMPED
 from desire_tui.engine.values import T
@@ -71,18 +71,7 @@ def look(w: Watch, t0: float, t1: float) -> Int32:
         w.place(w.owner, t1)
         if has_switched(w) == 0:
             return 0
-    least = RESOLUTION * max(abs(t0), abs(t1))
-    while right - left > least:
-        middle = left + 0.5 * (right - left)
-        if not (middle > left and middle < right):
-            break
-        w.place(w.owner, middle)
-        if has_switched(w):
-            right = middle
-        else:
-            left = middle
-    w.place(w.owner, right)
-    has_switched(w)
+    locate(w, left, right, resolution(t0, t1))
     return 1
 
 
@@ -107,18 +96,6 @@ def accept_modes(w: Watch) -> None:
     count: int = w.count
     for i in range(count):
         values[frozen + i] = values[live + i]
-
-
-def has_switched(w: Watch) -> int:
-    """Whether a mode is another one at the t and states in the values."""
-    w.modes(w.memory, w.f1_address)
-    for i in range(w.count):
-        live: float = w.values[w.live + i]
-        frozen: float = w.values[w.frozen + i]
-        if live > frozen or (live < frozen and w.rising[i] == 0):
-            w.switched = i
-            return 1
-    return 0
 
 
 def settle(w: Watch, t_next: float) -> Int32:

@@ -15,6 +15,10 @@ NO_COEFFICIENTS = -10
 GAVE_UP = -8
 """Flag: the callback gave up."""
 
+HALVES_MOST = 30
+LEAST_PART = 2.0**-HALVES_MOST
+"""Roots are looked for in parts of a step down to 2^-30 of it."""
+
 _ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
 _REALS, _INTS = ctypes.POINTER(_REAL), ctypes.POINTER(_INT)
 
@@ -48,6 +52,10 @@ class Taylor(ctypes.Structure):
         ("h_most", _REAL),  # 0: no bound
         ("steps", _INT),
         ("worst", _INT),  # state whose coefficient was not finite
+        # modes' arguments: pairs (place of coefficient 0, distance), -1 for one that does not move (`roots`)
+        ("argument_count", _INT), ("arguments", _INTS),
+        ("work", _REALS), ("part", _REALS), ("turned", _REALS), ("halves", _INTS),
+        ("left", _REAL), ("right", _REAL),
     )  # fmt: skip
 
 
@@ -55,7 +63,9 @@ class Arrays:
     """The memory behind a `Taylor`, kept alive here."""
 
     def __init__(self, n: int, room: int) -> None:
-        self.reals = np.zeros((5, max(n, 1)))
+        self.reals = np.zeros((4, max(n, 1)))
+        self.polynomials = np.zeros((3, ORDER_MOST + 1))
+        self.halves = np.zeros(HALVES_MOST + 1, dtype=np.int64)
         flat = np.zeros(room + 8)
         self.coefficients = flat[-(flat.ctypes.data // 8) % 8 :]
         """From the start of a cache line."""

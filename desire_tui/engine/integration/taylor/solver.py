@@ -29,6 +29,11 @@ class Layout(Protocol):
         """(first state, count, place, distance)."""
         ...
 
+    @property
+    def arguments(self) -> Sequence[tuple[int, int]]:
+        """(place, distance) of each mode's argument, (-1, 0) of one that does not move."""
+        ...
+
 
 class TaylorSolver:
     """For `n` states at `states` (an address).
@@ -48,10 +53,16 @@ class TaylorSolver:
         self._pieces = np.array(pieces, dtype=np.int64).reshape(-1)
         taylor.problem, taylor.n = problem, n
         taylor.y = ctypes.cast(states, _REALS)
-        for name, row in zip(("rest", "base", "base_rest", "largest"), arrays.reals, strict=False):
+        for name, row in zip(("rest", "base", "base_rest", "largest"), arrays.reals, strict=True):
             setattr(taylor, name, ctypes.cast(row.ctypes.data, _REALS))
         taylor.coefficients = ctypes.cast(arrays.coefficients.ctypes.data, _REALS)
         taylor.pieces, taylor.piece_count = ctypes.cast(self._pieces.ctypes.data, _INTS), len(pieces)
+        self._arguments = np.array([*layout.arguments, (-1, 0)], dtype=np.int64).reshape(-1)
+        taylor.arguments = ctypes.cast(self._arguments.ctypes.data, _INTS)
+        taylor.argument_count = len(layout.arguments)
+        for name, row in zip(("work", "part", "turned"), arrays.polynomials, strict=True):
+            setattr(taylor, name, ctypes.cast(row.ctypes.data, _REALS))
+        taylor.halves = ctypes.cast(arrays.halves.ctypes.data, _INTS)
         self.memory = ctypes.addressof(taylor)
 
     @property
