@@ -21,7 +21,7 @@ from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
 EXPLICIT, VARIABLE, STIFF = rules_of("fixed"), rules_of("variable"), rules_of("multistep")
-RULES = (*EXPLICIT, *VARIABLE, *STIFF)
+RULES = (*EXPLICIT, *VARIABLE, *STIFF, *rules_of("series"))
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
-RULES = rules_of("variable", "multistep")
+RULES = rules_of("variable", "multistep", "series")
 ERMAX = 1e-6
 
 

@@ -47,4 +47,4 @@ def test_the_exact_orbit_is_exact():
 
 
 def test_the_rules_are_all_there():
-    assert sorted(RULES) == sorted([*TABLEAUS, *range(9, 17)])
+    assert sorted(RULES) == sorted([*TABLEAUS, *range(9, 18)])

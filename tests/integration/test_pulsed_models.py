@@ -49,7 +49,7 @@ def largest_error(model, rule):
     return float((np.abs(found - ENDS[model]) / scale).max()) / ERMAX
 
 
-CASES = [(model, rule) for model in ENDS for rule in rules_of("variable", "multistep")]
+CASES = [(model, rule) for model in ENDS for rule in rules_of("variable", "multistep", "series")]
 SLOW = [("hodgkin_huxley", 4), ("hodgkin_huxley", 7), ("hodgkin_huxley", 8)]
 """Right too, in so many steps that a test of them would take seconds."""
 

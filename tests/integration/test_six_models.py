@@ -15,7 +15,7 @@ from desire_tui.engine.integration.rules import rules_of
 from tests.integration.stiff_programs import run
 
 FOLDER = Path(__file__).parent / "six_models"
-RULES = rules_of("variable", "multistep")
+RULES = rules_of("variable", "multistep", "series")
 ENDS = {
     "oregonator": {"x": 1.002489016, "y": 402.7724109, "z": 26144.94766},
     "clipper": {"v": -0.2078646756, "qr": 0.738696381},

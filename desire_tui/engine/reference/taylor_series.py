@@ -54,7 +54,7 @@ class ReferenceSeries:
                 self._rows[node.number][k][:] = self._coefficient(node, k)
 
     def give(self, order: int, coefficients: Array) -> None:
-        """Compute the coefficients of states and modes' arguments, and write them where the solver reads them."""
+        """Compute coefficients, and write states' and modes' arguments' where the solver reads them."""
         self.compute(order)
         for piece, (_, count, place, _) in zip(self._program.states, self.pieces, strict=True):
             flat = np.concatenate(self._rows[piece.series.number])

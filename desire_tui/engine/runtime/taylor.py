@@ -26,8 +26,6 @@ _WITHOUT: dict[str, tuple[str, str]] = {
     "delay": ("a delay", "rule 4"),
     "table": ("this table", "rule 9"),
     "function": ("`{name}`", "rule 9"),
-    "scattered": ("an array of states that are not neighbours", "rule 9"),
-    "twice": ("a state with two derivatives", "rule 9"),
 }
 """What has no Taylor series, and what to use in place of rule 17, by `NoSeriesError.what`."""
 

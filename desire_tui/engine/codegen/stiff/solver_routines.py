@@ -32,8 +32,8 @@ from desire_tui.engine.integration.problem import FUNCTIONS, SolverProblem
 from desire_tui.engine.integration.sundials import signatures
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import CVODE, address
-from desire_tui.engine.integration.switching import memory as switching
 from desire_tui.engine.integration.switching import located
+from desire_tui.engine.integration.switching import memory as switching
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
 from desire_tui.engine.integration.taylor import memory as taylor_memory
 from desire_tui.engine.integration.taylor import roots
@@ -176,7 +176,11 @@ class SolverRoutines:
 @lru_cache(2 * SIZES_KEPT)
 def _name(n: int) -> str:
     layouts = repr(
-        [T, DT, *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory, Taylor, Watch))]
+        [
+            T,
+            DT,
+            *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory, Taylor, Watch)),
+        ]
     )
     everything = _DEPENDS_ON + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
     return f"bdf-{n}-{blake2b(everything, digest_size=8).hexdigest()}"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.taylor.memory import ORDER_MOST
-
 from desire_tui.engine.passes.series.nodes import Series
 
 if TYPE_CHECKING:
@@ -67,7 +66,6 @@ class Layout:
     def pieces(self) -> list[tuple[int, int, int, int]]:
         """The states' places, as `integration.taylor.memory.Taylor` wants them."""
         return [(p.first, p.count, self.place(p.series), apart(p.series)) for p in self._program.states]
-
 
     @property
     def arguments(self) -> list[tuple[int, int]]:

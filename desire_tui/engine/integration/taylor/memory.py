@@ -43,6 +43,7 @@ class Taylor(ctypes.Structure):
         ("piece_count", _INT), ("pieces", _INTS),
         ("coefficients", _REALS),
         ("order", _INT),
+        ("log_part", _REAL),  # logarithm of the part of the radius of convergence that a step is
         ("y", _REALS), ("rest", _REALS),
         ("base", _REALS), ("base_rest", _REALS),  # the same at the last step's start
         ("largest", _REALS),  # magnitudes of states so far
@@ -75,3 +76,14 @@ def order_for(tolerance: float) -> int:
     """Return the order for a relative tolerance: Jorba and Zou's -ln(ε)/2 + 1, rounded up."""
     wanted = ceil(-log(max(tolerance, EPSILON)) / 2.0) + 1 if tolerance < 1.0 else ORDER_LEAST
     return min(max(wanted, ORDER_LEAST), ORDER_MOST)
+
+
+def log_part_for(tolerance: float, order: int) -> float:
+    """Return the logarithm of the part of the radius of convergence at which the last term is the tolerance.
+
+    At most e^-2 of the radius where it is not above the machine's precision: all terms left out together are
+    then a thousandth of what numbers resolve.
+    """
+    if tolerance <= EPSILON:
+        return -2.0
+    return max(log(min(tolerance, 0.5)) / order, -2.0)

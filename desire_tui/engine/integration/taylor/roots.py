@@ -1,7 +1,7 @@
 """Where a mode switches in a step: the first root of a polynomial, however close to others.
 
-A step's polynomial of a mode's argument is looked at over ever smaller parts of the step by Descartes' rule of
-signs (Vincent, Collins and Akritas): a part is left alone where it has no root, taken where it has one.
+A step's polynomial of a mode's argument is looked at over ever smaller parts of the step by Descartes' rule
+of signs (Vincent, Collins and Akritas): a part is left alone where it has no root, taken where it has one.
 """
 
 from __future__ import annotations
@@ -116,9 +116,9 @@ def find_root(s: Taylor, mode: int, edge: float, h: float, after: float) -> int:
 
 
 def sign_changes(s: Taylor, low: float, width: float) -> int:
-    """Return how many roots the polynomial in `work` has at most between `low` and `low` + `width` (Descartes).
+    """Return how many roots the polynomial in `work` has at most between `low` and `low` + `width`.
 
-    0 and 1 are exact, more may be too many.
+    By Descartes' rule: 0 and 1 are exact, more may be too many.
     """
     n: int = s.order
     whole: Reals = s.work

@@ -9,7 +9,7 @@ import numpy as np
 
 from desire_tui.engine.integration.sundials.solver import Counts
 from desire_tui.engine.integration.taylor import step
-from desire_tui.engine.integration.taylor.memory import Arrays, Taylor, order_for
+from desire_tui.engine.integration.taylor.memory import Arrays, Taylor, log_part_for, order_for
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -74,6 +74,7 @@ class TaylorSolver:
         """Prepare a run: relative tolerance, absolute one, the largest step (0: none)."""
         taylor = self.taylor
         taylor.order = order_for(tolerance)
+        taylor.log_part = log_part_for(tolerance, taylor.order)
         taylor.absolute = absolute / tolerance if tolerance > 0.0 else 0.0
         taylor.h_most = max(largest, 0.0)
         taylor.steps = 0

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 DONE, AT_STOP = 0, 1
 _LARGEST = 1.7976931348623157e308
 _SAFETY = 0.7
-"""exp(-0.7/(order - 1)): what a step is less than the radius of convergence divided by e² (Jorba and Zou)."""
+"""exp(-0.7/(order - 1)): how much less a step is than the coefficients would allow (Jorba and Zou)."""
 
 
 def restart(s: Taylor, t: float) -> None:
@@ -44,21 +44,24 @@ def advance(s: Taylor, t_stop: float) -> int:
     if s.h_most > 0.0:
         h = min(h, s.h_most)
     flag = DONE
+    s.h_last = h
     t1 = t0 + h
     if t1 >= t_stop:
         t1 = t_stop
         flag = AT_STOP
     h = t1 - t0
     s.t = t1
-    s.h_last = h
+    if h > 0.0:
+        s.h_last = h
     s.steps += 1
     add_up(s, h)
     return flag
 
 
 def reach(s: Taylor) -> float:
-    """Return how far the series may be trusted: from the last two coefficients. nan: one is not finite."""
+    """Return how far the series may be trusted: from the last two coefficients. -1: one is not finite."""
     order = s.order
+    total = 0.0
     before = 0.0
     last = 0.0
     for k in range(s.piece_count):
@@ -73,9 +76,12 @@ def reach(s: Taylor) -> float:
             size = 1.0 / max(size, s.absolute)
             a = abs(s.coefficients[down + i]) * size
             b = abs(s.coefficients[place + i]) * size
-            before = max(before, a)  # nan stays
-            last = max(last, b)
-    if not before + last <= _LARGEST:
+            total += a + b
+            before = max(before, a)
+            if b > last:
+                last = b
+                s.worst = first + i
+    if not total <= _LARGEST:
         return -1.0
     if before == 0.0 and last == 0.0:
         return inf
@@ -85,7 +91,7 @@ def reach(s: Taylor) -> float:
     if before > 0.0:
         other = log(before) / (order - 1)
         radius = max(radius, other) if last > 0.0 else other
-    return exp(-radius - 2.0 - _SAFETY / (order - 1))
+    return exp(s.log_part - radius - _SAFETY / (order - 1))
 
 
 def find_worst(s: Taylor) -> None:

@@ -175,6 +175,13 @@ class Graph:
         self._assign(slot, found.count, found.value)
         return self._keep_constant(key, Constant(Vec(slot, found.count or 1), slot, found.count))
 
+    def element(self, array: Operand, at: int = 0) -> Operand:
+        """Return an array's element."""
+        if isinstance(array, Constant):
+            place = self.placed(array).slot + at
+            return self.constant(("load", place), Load(place), None)
+        return self.series("element", Load(array.slot + at), array, count=None, by=at)
+
     def total(self, product: Operand, slot: int, length: int) -> Operand:
         """Return the sum of an array's elements, at a step's start in `slot`."""
         array = self.placed(product) if isinstance(product, Constant) else product

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.expressions import Load, Vec
-from desire_tui.engine.passes.series.nodes import Constant
 
 if TYPE_CHECKING:
     from desire_tui.engine.passes.series.graph import Graph
@@ -43,14 +42,7 @@ class Slots:
         operand, at = self.lane(slot)
         if operand.count is None:
             return operand
-        g = self._graph
-        if isinstance(operand, Constant):
-            operand = g.stored(operand)
-            if not isinstance(operand.value, Vec):
-                return Constant(operand.value, operand.slot, None)
-            place = operand.value.slot + at
-            return g.constant(("load", place), Load(place), None)
-        return g.series("element", Load(operand.slot + at), operand, count=None, by=at)
+        return self._graph.element(operand, at)
 
     def lane(self, slot: int) -> tuple[Operand, int]:
         """Return the operand whose element stands in a slot, and the element's number."""

@@ -33,6 +33,7 @@ from desire_tui.engine.passes.series.graph import Graph, widest
 from desire_tui.engine.passes.series.nodes import Constant, SeriesProgram, StatePiece
 from desire_tui.engine.passes.series.reading import Slots
 from desire_tui.engine.passes.slices import derivative_slice
+from desire_tui.engine.passes.slot_set import SlotSet
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
@@ -81,49 +82,56 @@ class _Translator:
         self._slots = Slots(self._graph)
         self._made: dict[tuple[object, ...], Operand] = {}
         self._known: dict[int, tuple[Value, Operand]] = {}
-        self._derivatives: list[tuple[int, int | None, Operand]] = []
+        self._derivatives: dict[int, tuple[Operand, int]] = {}
+        """Of each state, the last that a statement gives: an operand and which element of it."""
 
     def program(self, switching: Switching | None) -> SeriesProgram:
         """Translate everything."""
         pieces = self._states()
         self._slots.put(T, self._graph.given("time", T, None), None)
-        for piece in pieces:
+        for piece, _ in pieces:
             self._slots.put(piece.slot, piece, piece.count)
         begin = self._slots.copy()
         self._run(self._actions)
-        rows = {
-            first: self._graph.stored(derivative) if isinstance(derivative, Constant) else derivative
-            for first, _, derivative in self._derivatives
-        }
-        states = tuple(
-            StatePiece(piece, first, piece.size, rows[first])
-            for piece, first in zip(pieces, self._firsts, strict=True)
-        )
+        states: list[StatePiece] = []
+        for piece, first in pieces:
+            derivative = self._derivative(piece, first)
+            if isinstance(derivative, Constant):
+                derivative = self._graph.stored(derivative)
+            states.append(StatePiece(piece, first, piece.size, derivative))
         self._slots = begin
         arguments = self._arguments(switching)
         graph = self._graph
-        return SeriesProgram(tuple(graph.values_pass), tuple(graph.nodes), states, arguments)
+        return SeriesProgram(tuple(graph.values_pass), tuple(graph.nodes), tuple(states), arguments)
 
-    def _states(self) -> list[Series]:
-        """Make a series for each derivative statement's states."""
-        places: dict[int, int] = {}
-        for given in self._segment.states:
-            for at in range(given.count):
-                places[given.first + at] = given.slot + at
-        found: list[Series] = []
-        self._firsts: list[int] = []
+    def _states(self) -> list[tuple[Series, int]]:
+        """Make series of the states, arrays where a statement gives several derivatives; first numbers."""
+        wide = SlotSet()
         for action in simple_actions(self._actions):
-            if not isinstance(action, Deriv | DerivVec):
+            if isinstance(action, DerivVec):
+                wide.add(action.state, action.count)
+        found: list[tuple[Series, int]] = []
+        for given in self._segment.states:
+            if wide.overlaps(given.first, given.count):
+                found.append((self._graph.given("state", given.slot, given.count), given.first))
                 continue
-            count = action.count if isinstance(action, DerivVec) else None
-            slot = places[action.state]
-            if count is not None and any(places[action.state + i] != slot + i for i in range(count)):
-                raise NoSeriesError(action.where, "scattered")
-            if action.state in self._firsts:
-                raise NoSeriesError(action.where, "twice")
-            found.append(self._graph.given("state", slot, count))
-            self._firsts.append(action.state)
+            found.extend(
+                (self._graph.given("state", given.slot + at, None), given.first + at)
+                for at in range(given.count)
+            )
         return found
+
+    def _derivative(self, piece: Series, first: int) -> Operand:
+        """Return a state's derivative, of an array of states all of them."""
+        lanes = [self._derivatives[first + i] for i in range(piece.size)]
+        operand = lanes[0][0]
+        if piece.count is None and operand.count is None:
+            return operand
+        whole = operand.count == piece.count
+        if whole and all(found is operand and at == i for i, (found, at) in enumerate(lanes)):
+            return operand
+        made = self._graph.gather(tuple(lanes))
+        return made if piece.count is not None else self._graph.element(made)
 
     def _arguments(self, switching: Switching | None) -> tuple[tuple[Operand, int], ...]:
         """Translate what decides about the modes, over the modes in force."""
@@ -151,10 +159,11 @@ class _Translator:
     def _statement(self, action: Action) -> None:
         match action:
             case Deriv():
-                self._derivatives.append((action.state, None, self._of(action.value)))
+                self._derivatives[action.state] = self._of(action.value), 0
             case DerivVec():
                 row = self._wide(self._of(action.value), action.count)
-                self._derivatives.append((action.state, action.count, row))
+                for i in range(action.count):
+                    self._derivatives[action.state + i] = row, i
             case Set() | SetVec() | SetMat() | SetDot():
                 if count_draws(*expressions(action)):
                     self._refuse("noise")

@@ -1,0 +1,199 @@
+"""Rule 17 in whole runs: exact solutions, accuracy by ERMAX, samples, switches, Brouwer's law; both back ends."""
+
+from __future__ import annotations
+
+from math import acos, exp, log, pi, sin, sqrt
+
+import numpy as np
+import pytest
+
+from desire_tui.engine.diagnostics import DesireError
+from tests.codegen.conftest import run
+from tests.integration.eight_problems import kepler
+
+BACK_ENDS = ("native", "reference")
+both = pytest.mark.parametrize("backend", BACK_ENDS)
+
+OSCILLATOR = "x = 1 | v = 0\nTMAX = 20 | DT = 0.01 | NN = {nn}\ndrun\nDYNAMIC\nd/dt x = v\nd/dt v = -x\n"
+ORBIT = (
+    "x = 0.1 | y = 0 | vx = 0 | vy = sqrt(19)\nTMAX = {t_max} | DT = 0.001 | NN = {nn}\ndrun\nDYNAMIC\n"
+    "w = (x^2 + y^2)^(-1.5)\nd/dt x = vx\nd/dt y = vy\nd/dt vx = -x*w\nd/dt vy = -y*w\ndispt x, y, vx, vy\n"
+)
+"""Kepler's, eccentricity 0.9; a turn takes 2π."""
+
+
+def made(text, ermax, backend="native", **more):
+    """Run a program under rule 17."""
+    return run(f"irule 17 | ERMAX = {ermax!r}\n{text.format(**more)}", backend)
+
+
+@both
+@pytest.mark.parametrize(("ermax", "order"), [(1e-2, 5), (1e-5, 8), (1e-9, 13), (1e-15, 20), (0.0, 20)])
+def test_order_follows_ermax(ermax, order, backend):
+    """⌈-ln(ERMAX/10)/2⌉ + 1, at most 20."""
+    found = made(OSCILLATOR + "dispt x\n", ermax, backend, nn=2)
+    assert found.record.order == order
+
+
+@both
+def test_errors_follow_ermax(backend):
+    """One turn of the orbit: below ERMAX times 10, and less with each smaller one."""
+    errors = []
+    for ermax in (1e-4, 1e-6, 1e-8, 1e-10, 1e-12):
+        found = made(ORBIT, ermax, backend, t_max=1.0, nn=2)
+        end = found.rows[-1, 1:]
+        errors.append(np.max(np.abs(end - kepler(1.0, 0.9)) / (1.2, 0.436, 2.3, 4.36)))
+        assert errors[-1] < 10 * ermax
+    assert errors == sorted(errors, reverse=True)
+
+
+@both
+def test_no_ermax_is_the_machines_precision(backend):
+    found = made(OSCILLATOR + "dispt x, v\n", 0.0, backend, nn=41)
+    t, x, v = found.rows.T
+    assert np.abs(x - np.cos(t)).max() < 1e-15
+    assert np.abs(v + np.sin(t)).max() < 1e-15
+
+
+@both
+def test_polynomials_are_exact_in_one_step(backend):
+    found = made(
+        "x = 2\nTMAX = 3 | DT = 0.1 | NN = 4\ndrun\nDYNAMIC\nd/dt x = 4*t^3 - 2*t\ndispt x\n", 1e-9, backend
+    )
+    assert found.record.steps == 1
+    assert found.rows[:, 1] == pytest.approx([2, 2, 14, 74], rel=1e-15)
+
+
+@both
+def test_samples_cost_no_steps(backend):
+    few = made(ORBIT, 1e-12, backend, t_max=2 * pi, nn=2)
+    many = made(ORBIT, 1e-12, backend, t_max=2 * pi, nn=3001 if backend == "native" else 301)
+    assert many.record.steps <= 1.2 * few.record.steps
+    exact = np.array([kepler(t, 0.9) for t in many.rows[1:-1, 0]])
+    assert np.abs(many.rows[1:-1, 1:] - exact).max() < 1e-9  # a turn multiplies errors by hundreds
+
+
+def test_what_a_point_changes_ends_a_step_there():
+    """u follows SAMPLE: a staircase that derivatives read."""
+    text = "x = 0 | u = 1\nTMAX = 4 | DT = 0.1 | NN = 5\ndrun\nDYNAMIC\nd/dt x = u\nSAMPLE 1\nu = u + 1\ndispt x\n"
+    found = {backend: made(text, 1e-9, backend).rows[:, 1] for backend in BACK_ENDS}
+    assert found["native"] == pytest.approx([0, 2, 5, 9, 14], abs=1e-12)
+    assert found["native"] == pytest.approx(found["reference"], abs=1e-13)
+
+
+CROSSINGS = {
+    "term v - 0.99999": pi + acos(sqrt(1 - 0.99999**2)),
+    "term (x - (1 - 1e-10))*swtch(t - 1)": 2 * pi - acos(1 - 1e-10),
+}
+"""What ends the run, and when."""
+
+
+@both
+@pytest.mark.parametrize("line", CROSSINGS)
+def test_a_short_visit_beyond_a_threshold_is_never_missed(line, backend):
+    """x = cos t stays above 1 - 1e-10 for 3e-5 only, in the middle of a step of 0.9."""
+    found = made(OSCILLATOR + f"{line}\ndispt x\n", 0.0, backend, nn=2)
+    assert found.record.ended == "term"
+    assert found.record.end_time == pytest.approx(CROSSINGS[line], abs=3e-10)
+    assert found.record.steps < 40
+
+
+@both
+def test_term_ends_a_run_at_its_root(backend):
+    text = "x = 1\nTMAX = 10 | DT = 0.1 | NN = 11\ndrun\nDYNAMIC\nd/dt x = -x\nterm 0.1 - x\ndispt x\n"
+    found = made(text, 0.0, backend)
+    assert found.record.end_time == pytest.approx(log(10), rel=1e-15)
+
+
+@both
+def test_kinks_by_states_and_by_time(backend):
+    """x' = |v| with v = cos t: x(T) = ∫|cos|; y' = |sin t|, both over four turns; z' by max."""
+    text = (
+        "v = 1 | w = 0 | x = 0 | y = 0 | z = 0\nTMAX = 8*PI | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\n"
+        "d/dt v = w\nd/dt w = -v\nd/dt x = abs(v)\nd/dt y = abs(sin(t))\nd/dt z = max(v, 0.5)\ndispt x, y, z\n"
+    )
+    found = made(text, 1e-13, backend)
+    most = 4 * (2 * sin(pi / 3) + 0.5 * (2 * pi - 2 * pi / 3))
+    assert found.rows[-1, 1:] == pytest.approx([16, 16, most], rel=1e-12)
+
+
+@both
+def test_jumps_and_branches(backend):
+    """A relay's time on either side, `if`, a table: all located."""
+    text = (
+        "ARRAY F[6]\ndata 0, 1, 3; 0, 2, -2\nread F\n"
+        "x = 1 | q = 0 | p = 0 | c = 0 | TMAX = 5 | DT = 0.1 | NN = 2\ndrun\nDYNAMIC\n"
+        "d/dt x = -x\nd/dt q = swtch(x - 0.25)\nif x - 0.5 | s = 2 | else | s = t | proceed\nd/dt p = s\n"
+        "d/dt c = func1(t; F)\ndispt x, q, p, c\n"
+    )
+    found = made(text, 1e-12, backend)
+    half = log(2)
+    assert found.rows[-1, 1:] == pytest.approx(
+        [exp(-5), log(4), 2 * half + 12.5 - half**2 / 2, 1 + 0 - 4], rel=1e-11
+    )
+
+
+@both
+def test_events(backend):
+    """A ball from 1 m that keeps half its speed: heights between impacts are parabolas."""
+    text = (
+        "y = 1 | v = 0 | g = 9.81 | TMAX = 1 | DT = 0.01 | NN = 11\ndrun\nDYNAMIC\n"
+        "d/dt y = v\nd/dt v = -g\ndispt y, v\nevent -y\nv = -0.5*v | y = 0\n"
+    )
+    found = made(text, 1e-12, backend)
+    fall = sqrt(2 / 9.81)
+    speed = 0.5 * 9.81 * fall
+    since = 1.0 - fall - 2 * speed / 9.81
+    speed *= 0.5
+    assert found.rows[-1, 1] == pytest.approx(speed * since - 9.81 * since**2 / 2, abs=1e-11)
+
+
+def test_both_back_ends_agree_on_chaos():
+    text = (
+        "x = 1 | y = 1 | z = 1 | TMAX = 10 | DT = 0.01 | NN = 11\ndrun\nDYNAMIC\n"
+        "d/dt x = 10*(y - x)\nd/dt y = x*(28 - z) - y\nd/dt z = x*y - 8/3*z\ndispt x, y, z\n"
+    )
+    native, reference = (made(text, 0.0, backend) for backend in BACK_ENDS)
+    assert native.rows == pytest.approx(reference.rows, abs=1e-10)
+    assert native.record.steps == reference.record.steps
+
+
+def test_errors_of_rounding_do_not_drift():
+    """The orbit's energy over 1000 turns of eccentricity 0.2, 70,000 steps' worth at other rules: Brouwer's law."""
+    text = (
+        ORBIT.replace("x = 0.1", "x = 0.8")
+        .replace("sqrt(19)", "sqrt(1.5)")
+        .replace("dispt x", "e = 0.5*(vx^2 + vy^2) - 1/sqrt(x^2 + y^2)\ndispt e, x")
+    )
+    found = made(text, 0.0, t_max=2 * pi * 1000, nn=1001)
+    energy = found.rows[:, 1]
+    assert np.abs(energy / energy[0] - 1).max() < 4e-15
+    assert found.rows[-1, 0] == pytest.approx(2000 * pi)
+
+
+@pytest.mark.parametrize(
+    ("line", "named"),
+    [
+        ("d/dt x = -delay(x, 1)", "delay"),
+        ("q = q + 1 | d/dt x = q", "read before"),
+    ],
+)
+@both
+def test_what_has_no_series_is_refused(line, named, backend):
+    with pytest.raises(DesireError) as caught:
+        made(f"x = 1 | q = 0 | TMAX = 1 | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\n{line}\ndispt x\n", 1e-6, backend)
+    (problem,) = caught.value.diagnostics
+    assert problem.code == 540
+    assert named in problem.message
+
+
+def test_a_pole_is_told_with_its_state():
+    with pytest.raises(DesireError) as caught:
+        made(
+            "x = 1 | y = 1 | TMAX = 2 | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\nd/dt x = -x\nd/dt y = y*y\ndispt x\n",
+            1e-9,
+        )
+    (problem,) = caught.value.diagnostics
+    assert 220 <= problem.code <= 228
+    assert "'y'" in problem.message
+    assert "t = 1 " in problem.message
