@@ -49,4 +49,5 @@ def interpolate(problem: SolverProblem, t: float) -> None:
 
 def look(problem: SolverProblem, t0: float, t1: float) -> Int32:
     """Find the first switching in the last step (`switching.watch.look_back`)."""
-    return problem.look(problem.watch, t0, t1)
+    found: int = problem.look(problem.watch, t0, t1)
+    return found

@@ -69,5 +69,6 @@ def look(problem: SolverProblem, t0: float, t1: float) -> Int32:
     solver: Taylor = problem.solver
     watch: Watch = problem.watch
     if solver.argument_count == 0:
-        return problem.look(problem.watch, t0, t1)
+        found: int = problem.look(problem.watch, t0, t1)
+        return found
     return look_along(solver, watch, t0, t1)
