@@ -37,7 +37,7 @@ class StudyChart:
 def begin_page(pages: GraphPages, drawn: Chart, program: str) -> Graph:
     """Open a page for a chart."""
     page = pages.show_curves(Frame("dispxy", 0.0, 1.0, 0.0, 1.0, 1.0), "", [])
-    page.program = program
+    page.program, page.has_scale = program, False
     update_page(page, drawn)
     return page
 

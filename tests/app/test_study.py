@@ -24,7 +24,7 @@ async def test_a_study_from_its_line_to_its_file(program, tmp_path):
         first, second = list(desk.app.session.graphs)[-2:]
         assert desk.app.graph.page is second
         assert [curve.name for curve in second.curves] == ["5 %", "25 %", "median", "75 %", "95 %"]
-        assert first.title() == "top of 60 runs · scale = " + first.title().rpartition(" ")[2]
+        assert first.title() == "top of 60 runs"
         assert not desk.app.graph.work_row.display
         await desk.line("study chart scatter top a")
         page = desk.app.graph.page

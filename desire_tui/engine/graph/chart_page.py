@@ -56,7 +56,7 @@ def update_page(page: Graph, chart: Chart) -> None:
             number += 1
         curves.append(_curve(one, chart, frame, color))
     page.curves = curves
-    page.fit = "no"
+    page.fit, page.has_scale = "no", False
     page.erased += 1
 
 

@@ -119,6 +119,8 @@ class Graph:
     texts: dict[str, str] = field(default_factory=dict)
     """What `title`, `xlabel`, `ylabel`, `units` say."""
     fit: Fit = "no"
+    has_scale: bool = True
+    """Whether its title tells the scale; charts that no run drew have none."""
     axes: Axes = _LINEAR
     erased: int = 0
     """Goes up when something drawn before must go: what a painter has kept is void."""
@@ -129,12 +131,14 @@ class Graph:
         """Return the line above the graph: program, run, scale; of a long program's name what has room."""
         name = self.heading or self.program
         runs = "" if self.heading else self.run_name
-        scale = "fitted" if fitted else f"scale = {self.frame.scale:g}"
+        scale = ""
+        if self.has_scale:
+            scale = "fitted" if fitted else f"scale = {self.frame.scale:g}"
         rest = " · ".join(filter(None, (runs, scale)))
         if runs and room is not None and len(rest) > room:
             rest = runs if len(runs) <= room else self.study.run_name
-        if not name:
-            return rest
+        if not name or not rest:
+            return name or rest
         spare = len(name) if room is None else room - len(rest) - len(" · ")
         if spare >= len(name):
             return f"{name} · {rest}"
