@@ -10,6 +10,7 @@ from desire_tui.cli.analysis_commands import analysis_commands
 from desire_tui.cli.check_command import check
 from desire_tui.cli.completion_command import completion
 from desire_tui.cli.convert_command import convert
+from desire_tui.cli.export_command import export
 from desire_tui.cli.format_command import fmt
 from desire_tui.cli.group import ide, main
 from desire_tui.cli.information import config, examples, help_
@@ -32,6 +33,7 @@ for _command in (
     study,
     fmt,
     lsp,
+    export,
     *analysis_commands(),
 ):
     main.add_command(_command)

@@ -1,0 +1,1 @@
+"""Models for others: a program's run as C, FMU or LaTeX."""
