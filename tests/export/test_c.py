@@ -28,7 +28,7 @@ w = func1(t; F) + atan2(x, y + 2) + sqrt(abs(x)) + ln(2 + t) + log(3 + t) + (abs
 s = sat(x) + SAT(y) + deadz(2*x) + lim(b) + sinc(t - 1) + sigmoid(x) + SIGMOID(y) + tri(x)
 k = sgn(b) + rect(x) + comp(b, 2, 3) + swtch(a) + round(1.5*a) + trnc(2.7*a) + max(x, y) + min(x, y)
 d/dt x = -a*x + 0.1*u
-d/dt y = x - b*y*y + 0.01*w + 0.001*(s + k)
+d/dt y = x - 0.3*y*abs(y) + 0.01*w + 0.001*(s + k)
 OUT
 z = x*y + sinh(x) - cosh(y) + tanh(x) + asin(0.1) + acos(0.2) + atan(y)
 SAMPLE 5
