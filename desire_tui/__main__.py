@@ -11,6 +11,7 @@ COMMANDS = frozenset({
     "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide", "export",
     "average", "histogram", "maximise", "minimise", "section", "spectrum",
     "fmt", "lsp", "convert",
+    "steady", "continue",
 })  # fmt: skip
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 

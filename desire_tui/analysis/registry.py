@@ -62,5 +62,15 @@ ANALYSES = (
         "spectrum", "Spectrum", "Power spectrum of samples (Welch), with its peaks",
         "NAME, … [window SAMPLES] [from TIME]", "x", "desire_tui.analysis.signals.spectrum",
     ),
+    Analysis(
+        "steady", "Steady states", "Where all states stand still: eigenvalues, kind, stability",
+        "[from here | all in STATE = [FROM, TO], …]", "all in x = [-2, 2]",
+        "desire_tui.analysis.steady.steady", may_be_empty=True,
+    ),
+    Analysis(
+        "continue", "Continuation", "Steady states and cycles over a parameter; folds, Hopf, branch points",
+        "NAME in [FROM, TO] [from here | from STATE = VALUE, … | from cycle] [without cycles]",
+        "k in [0, 2]", "desire_tui.analysis.continuation.continuation",
+    ),
 )  # fmt: skip
 BY_NAME = {analysis.name: analysis for analysis in ANALYSES}

@@ -20,6 +20,8 @@ class Table:
 
     title: str
     columns: Mapping[str, Sequence[Any]]
+    is_listed: bool = True
+    """False: for files only, a terminal does not show it."""
 
     def rows(self) -> Iterator[tuple[Any, ...]]:
         """Yield its rows."""
@@ -68,7 +70,7 @@ class Result:
     def lines(self) -> list[str]:
         """Return what a terminal shows of it."""
         told = [f"{self.title} (stopped: what was found so far)" if self.is_partial else self.title]
-        for table in self.tables:
+        for table in filter(lambda table: table.is_listed, self.tables):
             told += table.lines()
         return told + self.notes
 

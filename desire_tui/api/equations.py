@@ -71,6 +71,14 @@ class SharedEquations:
         self._varied = ready._replace(parameters=dict(parameters))
         return ready.equations
 
+    def places(self, t: ArrayLike, x: Floats) -> tuple[Floats, Floats]:
+        """Return m times and m by n states from one or m times and n by m states. ValueError: wrong shape."""
+        n = len(self.states)
+        if x.ndim != 2 or x.shape[0] != n:
+            raise ValueError(f"x has shape {x.shape}, but the model has {n} states")
+        times = np.ascontiguousarray(np.broadcast_to(np.asarray(t, dtype=np.float64), x.shape[1:]))
+        return times, np.ascontiguousarray(x.T)
+
     def address(self, number: int) -> int:
         """Return a C function's address. RuntimeError: the back end has none."""
         addresses = self._own.equations.addresses
@@ -133,15 +141,12 @@ class RightHandSide(_Function):
         """
         shared = self._shared
         place = np.asarray(x, dtype=np.float64)
-        n = len(shared.states)
-        if place.shape == (n,):
+        if place.shape == (len(shared.states),):
             with shared.lock:
                 return shared.at(parameters).derivatives(float(t), place)  # type: ignore[arg-type]
-        if place.ndim != 2 or place.shape[0] != n:
-            raise ValueError(f"x has shape {place.shape}, but the model has {n} states")
-        times = np.ascontiguousarray(np.broadcast_to(np.asarray(t, dtype=np.float64), place.shape[1:]))
+        times, places = shared.places(t, place)
         with shared.lock:
-            return shared.at(parameters).many(times, np.ascontiguousarray(place.T)).T
+            return shared.at(parameters).many(times, places).T
 
     def __repr__(self) -> str:
         return f"<dx/dt of {len(self.states)} states as f(t, x)>"
@@ -152,11 +157,19 @@ class JacobianMatrix(_Function):
 
     _number = 1
 
-    def __call__(self, t: float, x: ArrayLike, /, **parameters: Any) -> Floats:
-        """Return the matrix, n by n: element [i, k] is the derivative of dx_i/dt by x_k."""
+    def __call__(self, t: ArrayLike, x: ArrayLike, /, **parameters: Any) -> Floats:
+        """Return the matrix, n by n: element [i, k] is the derivative of dx_i/dt by x_k.
+
+        For m places at once, `x` n by m, m matrices: m by n by n (t one or m times).
+        """
+        shared = self._shared
+        if np.ndim(x) == 2:
+            times, places = shared.places(t, np.asarray(x, dtype=np.float64))
+            with shared.lock:
+                return shared.at(parameters).jacobians(times, places)
         place = self._place(x)
-        with self._shared.lock:
-            return self._shared.at(parameters).jacobian(float(t), place)
+        with shared.lock:
+            return shared.at(parameters).jacobian(float(t), place)  # type: ignore[arg-type]
 
     def sparse(self, t: float, x: ArrayLike, /, **parameters: Any) -> Any:
         """Return the matrix as a `scipy.sparse.csc_array`, for models of many states."""

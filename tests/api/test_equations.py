@@ -53,6 +53,17 @@ def test_derivatives_at_one_place_and_at_many(lotka):
     assert lotka.rhs(0, np.zeros((2, 0))).shape == (2, 0)
 
 
+def test_jacobians_at_many_places(lotka):
+    places = np.array([[3, 1, 2], [0.5, 4, 6]])
+    found = lotka.jacobian(0.0, places)
+    assert found.shape == (3, 2, 2)
+    for k in range(3):
+        assert np.array_equal(found[k], lotka.jacobian(0.0, places[:, k]))
+    assert lotka.jacobian(0, np.zeros((2, 0))).shape == (0, 2, 2)
+    with pytest.raises(ValueError, match="x has shape"):
+        lotka.jacobian(0.0, places.T)
+
+
 def test_the_jacobian_is_exact(lotka):
     assert lotka.jacobian(0, [3, 0.5]) == pytest.approx(np.array([[0, -6], [0.5, 2]]), rel=1e-15, abs=1e-15)
     assert lotka.jacobian.sparse(0, [3, 0.5]).toarray() == pytest.approx(lotka.jacobian(0, [3, 0.5]))

@@ -66,6 +66,11 @@ class ReferenceEquations:
             found[:, column] = self._column(t, x, column)
         return found
 
+    def jacobians(self, times: Floats, states: Floats) -> Floats:
+        """See `runtime.equations`."""
+        pairs = zip(times.tolist(), states, strict=True)
+        return np.array([self.jacobian(t, x) for t, x in pairs]).reshape(-1, self.n, self.n)
+
     def entries(self, t: float, x: Floats) -> Floats:
         """See `runtime.equations`."""
         return self.jacobian(t, x)[self.pattern.rows, self.pattern.columns]

@@ -39,6 +39,10 @@ class Equations(Protocol):
         """Return the Jacobian, n by n."""
         ...
 
+    def jacobians(self, times: Floats, states: Floats) -> Floats:
+        """Return the Jacobians at several places, m by n by n, for m times and m by n states, contiguous."""
+        ...
+
     def entries(self, t: float, x: Floats) -> Floats:
         """Return the Jacobian's entries in the order of the pattern."""
         ...

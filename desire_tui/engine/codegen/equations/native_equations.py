@@ -120,6 +120,17 @@ class NativeEquations:
         self._jacobian(self._at, t, self._places[0], found.ctypes.data)
         return found
 
+    def jacobians(self, times: Floats, states: Floats) -> Floats:
+        """See `runtime.equations`. MemoryError: one of them is too large."""
+        if self.n > _DENSE_MOST:
+            raise MemoryError
+        found = np.empty((len(times), self.n, self.n))
+        at, x, result = self._at, states.ctypes.data, found.ctypes.data
+        width, size = 8 * self.n, 8 * self.n * self.n
+        for k, t in enumerate(times.tolist()):
+            self._jacobian(at, t, x + k * width, result + k * size)
+        return found
+
     def entries(self, t: float, x: Floats) -> Floats:
         """See `runtime.equations`."""
         found = np.empty(self.pattern.count)

@@ -1,0 +1,1 @@
+"""`steady`: steady states, their eigenvalues and kinds."""
