@@ -18,6 +18,7 @@ from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.scalar.slot_usage import survey
 from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.integration.rules import rule_numbered
+from desire_tui.engine.integration.switching.memory import Watch
 from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
@@ -93,7 +94,7 @@ class NativeModel:
         self._loop = array_loop(rule, contiguous=contiguous, watched=self._watched)
         self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
-        self.improved = False
+        self.improved = self._small = False
         improver.add(self)
 
     # ------------------------------------------------------------------ making
@@ -134,6 +135,9 @@ class NativeModel:
         watcher.take_step_from(context.x0, context.k1)
         context.watch, context.limit = watcher.address, watching.limit
         context.follow, context.depart = watching.follow, watching.depart
+        for side in ("box_low", "box_high"):
+            setattr(context, side, ctypes.cast(getattr(watcher.watch, side), ctypes.c_void_p).value)
+        context.box_wait = watcher.address + Watch.box_wait.offset
         self._kept += [functions, watching]
 
     def _use(self, compiled: Compiled) -> None:
@@ -142,7 +146,7 @@ class NativeModel:
 
     def improve(self) -> Iterator[None]:
         """Compile fast code and put it in use, piece by piece."""
-        small = self._is_small()
+        small = self._small = self._is_small()
         if small:
             states, columns = self._states.tolist(), self._columns.tolist()
             self._loop = register_loop(self._passes, self._rule, states, columns, self._vital_slots.tolist(),
@@ -182,6 +186,8 @@ class NativeModel:
         """Run on (`runtime.run_memory`)."""
         self.context.memory = ctypes.addressof(memory)
         at, context = ctypes.addressof(memory), ctypes.addressof(self.context)
+        if self._watcher is not None:
+            self._watcher.forget_box()
         if self._watcher is not None and memory.phase == Phase.AT_POINT and memory.point == 0:
             self._watcher.begin(memory)
         checked = memory.checked
@@ -191,6 +197,8 @@ class NativeModel:
             better, self._better = self._better, None
             if better is not None:
                 self._use(better)
+                if self._watcher is not None and self._small:
+                    self._watcher.keep_box()
             ended = Ended(self._run(at, context))
             if ended is not Ended.RUNNING or memory.row >= memory.row_limit:
                 break

@@ -101,6 +101,8 @@ class Switching:
     `live_pass` computes the modes at the present t and states; `stage_pass` and `end_pass`, of rules without
     an interpolant of their own, what tells at a step's end whether one may have switched in it. `clocks` are
     the expressions of t that switch, each with its place, `definitions` what the scalars in them mean.
+    `bounded` are the jumps of all modes, of `moving` (slots of states, of t) and of what stays as it is in a
+    run, if bounds can be told of every one of them; else both are empty.
     """
 
     modes: tuple[Mode, ...]
@@ -110,6 +112,8 @@ class Switching:
     end_pass: tuple[Action, ...]
     clocks: tuple[tuple[Value, Where], ...]
     definitions: Mapping[int, Value]
+    bounded: tuple[Value, ...] = ()
+    moving: tuple[int, ...] = ()
 
     @property
     def count(self) -> int:

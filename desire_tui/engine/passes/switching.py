@@ -17,6 +17,7 @@ from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, Se
 from desire_tui.engine.lowered.switching import JUMPS, KINKS, Mode, ModeSlots, Switching, has_bounds
 from desire_tui.engine.lowered.walk import simple_actions, walk_actions, walk_values
 from desire_tui.engine.passes.affine import Affinity
+from desire_tui.engine.passes.clearance import moving_slots
 from desire_tui.engine.passes.dead_code import without_dead_code
 from desire_tui.engine.passes.dependence import Dependence, Dependences
 from desire_tui.engine.passes.slices import derivative_slice
@@ -51,9 +52,10 @@ def switching(segment: Segment, allocate: Callable[[int], int]) -> tuple[Segment
     rewriter = _Rewriter(finder, slots)
     body = rewriter.body(segment.body)
     modes, live = tuple(rewriter.modes), rewriter.live_pass()
+    moving = moving_slots(segment, rewriter.jumps, finder.dependences.definitions)
     return replace(segment, body=body), Switching(
         modes, slots, live, stage_pass(live, modes, slots), end_pass(live, modes, slots),
-        tuple(finder.clocks), finder.dependences.definitions,
+        tuple(finder.clocks), finder.dependences.definitions, tuple(rewriter.jumps) if moving else (), moving,
     )  # fmt: skip
 
 
@@ -178,6 +180,7 @@ class _Rewriter:
         self._slots = slots
         self._used = 0
         self.modes: list[Mode] = []
+        self.jumps: list[Op] = []
         self._pass: list[Action] = []
         self._kept: set[int] = set()
         self._known: dict[int, tuple[Value, Value, Value]] = {}
@@ -257,6 +260,7 @@ class _Rewriter:
         )
         self._used += count
         self.modes.append(mode)
+        self.jumps.append(Op(operation, (given,)))
         found = mode.at(slots.arguments)
         made = assignment(mode, slots.live, Op(operation, (found,)))
         live.append(_argument(mode, slots.arguments, argument, action))

@@ -41,6 +41,8 @@ class Switches:
         ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._watcher = watcher = Watcher(switching, values, ranges)
         self._watch = watcher.watch
+        if state_at is not None:
+            watcher.keep_box()
         self._order = segment.order
         self._failure: BaseException | None = None
 

@@ -60,6 +60,9 @@ class WorkMemory(ctypes.Structure):
         ("modes_first", ctypes.c_uint64),
         ("modes_second", ctypes.c_uint64),
         ("whole_step", ctypes.c_uint64),  # `lanes.replica_steps`: takes the place of stages; or 0
+        ("box_low", ctypes.c_uint64),  # the box in which no mode switches (`integration.switching.clearance`)
+        ("box_high", ctypes.c_uint64),
+        ("box_wait", ctypes.c_uint64),  # where the steps are counted down until it may be made anew
     )
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _VARIABLES = {
     "k": "i64", "steps": "i64", "calls": "i64", "t_base": "double", "dt_base": "double", "t_next": "double",
     "t_here": "double", "h": "double", "phase": "i32", "ended": "i32", "last": "i1", "reached": "i1", "stop":
-    "i1", "lands": "i1", "cut": "i1", "t_stop": "double", "looks": "i1",
+    "i1", "lands": "i1", "cut": "i1", "t_stop": "double", "looks": "i1", "boxed": "i1", "clear": "i1",
 }  # fmt: skip
 
 _KEPT = {

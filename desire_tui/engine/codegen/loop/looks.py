@@ -18,10 +18,13 @@ class Looks(NamedTuple):
     """What is compared behind the passes `watch_stage` and `watch_end`: (how, slot, slot of the frozen mode).
 
     `scratch`: slots that nobody else wants to know; to keep them up to date in memory would cost much.
+    `sides`: slots of t and states that have not left a box in which no mode switches as long as they are
+    between bounds in memory (`integration.switching.clearance`); none: there is no such box.
     """
 
     at: dict[str, list[tuple[Glance, int, int]]]
     scratch: frozenset[int] = frozenset()
+    sides: tuple[int, ...] = ()
 
 
 def no_looks() -> Looks:
@@ -42,7 +45,7 @@ def looks(switching: Switching) -> Looks:
         if is_bounded(mode):
             unwanted.append(slots.arguments)
         scratch |= {row + mode.first for row in unwanted}
-    return Looks(at, frozenset(scratch))
+    return Looks(at, frozenset(scratch), switching.moving)
 
 
 def _rows(mode: Mode, slots: ModeSlots, *, always: bool) -> tuple[_Rows, _Rows]:

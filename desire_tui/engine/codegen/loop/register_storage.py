@@ -35,7 +35,7 @@ class RegisterStorage:
         looks: Looks,
     ) -> None:
         self.text = text
-        self.looks = looks.at
+        self.looks, self._sides = looks.at, looks.sides
         self.passes = passes
         self.may_come_late = bool(passes["step_renewal"])
         self.states = states
@@ -48,6 +48,7 @@ class RegisterStorage:
         usage = survey(passes.values())
         self._changed = sorted((usage.written | {T, DT, ERRMAX, *states}) - usage.pinned - looks.scratch)
         slots = usage.read | usage.written | {T, DT, ERRMAX, *states, *columns}
+        slots |= set(looks.sides)
         slots |= {slot for glances in looks.at.values() for _, *pair in glances for slot in pair}
         self.cells = RegisterCells(text, slots, usage.pinned)
         self.statements = ScalarStatements(text, self.cells)
@@ -180,6 +181,20 @@ class RegisterStorage:
         for look in self.looks[kind]:
             found = self.text.op(f"or i1 {found}, {self._look(*look)}")
         return found
+
+    def is_in_box(self, *, at_end: bool) -> str | None:
+        """Whether t and states are inside; at a stage, t is between the step's ends."""
+        if not self._sides:
+            return None
+        lanes, text, inside = self.lanes, self.text, "1"
+        for name, compare in (("box_low", "oge"), ("box_high", "ole")):
+            base = self.context.load(name)
+            for number, slot in enumerate(self._sides):
+                if slot != T or at_end:
+                    at = text.op(f"getelementptr double, ptr {base}, i64 {number}")
+                    held = lanes.compare(compare, self.cells.load(slot), text.op(f"load double, ptr {at}"))
+                    inside = text.op(f"and i1 {inside}, {held}")
+        return inside
 
     def _look(self, kind: Glance, slot: int, frozen: int) -> str:
         lanes, zero = self.lanes, self.lanes.const(0.0)

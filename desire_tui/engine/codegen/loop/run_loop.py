@@ -47,6 +47,7 @@ class Driver(LoopFrame):
         """Write the whole body."""
         text = self.text
         self.enter()
+        self.put("boxed", "0")
         self._next_point()
         text.branch(self._rows_full(), "full", "enter")
         text.begin("enter")

@@ -99,6 +99,7 @@ class StiffModel:
         self._watcher: Watcher | None = None
         if switching is not None:
             self._watcher = Watcher(switching, values, self._ranges)
+            self._watcher.keep_box()
             self._modes = addresses.pop("modes")
             self._derivatives = addresses["derivatives"]
         self._at_start = addresses.pop("at_start", 0)

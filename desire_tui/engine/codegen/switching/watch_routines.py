@@ -15,7 +15,16 @@ from desire_tui.engine.codegen.plain_python.kinds import of_function
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
 from desire_tui.engine.integration import halving
-from desire_tui.engine.integration.switching import ahead, bounds, located, margins, memory, operations, watch
+from desire_tui.engine.integration.switching import (
+    ahead,
+    bounds,
+    clearance,
+    located,
+    margins,
+    memory,
+    operations,
+    watch,
+)
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
 from desire_tui.engine.lowered import switching as lowered_switching
 from desire_tui.engine.values import T
@@ -23,7 +32,7 @@ from desire_tui.engine.values import T
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.linker import MachineCode
 
-_MODULES = (bounds, ahead, margins, located, watch)
+_MODULES = (bounds, ahead, margins, located, clearance, watch)
 _ENGINE = files("desire_tui.engine")
 
 

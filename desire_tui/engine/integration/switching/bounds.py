@@ -27,8 +27,13 @@ def over(w: Watch, t0: float, t1: float) -> int:
     """Compute bounds over t0 … t1; whether no switch can be there."""
     w.low[0] = t0
     w.high[0] = t1
+    return over_registers(w, w.instruction_count, Operation.MIN)
+
+
+def over_registers(w: Watch, count: int, last: int) -> int:
+    """Compute bounds of `count` instructions; whether none that switches, up to the operation `last`, can."""
     clear = 1
-    for k in range(w.instruction_count):
+    for k in range(count):
         to = w.instructions[4 * k + 1]
         a = w.instructions[4 * k + 2]
         b = w.instructions[4 * k + 3]
@@ -37,8 +42,8 @@ def over(w: Watch, t0: float, t1: float) -> int:
             smooth(w, operation, to, a, b)
         elif w.low[a] == w.high[a] and (operation < Operation.MAX or w.low[b] == w.high[b]):
             decide(w, operation, to, a, b)  # it does not move
-        else:
-            clear *= switch(w, operation, to, a, b)
+        elif switch(w, operation, to, a, b) == 0 and operation <= last:
+            clear = 0
     return clear
 
 

@@ -55,6 +55,7 @@ def are_far(w: Watch, h: float) -> int:
 def begin_margins(w: Watch) -> None:
     """Start from the arguments in the values, of which it is not known how they move."""
     w.h_before = 1.0
+    w.strayed = 0
     for i in range(w.count):
         w.at_start[i] = w.values[w.arguments + i]
         w.changes[i] = inf

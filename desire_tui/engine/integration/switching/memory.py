@@ -22,7 +22,9 @@ class Watch(ctypes.Structure):
     Modes: numbers that are constant while a step lasts. `frozen` are those in force, `live` what `modes`
     computes from t and the states in the values, of `arguments`; each stand in a row there.
 
-    Switches of t: a program (see `program`) over registers `low` and `high`.
+    Switches of t: a program (see `program`) over registers `low` and `high`; behind them, up to
+    `box_instruction_count`, it has the modes' jumps, whose bounds over a box of t and states tell that no mode
+    switches there (see `clearance`).
     """
 
     _fields_ = (
@@ -59,6 +61,17 @@ class Watch(ctypes.Structure):
         ("last", _REAL), ("next", _REAL),
         ("is_jump", _INT), ("culprit", _INT),  # the instruction
         ("t_end", _REAL),
+        # a box in which no mode switches
+        ("box_instruction_count", _INT),
+        ("box_count", _INT),  # sides; 0: no box is kept
+        ("box_slots", _INTS), ("box_registers", _INTS),  # of each side
+        ("box_low", _REALS), ("box_high", _REALS), ("kept_low", _REALS), ("kept_high", _REALS),
+        ("box_last", _REALS), ("box_moves", _REALS),  # where it was at the step's end, how far it moved …
+        ("box_h", _REAL),  # … in a step of this size
+        ("box_known", _INT),  # 0: it has to be made from nothing
+        ("box_wait", _INT), ("box_pause", _INT),  # steps until it may be made again
+        ("box_since", _REAL),  # t where it was made
+        ("strayed", _INT),  # whether steps inside it have left `at_start` behind
         # chattering
         ("switches", _INT), ("switches_since", _REAL), ("span", _REAL),
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Expressions of t as a program: instructions over registers, register 0 is t."""
+"""Expressions of t, and jumps by states, as a program: instructions over registers, register 0 is t."""
 
 from __future__ import annotations
 
@@ -12,30 +12,44 @@ from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
     from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.switching import Switching
 
 
 @dataclass
 class Program:
-    """Instructions (operation, to, from, from), constants by register, inputs' slots by register."""
+    """Instructions (operation, to, from, from), constants by register, inputs' slots by register.
+
+    The first `clock_count` instructions are those of expressions of t; `moving` are registers by slot of t and
+    states.
+    """
 
     instructions: list[tuple[int, int, int, int]] = field(default_factory=list)
     constants: dict[int, float] = field(default_factory=dict)
     inputs: dict[int, int] = field(default_factory=dict)
     tables: list[tuple[int, int]] = field(default_factory=list)
     registers: int = 1
+    clock_count: int = 0
+    moving: dict[int, int] = field(default_factory=dict)
     origins: dict[int, Value] = field(default_factory=dict)
     """For an instruction the expression that it is made of."""
 
 
-def write(roots: Iterable[Value], definitions: Mapping[int, Value]) -> Program:
-    """Translate expressions; `definitions` are what scalars mean that are computed from t in each pass."""
-    writer = _Writer(definitions)
-    for root in roots:
-        writer.of(root)
-    return writer.program
+def write(switching: Switching) -> Program:
+    """Translate what switches by t, and the modes' jumps where bounds of them can be told."""
+    writer = _Writer(switching.definitions)
+    for clock, _ in switching.clocks:
+        writer.of(clock)
+    program = writer.program
+    program.clock_count = len(program.instructions)
+    for slot in switching.moving:
+        program.moving[slot] = writer.of(Load(slot))
+        program.inputs.pop(program.moving[slot], None)
+    for jump in switching.bounded:
+        writer.of(jump)
+    return program
 
 
 class _Writer:

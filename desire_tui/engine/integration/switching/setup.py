@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from desire_tui.engine.integration.switching.clearance import begin_box, forget_box
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
 from desire_tui.engine.integration.switching.program import as_arrays, write
 from desire_tui.engine.lowered.switching import THRESHOLDS, Threshold
@@ -30,7 +31,7 @@ class Watcher:
         self.switching = switching
         self.watch = watch = Watch()
         self._kept: list[Any] = []
-        self._program = program = write((clock for clock, _ in switching.clocks), switching.definitions)
+        self._program = program = write(switching)
         order = sum(count for _, _, count in ranges)
         watch.values = ctypes.cast(values.address, _REALS)
         slots, each = switching.slots, [mode for mode in switching.modes for _ in range(mode.count)]
@@ -59,7 +60,13 @@ class Watcher:
         self._ints("tables", tables)
         self._ints("inputs", inputs)
         self._ints("input_registers", registers)
-        watch.instruction_count, watch.input_count = len(program.instructions), len(program.inputs)
+        watch.instruction_count, watch.input_count = program.clock_count, len(program.inputs)
+        watch.box_instruction_count = len(program.instructions)
+        self.sides = tuple(program.moving)
+        for name, sides in (("box_slots", self.sides), ("box_registers", program.moving.values())):
+            self._ints(name, np.array([*sides, 0], dtype=np.int64))
+        for name in ("box_low", "box_high", "kept_low", "kept_high", "box_last", "box_moves"):
+            self._reals(name, np.zeros(len(self.sides) + 1))
         for name in ("before", "behind"):
             self._reals(name, np.zeros(max(len(program.instructions), 1)))
         self.address = ctypes.addressof(watch)
@@ -77,6 +84,15 @@ class Watcher:
     def take_step_from(self, x0: int, f0: int) -> None:
         """Let the step's start be in memory of the rule's own: addresses of states and derivatives there."""
         self.watch.x0, self.watch.f0 = (ctypes.cast(place, _REALS) for place in (x0, f0))
+
+    def keep_box(self) -> None:
+        """Look at modes only outside of a box in which none switches, where there is one (`clearance`)."""
+        self.watch.box_count = len(self.sides)
+        begin_box(self.watch)
+
+    def forget_box(self) -> None:
+        """Let nothing be known of inputs: the user may have changed them."""
+        forget_box(self.watch)
 
     def begin(self, memory: Any) -> None:
         """Prepare a run: its memory, where it ends."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.switching.ahead import begin_ahead, inputs_changed, look_ahead
 from desire_tui.engine.integration.switching.located import has_switched, locate, resolution
+from desire_tui.engine.integration.switching.clearance import begin_box, forget_box, renew_box, stays_in_box
 from desire_tui.engine.integration.switching.margins import are_far, begin_margins
 from desire_tui.engine.integration.switching.memory import CHATTERS, JUMPED
 from desire_tui.engine.values import T
@@ -30,6 +31,7 @@ def begin(w: Watch, t: float) -> Int32:
         w.modes(w.memory, w.f1_address)
         accept_modes(w)
         begin_margins(w)
+        begin_box(w)
     return 0
 
 
@@ -81,11 +83,27 @@ def look_back(w: Watch, t0: float, t1: float) -> Int32:
     1: as `look`. 0: no mode has switched, but it is time to `settle`, and the values are those near t1.
     -1: nothing has switched at all, and the values are as they were.
     """
-    if w.count != 0 and t1 > t0:
-        w.modes(w.memory, w.f1_address)
-        if are_far(w, t1 - t0) == 0:
-            return look(w, t0, t1)
-    return 0 if w.found != 0 and w.last <= t1 else -1
+    result = 0 if w.found != 0 and w.last <= t1 else -1
+    if w.count == 0 or not t1 > t0:
+        return result
+    if w.box_count != 0:
+        if inputs_changed(w):
+            begin_ahead(w, t0)
+            forget_box(w)
+        if stays_in_box(w, t1 - t0):
+            return result
+    w.modes(w.memory, w.f1_address)
+    if w.strayed != 0:
+        begin_margins(w)
+    if are_far(w, t1 - t0) == 0:
+        result = look(w, t0, t1)
+        if result != 0:
+            return result
+    if w.box_count != 0:
+        w.box_wait -= 1
+        if w.box_wait <= 0:
+            renew_box(w, t1, t1 - t0)
+    return result
 
 
 def accept_modes(w: Watch) -> None:
@@ -145,6 +163,7 @@ def take_modes(w: Watch, jumps: int) -> int:
     if result == 0:
         return 0
     begin_margins(w)
+    forget_box(w)
     return result + chatter(w)
 
 
@@ -212,6 +231,11 @@ def follow(w: Watch, t0: float, t1: float, t_next: float) -> Int32:
     """
     if look_at_step(w, t0, t1) == 0 and (w.found == 0 or w.last > t1):
         accept_modes(w)
+        if w.box_count != 0 and w.box_wait <= 0:
+            if inputs_changed(w):
+                begin_ahead(w, t1)
+                forget_box(w)
+            renew_box(w, t1, t1 - t0)
         return -1
     return settle(w, t_next)
 
