@@ -45,7 +45,7 @@ def write(switching: Switching) -> Program:
     program = writer.program
     program.clock_count = len(program.instructions)
     for slot in switching.moving:
-        program.moving[slot] = writer.of(Load(slot))
+        program.moving[slot] = writer.slot(slot)
         program.inputs.pop(program.moving[slot], None)
     for jump in switching.bounded:
         writer.of(jump)
@@ -71,7 +71,7 @@ class _Writer:
         if isinstance(value, Const):
             return self._constant(value.value)
         if isinstance(value, Load):
-            return self._slot(value.slot)
+            return self.slot(value.slot)
         if isinstance(value, Table1):
             self.program.tables.append((value.slot, value.count))
             return self._emit(Operation.TABLE, self.of(value.x), len(self.program.tables) - 1, value)
@@ -92,7 +92,8 @@ class _Writer:
             )
         return self._emit(BY_NAME[value.name], arguments[0], arguments[-1], value)
 
-    def _slot(self, slot: int) -> int:
+    def slot(self, slot: int) -> int:
+        """Return the register of a scalar."""
         if slot not in self._slots:
             definition = self._definitions.get(slot)
             if definition is None:
