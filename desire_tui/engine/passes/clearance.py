@@ -26,9 +26,7 @@ _SIDES_MOST = 2
 """A box with more sides for each mode is not worth looking at."""
 
 
-def moving_slots(
-    segment: Segment, jumps: Sequence[Op], definitions: Mapping[int, Value]
-) -> tuple[int, ...]:
+def moving_slots(segment: Segment, jumps: Sequence[Op], definitions: Mapping[int, Value]) -> tuple[int, ...]:
     """Return the slots of states and t that jumps are made of; none where bounds do not serve."""
     if segment.events:  # their blocks move states, and change numbers
         return ()

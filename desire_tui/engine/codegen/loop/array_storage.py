@@ -218,7 +218,7 @@ class ArrayStorage:
         loop(text, "0", self.context.load("mode_count"), 1, one)
         return text.op(f"load i1, ptr {found}")
 
-    def is_in_box(self, *, at_end: bool) -> None:  # noqa: ARG002 - as registers
+    def is_in_box(self, *, at_end: bool) -> None:
         """One loop for all models knows no box of theirs."""
 
     def keep_first_stage(self) -> None:

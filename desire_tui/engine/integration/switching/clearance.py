@@ -1,9 +1,9 @@
 """A box of t and states in which no mode switches: inside it a step's modes need not be computed.
 
-Bounds of every mode's jump over the box (interval arithmetic, Moore 1966, rounded outward) tell that it is the
-same number all over the box, however curved its argument is. Numbers that never come near their thresholds
-then cost a step a few comparisons for each state that the modes depend on. Where a step leaves the box, modes
-are looked at as ever; once in a while the box is made anew around the present state. In plain Python.
+Bounds of every mode's jump over the box (interval arithmetic, Moore 1966, rounded outward) tell that it is
+the same number all over the box, however curved its argument is. Switches that never come near then cost a
+step a few comparisons for each state that they depend on. Where a step leaves the box, modes are looked at as
+ever; once in a while the box is made anew around the present state. In plain Python.
 """
 
 from __future__ import annotations
@@ -40,6 +40,7 @@ def begin_box(w: Watch) -> None:
     w.box_since = w.values[T]
     for i in range(w.box_count):
         w.box_moves[i] = inf
+        w.box_scale[i] = 0.0
     w.box_h = 1.0
     forget_box(w)
 
@@ -59,6 +60,7 @@ def stays_in_box(w: Watch, h: float) -> int:
     high: Reals = w.box_high
     last: Reals = w.box_last
     moves: Reals = w.box_moves
+    scale: Reals = w.box_scale
     times = _TIMES * (h / w.box_h)
     w.box_h = h
     outside = 0
@@ -68,6 +70,7 @@ def stays_in_box(w: Watch, h: float) -> int:
         room = _TIMES * move + times * moves[i]
         last[i] = x
         moves[i] = move
+        scale[i] = max(scale[i], abs(x))
         outside += not x - room >= low[i]
         outside += not x + room <= high[i]
     if outside == 0:
@@ -84,15 +87,15 @@ def renew_box(w: Watch, t: float, h: float) -> None:
     w.box_since = t
     w.box_pause = min(2 * w.box_pause + _PAUSE_LEAST, _PAUSE_MOST) if short else 0
     w.box_wait = w.box_pause
+    for i in range(w.box_count):
+        w.box_scale[i] = max(w.box_scale[i], abs(w.values[w.box_slots[i]]))
     if extended(w) == 0:
         for i in range(w.box_count):
             x: float = w.values[w.box_slots[i]]
             w.box_low[i] = x
             w.box_high[i] = x
         widen(w)
-    for i in range(w.box_count):
-        push(w, w.box_low, i, -1.0)
-        push(w, w.box_high, i, 1.0)
+    push_sides(w)
     w.box_known = 1
 
 
@@ -113,45 +116,56 @@ def widen(w: Watch) -> None:
     grown = 0
     for _ in range(_TRIALS):
         for i in range(w.box_count):
-            reach = by * unit(w.values[w.box_slots[i]])
-            w.kept_low[i] = w.box_low[i]
-            w.kept_high[i] = w.box_high[i]
-            w.box_low[i] -= reach
-            w.box_high[i] += reach
+            w.reach_low[i] = w.box_low[i]
+            w.reach_high[i] = w.box_high[i]
+            w.box_low[i] -= by * unit(w, i)
+            w.box_high[i] += by * unit(w, i)
         if is_clear(w):
             grown = 1
             by *= 2.0
             continue
         for i in range(w.box_count):
-            w.box_low[i] = w.kept_low[i]
-            w.box_high[i] = w.kept_high[i]
+            w.box_low[i] = w.reach_low[i]
+            w.box_high[i] = w.reach_high[i]
         if grown != 0:
             break
         by *= 0.25
 
 
-def push(w: Watch, sides: Reals, i: int, direction: float) -> None:
-    """Move one side of the box outward as far as it goes."""
-    x: float = w.values[w.box_slots[i]]
-    here: float = sides[i]
-    step = max(abs(here - x), unit(x))
+def push_sides(w: Watch) -> None:
+    """Move the box's sides outward as far as they go: in turn, so that none takes all the room there is."""
+    for i in range(w.box_count):
+        x: float = w.values[w.box_slots[i]]
+        w.reach_low[i] = max(x - w.box_low[i], unit(w, i))
+        w.reach_high[i] = max(w.box_high[i] - x, unit(w, i))
     failures = 0
     for _ in range(_TRIALS):
-        if failures == _FAILURES or not abs(here) < _FAR:
+        grown = 0
+        for i in range(w.box_count):
+            grown += push(w, w.box_low, w.reach_low, i, -1.0)
+            grown += push(w, w.box_high, w.reach_high, i, 1.0)
+        failures = 0 if grown != 0 else failures + 1
+        if failures == _FAILURES:
             break
-        sides[i] = here + direction * step
-        if is_clear(w):
-            here = sides[i]
-            step *= 2.0
-        else:
-            sides[i] = here
-            step *= 0.25
-            failures += 1
 
 
-def unit(x: float) -> float:
-    """Return a small distance from a number."""
-    return 1e-3 * abs(x) + 1e-9
+def push(w: Watch, sides: Reals, reaches: Reals, i: int, direction: float) -> int:
+    """Move a side by its reach, if that is possible; whether it was. The next reach is larger, else less."""
+    here: float = sides[i]
+    if not abs(here) < _FAR:
+        return 0
+    sides[i] = here + direction * reaches[i]
+    if is_clear(w):
+        reaches[i] *= 2.0
+        return 1
+    sides[i] = here
+    reaches[i] *= 0.25
+    return 0
+
+
+def unit(w: Watch, i: int) -> float:
+    """Return a small distance, measured by the largest size that a state has had."""
+    return 1e-3 * w.box_scale[i] + 1e-9
 
 
 def is_clear(w: Watch) -> int:

@@ -23,8 +23,8 @@ class Watch(ctypes.Structure):
     computes from t and the states in the values, of `arguments`; each stand in a row there.
 
     Switches of t: a program (see `program`) over registers `low` and `high`; behind them, up to
-    `box_instruction_count`, it has the modes' jumps, whose bounds over a box of t and states tell that no mode
-    switches there (see `clearance`).
+    `box_instruction_count`, it has the modes' jumps, whose bounds over a box of t and states tell that no
+    mode switches there (see `clearance`).
     """
 
     _fields_ = (
@@ -65,7 +65,8 @@ class Watch(ctypes.Structure):
         ("box_instruction_count", _INT),
         ("box_count", _INT),  # sides; 0: no box is kept
         ("box_slots", _INTS), ("box_registers", _INTS),  # of each side
-        ("box_low", _REALS), ("box_high", _REALS), ("kept_low", _REALS), ("kept_high", _REALS),
+        ("box_low", _REALS), ("box_high", _REALS), ("box_scale", _REALS),
+        ("reach_low", _REALS), ("reach_high", _REALS),  # by how much sides are moved next
         ("box_last", _REALS), ("box_moves", _REALS),  # where it was at the step's end, how far it moved …
         ("box_h", _REAL),  # … in a step of this size
         ("box_known", _INT),  # 0: it has to be made from nothing

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 class Program:
     """Instructions (operation, to, from, from), constants by register, inputs' slots by register.
 
-    The first `clock_count` instructions are those of expressions of t; `moving` are registers by slot of t and
-    states.
+    The first `clock_count` instructions are those of expressions of t; `moving` are registers by slot, of t
+    and states.
     """
 
     instructions: list[tuple[int, int, int, int]] = field(default_factory=list)

@@ -65,7 +65,7 @@ class Watcher:
         self.sides = tuple(program.moving)
         for name, sides in (("box_slots", self.sides), ("box_registers", program.moving.values())):
             self._ints(name, np.array([*sides, 0], dtype=np.int64))
-        for name in ("box_low", "box_high", "kept_low", "kept_high", "box_last", "box_moves"):
+        for name in ("box_low", "box_high", "reach_low", "reach_high", "box_last", "box_moves", "box_scale"):
             self._reals(name, np.zeros(len(self.sides) + 1))
         for name in ("before", "behind"):
             self._reals(name, np.zeros(max(len(program.instructions), 1)))
