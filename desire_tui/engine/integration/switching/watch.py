@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.switching.ahead import begin_ahead, inputs_changed, look_ahead
-from desire_tui.engine.integration.switching.located import has_switched, locate, resolution
 from desire_tui.engine.integration.switching.clearance import begin_box, forget_box, renew_box, stays_in_box
+from desire_tui.engine.integration.switching.located import has_switched, locate, resolution
 from desire_tui.engine.integration.switching.margins import are_far, begin_margins
 from desire_tui.engine.integration.switching.memory import CHATTERS, JUMPED
 from desire_tui.engine.values import T
