@@ -165,7 +165,8 @@ def push(w: Watch, sides: Reals, reaches: Reals, i: int, direction: float) -> in
 
 def unit(w: Watch, i: int) -> float:
     """Return a small distance, measured by the largest size that a state has had."""
-    return 1e-3 * w.box_scale[i] + 1e-9
+    scale: float = w.box_scale[i]
+    return 1e-3 * scale + 1e-9
 
 
 def is_clear(w: Watch) -> int:
