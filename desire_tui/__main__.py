@@ -8,6 +8,7 @@ import sys
 from desire_tui.systems import reason_against
 
 COMMANDS = frozenset({
+    "sensitivity",
     "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide", "export",
     "average", "histogram", "maximise", "minimise", "section", "spectrum",
     "fmt", "lsp", "convert",

@@ -38,6 +38,11 @@ class Analysis:
 _OVER = "QUANTITY over NAME [= START] [in [LOW, HIGH]] [log], … [by local|global|cma] [runs N]"
 ANALYSES = (
     Analysis(
+        "sensitivity", "Sensitivity", "What changes with what: exact derivatives along runs, or whole ranges",
+        "NAME, … of NAME, … [normalised], or global NAME in [LOW, HIGH], … of QUANTITY, … [morris] [runs N]",
+        "k of x", "desire_tui.analysis.sensitivity.question",
+    ),
+    Analysis(
         "minimise", "Minimise", "Values at which a quantity that runs leave is least", _OVER,
         "max(x) over k in [0, 5]", "desire_tui.analysis.optimise.search:minimise",
     ),

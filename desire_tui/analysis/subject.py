@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.api.instance import LoadOptions
 from desire_tui.api.model import Model
+from desire_tui.studies.task import Task
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -49,4 +50,21 @@ class Subject:
         return Model(
             self.source,
             LoadOptions(self.segment, self.answers, self.backend, self.allow_shell, self.allow_write),
+        )
+
+    def task(self, keep: str, names: tuple[str, ...]) -> Task:
+        """Return what the study engine needs for runs in which `names` vary and `keep` is kept of each."""
+        source = self.source
+        return Task(
+            text=source.text,
+            name=source.name,
+            path=None if source.path is None else str(source.path.absolute()),
+            keep=keep,
+            names=names,
+            fixed=tuple((name, value) for name, value in self.settings.items() if name not in names),
+            segment=self.segment,
+            answers=self.answers,
+            backend=self.backend,
+            allow_shell=self.allow_shell,
+            allow_write=self.allow_write,
         )

@@ -61,7 +61,7 @@ class Topic:
         return "\n\n".join(parts) + "\n"
 
 
-_WRITTEN = ("script", "runs", "dynamic", "vectors", "display", "files", "commands", "desktop", "analysis")
+_WRITTEN = ("script", "runs", "dynamic", "vectors", "display", "files", "commands", "desktop", "analysis", "fits")
 
 
 @cache
@@ -122,6 +122,7 @@ def _written() -> list[Topic]:
         "commands",
         "desktop",
         "analysis",
+        "fits",
     ):
         pages += [_page(entry) for entry in tomllib.loads(_with_rules(_text_of(name)))["page"]]
     return pages

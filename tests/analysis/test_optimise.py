@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import desire_tui
-from desire_tui.analysis.optimise.unknowns import Scale, Unknown
 from desire_tui.analysis.progress import unwatched
 from desire_tui.analysis.registry import BY_NAME
+from desire_tui.analysis.unknowns import Scale, Unknown
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.source import Span
 

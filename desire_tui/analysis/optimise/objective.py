@@ -9,15 +9,14 @@ import numpy as np
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.studies.chunk import run_chunk
 from desire_tui.studies.keep import kept
-from desire_tui.studies.task import Task
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from desire_tui.analysis.optimise.unknowns import Scale, Unknown
     from desire_tui.analysis.subject import Subject
+    from desire_tui.analysis.unknowns import Scale, Unknown
 
     Floats = NDArray[np.float64]
 
@@ -33,19 +32,7 @@ class Objective:
         self.names = tuple(one.name for one in unknowns)
         self._source = subject.source
         keep = _single(text)
-        self._task = Task(
-            text=subject.source.text,
-            name=subject.source.name,
-            path=None if subject.source.path is None else str(subject.source.path.absolute()),
-            keep=keep,
-            names=self.names,
-            fixed=tuple((k, v) for k, v in subject.settings.items() if k not in self.names),
-            segment=subject.segment,
-            answers=subject.answers,
-            backend=subject.backend,
-            allow_shell=subject.allow_shell,
-            allow_write=subject.allow_write,
-        )
+        self._task = subject.task(keep, self.names)
         self.scale: Scale
         self.evaluations = 0
         self.best = np.inf

@@ -9,9 +9,9 @@ import numpy as np
 
 from desire_tui.analysis.optimise import methods
 from desire_tui.analysis.optimise.objective import Objective
-from desire_tui.analysis.optimise.unknowns import Scale, Unknown, read_unknowns
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.result import Result, Table
+from desire_tui.analysis.unknowns import Scale, Unknown, read_unknowns
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.chart import Chart, Series
 
