@@ -61,7 +61,9 @@ class Topic:
         return "\n\n".join(parts) + "\n"
 
 
-_WRITTEN = ("script", "runs", "dynamic", "vectors", "display", "files", "commands", "desktop", "analysis", "fits")
+_WRITTEN = (
+    "script", "runs", "dynamic", "vectors", "display", "files", "commands", "desktop", "analysis", "fits",
+)  # fmt: skip
 
 
 @cache
@@ -112,18 +114,7 @@ def _folded() -> dict[str, Topic]:
 def _written() -> list[Topic]:
     """Read the pages of `pages/*.toml`."""
     pages = []
-    for name in (
-        "script",
-        "runs",
-        "dynamic",
-        "vectors",
-        "display",
-        "files",
-        "commands",
-        "desktop",
-        "analysis",
-        "fits",
-    ):
+    for name in _WRITTEN:
         pages += [_page(entry) for entry in tomllib.loads(_with_rules(_text_of(name)))["page"]]
     return pages
 
