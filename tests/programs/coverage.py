@@ -39,7 +39,7 @@ def _holds(text: str, page: Topic) -> bool:
 
 def _gives(text: str, word: str) -> bool:
     """Whether a test's text holds the command; pausing is no word but a method of the session."""
-    return bool(
+    return (word == "pause" or word in text) and bool(
         re.search(
             r"\.pause\(\)" if word == "pause" else rf"""["']{re.escape(word)}(?:["']| ["'#*\w])""", text
         )
