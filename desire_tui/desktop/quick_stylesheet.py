@@ -10,17 +10,18 @@ from __future__ import annotations
 
 from itertools import count
 from typing import TYPE_CHECKING, cast
+from weakref import WeakKeyDictionary
 
 from textual.css.match import _check_selectors
 from textual.css.styles import RulesMap, Styles
 from textual.css.stylesheet import Stylesheet
-from textual.dom import DOMNode
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from textual.css.model import RuleSet, Selector
     from textual.css.types import Specificity3
+    from textual.dom import DOMNode
 
 BY_NEIGHBOURS = frozenset({"first-of-type", "last-of-type", "first-child", "last-child", "empty"})
 BY_COUNT = frozenset({"odd", "even"})
@@ -69,8 +70,10 @@ class QuickStylesheet(Stylesheet):
         self._numbers = count()
         self._of_names: dict[frozenset[str], Candidates] = {}
         self._of_selectors: dict[tuple[int, ...], RulesMap] = {}
-        self._of_parts: dict[tuple[int, ...], RulesMap] = {}
-        """As they stand in a node: `text_style` is a word in a rule."""
+        self._as_stored: dict[tuple[int, ...], RulesMap] = {}
+        """As nodes keep them: in a rule `text_style` is a word."""
+        self._given: WeakKeyDictionary[DOMNode, tuple[tuple[int, ...], int]] = WeakKeyDictionary()
+        """The selectors by which a node has its styles, and their count of changes then."""
         self._seen: list[RuleSet] | None = None
         """The rules that the tables are about."""
 
@@ -86,7 +89,7 @@ class QuickStylesheet(Stylesheet):
         self._seen = None
         self._numbered.clear()
         self._of_selectors.clear()
-        self._of_parts.clear()
+        self._as_stored.clear()
 
     def apply(
         self, node: DOMNode, *, animate: bool = False, cache: dict[tuple[object, ...], RulesMap] | None = None
@@ -99,18 +102,35 @@ class QuickStylesheet(Stylesheet):
         chosen = [selector for selector in candidates.selectors if selector.holds(node, path)]
         if chosen:
             key = tuple([selector.number for selector in chosen])
-            is_part = type(node) is DOMNode
-            """Whether it is a part of a widget: it stands nowhere, and is made for each call anew."""
-            if is_part and key in self._of_parts:
-                node.styles.base.merge_rules(self._of_parts[key])
-                return
-            styles = self._of_selectors.get(key)
-            if styles is None:
-                styles = self._of_selectors[key] = prevailing(chosen)
-            self.replace_rules(node, styles, animate=animate)
-            if is_part:
-                self._of_parts[key] = node.styles.base.get_rules()
+            base = node.styles.base
+            if self._given.get(node) != (key, base._updates):
+                if base._rules:
+                    self.replace_rules(node, self._styles(key, chosen), animate=animate)
+                else:
+                    self._give_first(node, key, chosen)
+                self._given[node] = key, base._updates
         self._process_component_classes(node)
+
+    def _styles(self, key: tuple[int, ...], chosen: list[NumberedSelector]) -> RulesMap:
+        if key not in self._of_selectors:
+            self._of_selectors[key] = prevailing(chosen)
+        return self._of_selectors[key]
+
+    def _give_first(self, node: DOMNode, key: tuple[int, ...], chosen: list[NumberedSelector]) -> None:
+        """Give a new node its styles, at once: one by one each asks for a new layout."""
+        base, styles = node.styles.base, self._styles(key, chosen)
+        as_stored = self._as_stored.get(key)
+        if as_stored is None:
+            self.replace_rules(node, styles)
+            as_stored = base.get_rules()
+            as_stored.pop("layout", None)  # an object for each node
+            self._as_stored[key] = as_stored
+            return
+        base.merge_rules(as_stored)
+        if "layout" in styles:
+            base.layout = styles["layout"]
+        node.refresh(layout=True)
+        node.notify_style_update()
 
     def _candidates(self, node: DOMNode) -> Candidates:
         rules_map = self.rules_map
