@@ -23,7 +23,8 @@ TAKEN_BY_DESKTOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 os.environ["XDG_STATE_HOME"] = tempfile.mkdtemp(
     prefix="desire-tests-"
 )  # the user's own record is not for tests
-os.environ["OPENBLAS_NUM_THREADS"] = "1"  # else a second thread of each process that imports NumPy waits busily
+# else a second thread of each process that imports NumPy waits busily: a quarter of what short processes took
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
 if "PYTEST_XDIST_WORKER" not in os.environ:  # parse tables and native code are made once for all processes
     os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="desire-tests-cache-")
 
