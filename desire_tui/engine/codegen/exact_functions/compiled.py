@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _GLIBC = (2, 28)
 """Since then sin, cos and exp are those whose accuracy is relied on."""
-_FAST_LIBRARY, _WIDE = frozenset(("exp",)), 16
+_FAST_LIBRARY, _WIDE = frozenset(("exp",)), 32
 """Of these the library is so quick that only vectors of so many doubles gain."""
 _TRIED = 16_384
 _TRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)
@@ -76,7 +76,7 @@ def exact_function(name: str, width: int) -> ExactFunction | None:
 
 
 def _is_possible(name: str, width: int) -> bool:
-    if name not in NAMES or width > _WIDE or (name in _FAST_LIBRARY and width < _WIDE):
+    if name not in NAMES or width > _WIDE or (name in _FAST_LIBRARY and width < 16):
         return False
     if "+fma" not in machine().features.split(","):
         return False
@@ -156,4 +156,4 @@ def _arguments() -> Floats:
     signs = np.where(np.arange(len(part)) % 2, 1.0, -1.0)
     far = signs * 10.0 ** (12.0 * part - 6.0)
     special = [0.0, -0.0, np.inf, -np.inf, np.nan, 1.0, -1.0, 5e-324, 1e300, np.pi, np.pi / 2, 710.0, -746.0]
-    return np.concatenate([near, far, np.resize(np.array(special), 16)])
+    return np.concatenate([near, far, np.resize(np.array(special), 32)])
