@@ -47,6 +47,9 @@ FUNCTIONS = [
     "recip",
 ]
 
+VECTORS = (
+    "STATE y[5] | ARRAY w[5], s[5] | for i = 1 to 5 | y[i] = 0.1*i | w[i] = 0.3*i | next\ndrun\nDYNAMIC\n"
+)
 MODELS = {
     "RK2": "drun\nDYNAMIC\n" + SPRING,
     "Euler": "irule 2\ndrun\nDYNAMIC\n" + SPRING,
@@ -86,6 +89,26 @@ MODELS = {
     + "delay q = D(x, 0.2)\nterm t - 0.3*k - 0.2345\nstore X = q\nz = x + q\n",
     "histories that all share": "ARRAY D[9] | q = 0\ndrun\nDYNAMIC\ndelay q = D(sin(t), 0.2)\nd/dt x = -k*x + q\n",
     "difference equations": "q = 0.3 | n = 0\ndrun\nDYNAMIC\nq = k*q*(1 - q)\nn = n + ran()\nterm n - 4*k\nOUT\nx = q + t\n",
+    "vectors": VECTORS
+    + "Vector s = sin(w)*exp(-y) + k\nVectr d/dt y = s - r*y{1} + y{-1}\n"
+    + SPRING
+    + "a = y[1] + s[3]\nb = y[5]\n",
+    "functions of vectors": VECTORS
+    + "Vector s = "
+    + " + ".join(f"{name}(0.45 + 0.4*cos(y))" for name in FUNCTIONS)
+    + " + max(y, w) + abs(y)^1.7 + atan2(y, k)\nVectr d/dt y = tanh(s) + sin(t)*w - k*y\n"
+    + SPRING
+    + "a = y[1]\nb = y[5] + s[2]\n",
+    "matrices": "STATE y[11] | ARRAY W[11,11]\nfor i = 1 to 11 | y[i] = 0.1*i | for j = 1 to 11 | W[i,j] = sin(i*j) | next | next\n"
+    "drun\nDYNAMIC\nVectr d/dt y = tanh(W*y) - k*y + 0.1*(W%*y)\n" + SPRING + "a = y[1]\nb = y[11]\n",
+    "vectors under conditions": VECTORS
+    + "if x > 0 | Vector s = y | else | Vector s = 2*y*x | end if\nVectr d/dt y = -s\n"
+    + SPRING
+    + "OUT\nVectr delta w = 0.1*s\na = w[2] + y[1]\n",
+    "noise in vectors": VECTORS
+    + "Vectr d/dt y = s - k*y\n"
+    + SPRING
+    + "a = y[1]\nb = y[5]\nOUT\nVector s = gauss(0) + ran()\nn = ran()\n",
     "nothing random differs but noise": "k = 1 | n = 0\ndrun\nDYNAMIC\nd/dt x = n\nOUT\nn = gauss(0)\n",
 }
 
@@ -137,7 +160,8 @@ def test_functions_of_the_vector_library_are_near():
         ("drun\nDYNAMIC\n" + SPRING, ("TMAX",), "times or settings of the run vary"),
         ("DT = 0.01*k\ndrun\nDYNAMIC\n" + SPRING, ("k",), "times or settings of the run vary"),
         ("irule 2\ndrun\nDYNAMIC\n" + SPRING + "step\nDT = 0.01\n", ("k",), "the program sets times or settings"),
-        ("STATE y[3]\ndrun\nDYNAMIC\nVectr d/dt y = -k*y\n" + SPRING, ("k",), "DerivVec statements"),
+        ("STATE y[300]\ndrun\nDYNAMIC\nVectr d/dt y = -k*y\n" + SPRING, ("k",), "the model is large"),
+        ("ARRAY W[2,2], a[2]\ndrun\nDYNAMIC\nMATRIX W = a*a\n" + SPRING, ("k",), "SetMat statements"),
         ("ARRAY f[4] | f[1] = k | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("k",), "script has to run"),
         ("ARRAY f[4] | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("f[3]",), "tables vary"),
         ("drun\nDYNAMIC\n" + SPRING + "y = delay(x, 0.1)\n", ("k",), "events, delays"),

@@ -17,6 +17,8 @@ C_FUNCTIONS = {
     "cosh": "cosh", "tanh": "tanh", "exp": "exp", "ln": "log", "log": "log10", "pow": "pow", "atan2": "atan2",
 }  # fmt: skip
 """Functions that are the C library's, by their names there."""
+LIBRARY_OPERATIONS = frozenset((*C_FUNCTIONS, "sinc", "sigmoid"))
+"""Operations that call it."""
 
 
 def apply(lanes: Lanes, name: str, args: list[str]) -> str:

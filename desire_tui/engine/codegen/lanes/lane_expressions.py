@@ -5,16 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir import random
-from desire_tui.engine.codegen.ir.functions import apply, power
+from desire_tui.engine.codegen.ir.functions import LIBRARY_OPERATIONS, apply, power
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.table_lookup import table1, table2
+from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.lanes.lane_cells import Number
+from desire_tui.engine.codegen.lanes.replicas import Replicas
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.random_sequence import DRAWS
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.lanes.lane_cells import LaneCells
-    from desire_tui.engine.codegen.lanes.replicas import Replicas
     from desire_tui.engine.lowered.expressions import ElementOperand, Value
 
 
@@ -24,10 +25,13 @@ class LaneExpressions:
     `mask`: flags of the runs that draw random numbers; None: all do.
     """
 
-    def __init__(self, runs: Replicas, cells: LaneCells) -> None:
+    def __init__(self, runs: Replicas, cells: LaneCells, over_elements: frozenset[int] = frozenset()) -> None:
+        """`over_elements`: identities of operations of vectors' elements; see `passes.scalar_elements`."""
         self.text = runs.text
         self.one, self.runs = Lanes(runs.text), runs
         self.cells = cells
+        self._over_elements = over_elements
+        self._library = Replicas(runs.text, runs.width, machine().width)
         self.mask: str | None = None
         self._known: dict[int, Number] = {}
 
@@ -61,14 +65,26 @@ class LaneExpressions:
 
     def _operation(self, node: Op) -> Number:
         if node.name in DRAWS:
-            return self._draw(node.name)
+            return self._draw(node.name, self._library if id(node) in self._over_elements else self.runs)
         if node.name == "ipow":
             lanes, (x,) = self._alike(self.value(node.args[0]))
             exponent = node.args[1]
             assert isinstance(exponent, Const)
             return Number(power(lanes, x, int(exponent.value)), lanes.width > 1)
-        lanes, names = self._alike(*(self.value(arg) for arg in node.args))
+        values = [self.value(arg) for arg in node.args]
+        if id(node) in self._over_elements:
+            return self._of_element(node.name, values)
+        lanes, names = self._alike(*values)
         return Number(apply(lanes, node.name, names), lanes.width > 1)
+
+    def _of_element(self, name: str, values: list[Number]) -> Number:
+        """Write an operation of a vector's element: its functions are the vector library's."""
+        if not any(value.wide for value in values):
+            if name not in LIBRARY_OPERATIONS:
+                return Number(apply(self.one, name, [value.name for value in values]), wide=False)
+            made = apply(self._library, name, [self.cells.wide(value) for value in values])
+            return Number(self.text.op(f"extractelement {self.runs.kind} {made}, i64 0"), wide=False)
+        return Number(apply(self._library, name, [self.cells.wide(value) for value in values]), wide=True)
 
     def _alike(self, *values: Number) -> tuple[Lanes, list[str]]:
         """Return all values as numbers or, if one of them is a vector, as vectors."""
@@ -76,11 +92,11 @@ class LaneExpressions:
             return self.runs, [self.cells.wide(value) for value in values]
         return self.one, [value.name for value in values]
 
-    def _draw(self, name: str) -> Number:
+    def _draw(self, name: str, lanes: Replicas) -> Number:
         first = self._next_state()
         if name == "ran":
             return Number(random.uniform(self.runs, first), wide=True)
-        return Number(random.normal(self.runs, first, self._next_state()), wide=True)
+        return Number(random.normal(lanes, first, self._next_state()), wide=True)
 
     def _next_state(self) -> str:
         kind = self.runs.integers

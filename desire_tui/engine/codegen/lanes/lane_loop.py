@@ -59,6 +59,7 @@ class LaneLoop:
         faults: frozenset[int],
         arrays: Mapping[int, int],
         counters: int,
+        over_elements: frozenset[int],
         width: int,
         piece: int,
     ) -> None:
@@ -71,7 +72,7 @@ class LaneLoop:
         self.cells = LaneCells(self.text, self.runs, slots, differing, states, stages)
         self.memory = Fields(self.text, LaneMemory, "%a")
         self.histories = LaneHistories(self.runs, self.cells, self.memory, arrays, counters)
-        self.statements = LaneStatements(self.runs, self.cells, faults, self.histories)
+        self.statements = LaneStatements(self.runs, self.cells, faults, self.histories, over_elements)
         may_end = holds_term(passes["step"]) or holds_term(passes["full"])
         self.loop = LaneVariables(
             self.runs, self.cells, self.memory, self.statements, passes, may_end=may_end

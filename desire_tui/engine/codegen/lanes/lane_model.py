@@ -18,6 +18,7 @@ from desire_tui.engine.lowered.effects import count_draws, expressions
 from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.passes.assigned_states import stepped_segment
 from desire_tui.engine.passes.replication import LockStepError, differing, hindrance, histories, moved_apart
+from desire_tui.engine.passes.scalar_elements import TooManyError, scalar_elements
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.delays import Delays
 
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.jit.cache import CodeCache
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.passes.scalar_elements import WrittenOut
     from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.values import Values
 
@@ -37,6 +39,8 @@ if TYPE_CHECKING:
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
 _STATES_MOST = 200
 """Larger models leave the registers anyway."""
+_OPERATIONS_MOST = 2000
+"""Of elements of vectors and matrices: more would take too long to compile."""
 
 
 class LaneRows(NamedTuple):
@@ -45,6 +49,17 @@ class LaneRows(NamedTuple):
     table: Floats
     counts: Integers
     flagged: NDArray[np.bool_]
+
+
+def _written_out(segment: Segment) -> WrittenOut:
+    """Return a segment as statements over numbers. LockStepError: it is large."""
+    try:
+        made = scalar_elements(segment, _OPERATIONS_MOST)
+    except TooManyError:
+        raise LockStepError("the model is large") from None
+    if segment.order > _STATES_MOST or len(made.segment.body) > _STATES_MOST:
+        raise LockStepError("the model is large")
+    return made
 
 
 class LaneModel:
@@ -64,14 +79,13 @@ class LaneModel:
         """`given` are the slots with a start for each run. LockStepError: what keeps runs from it."""
         if segment.order and rule_numbered(rule).kind != "fixed":
             raise LockStepError("the rule varies its steps")
-        reason = hindrance(segment, given)
-        if reason is not None:
-            raise LockStepError(reason)
-        if segment.order > _STATES_MOST or len(segment.body) > _STATES_MOST:
-            raise LockStepError("the model is large")
         vital = [segment.columns[number].slot for number in vital_columns(segment)]
         faults = frozenset(fault.number for fault in segment.faults)
         segment, _ = stepped_segment(segment, values.room, variable=False)
+        segment, over_elements = _written_out(segment)
+        reason = hindrance(segment, given)
+        if reason is not None:
+            raise LockStepError(reason)
         passes = passes_of(segment)
         states = [slot for s in segment.states for slot in range(s.slot, s.slot + s.count)]
         self._values, self._given, self._columns = values, list(given), list(columns)
@@ -103,6 +117,7 @@ class LaneModel:
             faults,
             arrays,
             segment.counters,
+            over_elements,
             self.width,
             piece,
         )

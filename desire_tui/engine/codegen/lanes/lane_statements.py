@@ -33,10 +33,15 @@ class LaneStatements:
     """
 
     def __init__(
-        self, runs: Replicas, cells: LaneCells, faults: frozenset[int], histories: LaneHistories
+        self,
+        runs: Replicas,
+        cells: LaneCells,
+        faults: frozenset[int],
+        histories: LaneHistories,
+        over_elements: frozenset[int],
     ) -> None:
         self.text, self.runs, self.cells = runs.text, runs, cells
-        self.values = LaneExpressions(runs, cells)
+        self.values = LaneExpressions(runs, cells, over_elements)
         self._faults = faults
         self.histories = histories
 

@@ -38,7 +38,7 @@ class Replicas(Lanes):
         kinds = ", ".join([kind] * count)
         needs = self.text.declarations
         needs.add(f"declare {kind} @desire.{name}.{self.piece}({kinds}) #1")
-        function = f"runs.{name}.{self.width}"
+        function = f"runs.{name}.{self.width}.{self.piece}"
         if self.piece == 1:
             needs.add(
                 lane_by_lane(name, self.width).replace(f"@desire.{name}.{self.width}(", f"@{function}(")

@@ -1,0 +1,162 @@
+"""Small vector models as scalar ones: statements over vectors written out for each element.
+
+The operations of each element, and their order, are those of the loops in `codegen.vector`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from desire_tui.engine.lowered.effects import reads_replaced
+from desire_tui.engine.lowered.expressions import (
+    Const,
+    ElementOperand,
+    Load,
+    MatVec,
+    Op,
+    ShiftedVec,
+    Table1,
+    Table2,
+    Vec,
+)
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec
+from desire_tui.engine.lowered.walk import walk_values, with_bodies
+from desire_tui.engine.random_sequence import DRAWS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from desire_tui.engine.lowered.expressions import Value
+    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
+
+_SUMS = 8
+"""Products of a row of a matrix are added up in so many sums (`codegen.vector.products`)."""
+_ZERO = Const(0.0)
+
+
+class TooManyError(Exception):
+    """There would be more numbers than are wanted."""
+
+
+class WrittenOut(NamedTuple):
+    """A segment without statements over vectors, as far as they can be written out."""
+
+    segment: Segment
+    over_elements: frozenset[int]
+    """Identities of the operations that belong to elements: their functions are the vector library's."""
+
+
+def scalar_elements(segment: Segment, most: int) -> WrittenOut:
+    """Return a segment written out. TooManyError: it would hold more than `most` operations."""
+    writer = _Writer(most)
+    body = tuple(writer.actions(segment.body))
+    if not writer.written:
+        return WrittenOut(segment, frozenset())
+    return WrittenOut(replace(segment, body=body), frozenset(writer.over_elements))
+
+
+class _Writer:
+    def __init__(self, most: int) -> None:
+        self._left = most
+        self.written = False
+        self.over_elements = set[int]()
+
+    def actions(self, actions: Iterable[Action]) -> Iterator[Action]:
+        """Yield statements; what cannot be written out is left as it is."""
+        for action in actions:
+            match action:
+                case Guard():
+                    yield with_bodies(
+                        action, tuple(self.actions(action.body)), tuple(self.actions(action.orelse))
+                    )
+                case SetVec(mask_slot=None) if action.mode != "largest" and not reads_replaced(action):
+                    yield from self._vector(action)
+                case DerivVec():
+                    for at in range(action.count):
+                        value = _Element(self, at).value(action.value)
+                        yield Deriv(action.state + at, value, action.where)
+                    self.written = True
+                case _:
+                    yield action
+
+    def _vector(self, action: SetVec) -> Iterator[Action]:
+        """Yield the last element first: so numbers are drawn, and so vectors change that read themselves."""
+        self.written = True
+        for at in reversed(range(action.count)):
+            value = _Element(self, at).value(action.value)
+            if action.mode == "add":
+                value = self.op("add", Load(action.slot + at), value)
+            persistent = action.persistent or action.mode == "add"
+            yield Set(action.slot + at, value, action.where, persistent)
+
+    def op(self, name: str, *args: Value) -> Op:
+        """Return an operation of an element."""
+        self._left -= 1
+        if self._left < 0:
+            raise TooManyError
+        made = Op(name, args)
+        self.over_elements.add(id(made))
+        return made
+
+
+class _Element:
+    """Values of one element of a statement; an object met again is the same object."""
+
+    def __init__(self, writer: _Writer, at: int) -> None:
+        self._writer, self._at = writer, at
+        self._known: dict[int, Value] = {}
+
+    def value(self, node: Value) -> Value:
+        """Return what the element is."""
+        known = self._known.get(id(node))
+        if known is None:
+            known = self._known[id(node)] = self._made(node)
+        return known
+
+    def _made(self, node: Value) -> Value:
+        if not any(isinstance(n, ElementOperand) or _draws(n) for n in walk_values(node)):
+            return node  # one number for all elements
+        match node:
+            case Vec():
+                return Load(node.slot + self._at)
+            case ShiftedVec():
+                at = self._at + node.by
+                return Load(node.slot + at) if 0 <= at < node.count else _ZERO
+            case MatVec():
+                return self._product(node)
+            case Op():
+                return self._writer.op(node.name, *map(self.value, node.args))
+            case Table1():
+                return Table1(self.value(node.x), node.slot, node.count)
+            case Table2():
+                x, y = self.value(node.x), self.value(node.y)
+                return Table2(x, y, node.f_slot, node.rows, node.cols, node.x_slot, node.y_slot)
+            case _:
+                return node  # refused later, as an operand over elements
+
+    def _product(self, node: MatVec) -> Value:
+        op = self._writer.op
+        if node.transposed:
+            first, step, terms = node.slot + self._at, node.cols, node.rows
+        else:
+            first, step, terms = node.slot + self._at * node.cols, 1, node.cols
+        parts = [op("mul", Load(first + k * step), Load(node.x_slot + k)) for k in range(terms)]
+        if node.transposed:
+            return self._sum(_ZERO, parts)
+        main = terms // _SUMS * _SUMS
+        sums = [self._sum(_ZERO, parts[lane:main:_SUMS]) for lane in range(_SUMS)]
+        while len(sums) > 1:
+            sums = [op("add", a, b) for a, b in zip(sums[::2], sums[1::2], strict=True)]
+        return self._sum(sums[0], parts[main:])
+
+    def _sum(self, first: Value, parts: Sequence[Value]) -> Value:
+        total = first
+        for part in parts:
+            total = self._writer.op("add", total, part)
+        return total
+
+
+def _draws(node: Value) -> bool:
+    return isinstance(node, Op) and node.name in DRAWS
