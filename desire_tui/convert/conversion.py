@@ -44,17 +44,21 @@ def convert(source: Source) -> Conversion:
 
     DesireError: the file is neither, or cannot be read as what it is; a library is missing.
     """
-    model = _read(source)
     try:
+        model = _read(source)
         text, renamed = program_text(model)
     except CircularError as circle:
         facts = {"what": circle.names[0], "reason": f"these wait for each other: {circle}"}
-        raise DesireError(*model.problems, Diagnostic("convert-part", None, facts, source)) from None
+        raise DesireError(Diagnostic("convert-part", None, facts, source)) from None
     notes = [_renaming(source, old, new) for old, new in renamed.items()]
     return Conversion(text, (*model.problems, *notes))
 
 
 def _read(source: Source) -> Model:
+    if source.text.lstrip("\ufeff \t\r\n").startswith("<"):
+        from desire_tui.convert.sbml.reader import read_sbml
+
+        return read_sbml(source)
     if not source.name.lower().endswith(".ode"):
         raise DesireError(Diagnostic("convert-kind", facts={"path": source.file_name}))
     from desire_tui.convert.xppaut.reader import read_ode

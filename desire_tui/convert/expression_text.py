@@ -29,6 +29,11 @@ def expression_text(expression: Expression, name_of: Callable[[str], str] = str)
     return _Writer(name_of).at_least(expression, _SUM)
 
 
+def condition_text(expression: Expression, name_of: Callable[[str], str] = str) -> str:
+    """Return its text as a script's `if` takes it; a number holds where it is not 0."""
+    return _Writer(name_of).condition(expression)
+
+
 def number_text(value: float) -> str:
     """Return the shortest text from which Desire reads exactly this number."""
     if value == int(value) and abs(value) < 1e15:
@@ -63,9 +68,9 @@ class _Writer:
             case Choice(condition, then, otherwise):
                 chosen = ", ".join(self.at_least(part, _SUM) for part in (otherwise, then))
                 # a condition is worth 1 or 0, and comp takes what is above 0 for true
-                return f"comp(({self._condition(condition)}), {chosen})", _ATOM
+                return f"comp(({self.condition(condition)}), {chosen})", _ATOM
             case Relation() | Logical() | Not():
-                return f"({self._condition(expression)})", _ATOM
+                return f"({self.condition(expression)})", _ATOM
 
     def _binary(self, expression: Binary) -> str:
         operator, level = expression.operator, _LEVEL[expression.operator]
@@ -75,19 +80,19 @@ class _Writer:
         right = self.at_least(expression.right, level + 1)
         return f"{left} {operator} {right}" if level == _SUM else f"{left}{operator}{right}"
 
-    def _condition(self, expression: Expression) -> str:
+    def condition(self, expression: Expression) -> str:
         match expression:
             case Relation(operator, left, right):
                 return f"{self.at_least(left, _SUM)} {operator} {self.at_least(right, _SUM)}"
             case Logical(operator, left, right):
                 return f"{self._operand(left, operator)} {operator} {self._operand(right, operator)}"
             case Not(operand):
-                return f"not ({self._condition(operand)})"
+                return f"not ({self.condition(operand)})"
             case _:  # a number: true if it is not 0
                 return f"{self.at_least(expression, _SUM)} <> 0"
 
     def _operand(self, expression: Expression, outer: str) -> str:
         """Return an operand of `and`, `or`; `and` binds tighter."""
-        text = self._condition(expression)
+        text = self.condition(expression)
         mixed = isinstance(expression, Logical) and expression.operator != outer
         return f"({text})" if mixed else text

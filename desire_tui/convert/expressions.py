@@ -93,6 +93,8 @@ class Call:
 Expression: TypeAlias = Number | Name | Negative | Binary | Relation | Logical | Not | Choice | Call
 
 ZERO, ONE = Number(0.0), Number(1.0)
+TIME, PI, STEP = Name("<t>"), Name("<PI>"), Name("<DT>")
+"""Desire's own quantities stand in angle brackets, so that a model may have some of these names."""
 
 
 def number(value: float) -> Expression:

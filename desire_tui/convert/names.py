@@ -40,7 +40,9 @@ class NameTable:
         self.renamed = {old: new for old, new in self._given.items() if old != new}
 
     def __call__(self, name: str) -> str:
-        """Return the program's name for one of the model's."""
+        """Return the program's name for one of the model's; Desire's own stand in angle brackets."""
+        if name.startswith("<"):
+            return name[1:-1]
         return self._given.get(name, name)
 
     def fresh(self, wanted: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.convert.expression_text import expression_text, number_text
+from desire_tui.convert.expression_text import condition_text, expression_text, number_text
 from desire_tui.convert.layout import broken, comment_lines, joined
 from desire_tui.convert.model import Quantity, Table
 from desire_tui.convert.ordering import in_order, needed_by
@@ -35,7 +35,7 @@ def script_lines(model: Model, names: NameTable, next_names: Mapping[str, str]) 
     yield from _beginnings(model, names)
     for event in model.events:
         if event.at_start is not None:
-            yield f"if {expression_text(event.at_start, names)} <> 0 then"
+            yield f"if {condition_text(event.at_start, names)} then"
             yield from joined(
                 f"{names(one.name)} = {expression_text(one.value, names)}" for one in event.assignments
             )
@@ -66,6 +66,10 @@ def beginnings(model: Model) -> list[Quantity | Table]:
     known: dict[str, Quantity | Table] = {one.name: one for one in [*always, *model.variables]}
     needs: dict[str, set[str]] = {}
     rest = [one.name for one in always]
+    for event in model.events:
+        if event.at_start is not None:
+            for formula in (event.at_start, *(one.value for one in event.assignments)):
+                rest.extend(needed_by(formula, functions))
     while rest:
         name = rest.pop()
         if name in needs or name not in known:

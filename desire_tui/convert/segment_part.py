@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.convert.expression_text import expression_text, number_text
 from desire_tui.convert.expressions import (
+    STEP,
     ZERO,
     Binary,
     Choice,
@@ -100,7 +101,7 @@ def _next_state(process: MarkovProcess, draw: str) -> Expression:
         goes: Expression = number(i)
         for count in range(len(ways), 0, -1):
             rate = total([process.rates[i][k] for k in ways[:count]])
-            threshold = Binary("*", rate, Name("DT"))
+            threshold = Binary("*", rate, STEP)
             goes = Choice(Relation("<", Name(draw), threshold), number(ways[count - 1]), goes)
         result = Choice(Relation("=", state, number(i)), goes, result)
     return result

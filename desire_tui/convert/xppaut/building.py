@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from desire_tui.convert.xppaut.declarations import Declaration
     from desire_tui.convert.xppaut.logical_lines import Line
 
-_SHOWN_MOST = 60
-"""How many characters of a line a message repeats."""
-
 
 class Building:
     """The model so far, the declarations, and what they say about names."""
@@ -83,11 +80,11 @@ class Building:
 
     def refuse(self, line: Line, reason: str) -> None:
         """Say that a line could not be taken over."""
-        self.model.problems.append(line.problem("convert-part", what=_short(line.text), reason=reason))
+        self.model.problems.append(line.problem("convert-part", what=line.text, reason=reason))
 
     def note(self, line: Line, what: str, reason: str) -> None:
         """Say that something was done in another way, or left out without harm."""
-        self.model.problems.append(line.problem("convert-note", what=_short(what), reason=reason))
+        self.model.problems.append(line.problem("convert-note", what=what, reason=reason))
 
     # -------------------------------------------------------------------------------------------- formulas
 
@@ -108,7 +105,7 @@ class Building:
 
     def _known(self, expression: Expression, line: Line, dummies: tuple[str, ...]) -> Expression:
         match expression:
-            case Name(name) if name in dummies or name in {"t", "PI"}:
+            case Name(name) if name in dummies or name in {"t", "<PI>"}:
                 return expression
             case Name(name):
                 if name not in self.spelling:
@@ -136,8 +133,3 @@ class Building:
         what, tau = (self._known(argument, line, dummies) for argument in arguments)
         before = self.histories.get(what.name.lower(), ZERO) if isinstance(what, Name) else ZERO
         return Call("delay", (what, tau, before))
-
-
-def _short(text: str) -> str:
-    flat = " ".join(text.split())
-    return flat if len(flat) <= _SHOWN_MOST else f"{flat[: _SHOWN_MOST - 1]}…"

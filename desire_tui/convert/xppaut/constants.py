@@ -19,7 +19,7 @@ def constant(expression: Expression, values: Mapping[str, float]) -> float:
         match part:
             case Number(value):
                 return value
-            case Name("PI"):
+            case Name("<PI>"):
                 return math.pi
             case Name(name) if name in values:
                 return values[name]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 
 from desire_tui.convert.expressions import (
+    PI,
     Binary,
     Call,
     Choice,
@@ -123,7 +124,7 @@ class _Parser:
         if name in MISSING:
             raise NotConvertibleError(MISSING[name])
         if name == "pi":
-            return Name("PI")
+            return PI
         if name == "if":
             return self._choice()
         if name == "sum":

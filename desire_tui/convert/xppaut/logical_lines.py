@@ -11,12 +11,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.convert.problem import placed
+from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.files import read_source
 from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from typing import Literal
+
+    from desire_tui.engine.diagnostics import Diagnostic
 
 _RANGE = re.compile(r"\[\s*(-?\d+)\s*\.\.\s*(-?\d+)\s*\]")
 _INDEX = re.compile(r"\[\s*j\s*(?:([-+*])\s*(\d+)\s*)?(?:\]|\Z)", re.IGNORECASE)
@@ -41,12 +45,9 @@ class Line:
     span: Span
     comment: str = ""
 
-    def problem(self, key: str, **facts: object) -> Diagnostic:
-        """Return a problem at this place: an error, or a warning if its wording says so."""
-        from desire_tui.engine.diagnostics.wording import wording_of
-
-        severity = "warning" if wording_of(key).warning else "error"
-        return Diagnostic(key, self.span, facts, self.source, severity)  # type: ignore[arg-type]
+    def problem(self, key: Literal["convert-part", "convert-note"], what: str, reason: str) -> Diagnostic:
+        """Return a problem at this place."""
+        return placed(self.source, self.span, key, what, reason)
 
 
 def logical_lines(source: Source, problems: list[Diagnostic]) -> list[Line]:

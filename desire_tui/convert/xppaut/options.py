@@ -136,12 +136,12 @@ def preset_setting(name: str, value: float) -> tuple[str, float] | None:
     """Return the system variable that an option of a `set` line stands for; None: it has no meaning here."""
     match name.lower():
         case "total":
-            return "TMAX", value
+            return "<TMAX>", value
         case "dt":
-            return "DT", value
+            return "<DT>", value
         case "ylo" | "yhi":
-            return "scale", abs(value)
+            return "<scale>", abs(value)
         case "toler" | "tol":
-            return "ERMAX", value
+            return "<ERMAX>", value
         case _:
             return None

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.model import Model
+from desire_tui.convert.problem import place
 from desire_tui.convert.xppaut.building import Building
 from desire_tui.convert.xppaut.declarations import declaration
 from desire_tui.convert.xppaut.equations import equations
@@ -16,7 +17,6 @@ from desire_tui.convert.xppaut.quantities import quantities
 
 if TYPE_CHECKING:
     from desire_tui.convert.xppaut.logical_lines import Line
-    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.source import Source
 
 _REFUSED = {
@@ -47,7 +47,7 @@ def read_ode(source: Source) -> Model:
     presets(building)
     settings(building)
     _left_over(building)
-    model.problems.sort(key=_place)
+    model.problems.sort(key=place)
     return model
 
 
@@ -64,7 +64,3 @@ def _left_over(building: Building) -> None:
         elif one.kind == "bndry":
             reason = "boundary values are not fitted here; the initial-value problem is converted"
             building.note(one.line, one.line.text, reason)
-
-
-def _place(problem: Diagnostic) -> tuple[int, int]:
-    return (problem.line or 0, problem.column or 0)

@@ -18,4 +18,6 @@ MESSAGES: dict[str, Wording] = {
     "convert-kind": Wording(
         563, "{path} is no model that can be converted", "XPPAUT's files end in .ode, those in SBML in .xml"
     ),
+    "convert-library": Wording(564, "SBML needs the library {library}", "pip install 'desire-tui[convert]'"),
+    "convert-unreadable": Wording(565, "{path} cannot be read as SBML: {reason}"),
 }
