@@ -91,7 +91,8 @@ class Settings:
     rule: int = 3
     start: float = 0.0
     duration: float = 10.0
-    step: float = 0.01
+    step: float | None = None
+    """DT; None: what Desire takes."""
     samples: int = 1001
     tolerance: float | None = None
     """What the rule's error test gets."""

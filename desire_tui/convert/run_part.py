@@ -40,7 +40,7 @@ def run_lines(settings: Settings) -> Iterator[str]:
 
 def _times(settings: Settings, duration: float, samples: int) -> str:
     times = [f"TMAX = {number_text(duration)}", f"NN = {samples}"]
-    if settings.rule:
+    if settings.rule and settings.step is not None:
         times.insert(1, f"DT = {number_text(settings.step)}")
     return " | ".join(times)
 

@@ -76,7 +76,7 @@ def compared(path: Path) -> str:
     run = result.runs[-1]
     if re.search(r"\b(white|ran|gauss)\(", conversion.text):
         return f"runs (random): {len(states)} states to t = {run.t[-1]:g}"
-    step = model.settings.step
+    step = model.settings.step or 1.0
     try:
         theirs = by_xppaut(path)
         finer = theirs

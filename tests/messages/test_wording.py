@@ -77,6 +77,8 @@ ELSEWHERE = {
     ),
     "convert-note": "tests/convert/test_command.py::test_options_without_a_meaning_are_listed_and_methods_told",
     "convert-renamed": "tests/convert/test_command.py::test_a_converted_program_runs_and_writes_its_samples",
+    "convert-library": "tests/convert/test_sbml.py::test_without_the_library_its_extra_is_named",
+    "convert-unreadable": "tests/convert/test_sbml.py::test_files_that_are_no_sbml",
     "convert-kind": "tests/convert/test_command.py::test_files_that_are_no_models",
     "file-binary": "tests/batch/test_headless.py::test_files_that_are_no_programs",
 }

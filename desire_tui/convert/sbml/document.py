@@ -64,7 +64,7 @@ def _unreadable(source: Source, error: Any) -> Diagnostic:
     return Diagnostic("convert-unreadable", place, {"path": source.file_name, "reason": reason}, source)
 
 
-_KNOWN = frozenset({"comp", "layout", "render", "fbc", "groups", "qual"})
+_KNOWN = frozenset({"l3v2extendedmath", "comp", "layout", "render", "fbc", "groups", "qual"})
 """Packages that are flattened, or that say nothing about rates."""
 
 

@@ -1,7 +1,8 @@
 """Events of an SBML model.
 
 An event with a delay becomes two: one that notes the time at which it is due and the values to be assigned,
-and one that assigns them then. Events that go off together are executed by priority, the highest first.
+and one that assigns them then. Events that go off together are executed by priority, the highest first, with
+values from before all of them.
 """
 
 from __future__ import annotations
@@ -33,10 +34,17 @@ _NEVER = Number(1e30)
 
 
 def events(symbols: Symbols) -> None:
-    """Add the events to the model, those of higher priority first."""
+    """Add the events to the model: first what only notes values and times, then by priority what assigns."""
     order = sorted(symbols.events(), key=lambda one: -_priority(one, symbols))
-    for one in order:
-        symbols.model.events.extend(_parts(one, symbols))
+    targets = [{one.name for one in _assignments(event, symbols)} for event in order]
+    noting: list[Event] = []
+    assigning: list[Event] = []
+    for place, one in enumerate(order):
+        before = set().union(*targets[:place])
+        notes, executes = _parts(one, before, symbols)
+        noting.extend(notes)
+        assigning.extend(executes)
+    symbols.model.events.extend([*noting, *assigning])
 
 
 def _priority(one: Any, symbols: Symbols) -> float:
@@ -53,50 +61,64 @@ def _priority(one: Any, symbols: Symbols) -> float:
             return 0.0
 
 
-def _parts(one: Any, symbols: Symbols) -> Iterator[Event]:
+def _parts(one: Any, before: set[str], symbols: Symbols) -> tuple[list[Event], list[Event]]:
+    """Return the blocks of an event that note, and those that assign.
+
+    `before`: what events assign that are executed before it where they go off together. Its values are those
+    from before them, if it uses values from when it is set off.
+    """
     name = one.getId() or "event"
     trigger = one.getTrigger()
     condition = symbols.formula(trigger, name)
     try:
-        set_off = rising(condition)
+        set_off = rising(condition, _changing(symbols))
     except UnlocatableError as reason:
         symbols.refuse(one, name, str(reason))
-        return
+        return [], []
     at_start = None if trigger.getInitialValue() else condition
     comment = " ".join(one.getName().split()) or name
     assignments = list(_assignments(one, symbols))
     delay = symbols.formula(one.getDelay(), name) if one.isSetDelay() else ZERO
-    block = _together(assignments, symbols)
-    after: list[Event] = []
-    if delay != ZERO:
-        block, after = _delayed(one, assignments, delay, symbols)
-        if not trigger.getPersistent() and len(set_off) == 1:
-            never = Quantity(block[-1].name, _NEVER)
-            after.insert(0, Event(_falling(set_off[0]), [never], f"{comment}: no longer"))
-    for count, moment in enumerate(set_off):
-        yield Event(moment, block, comment, at_start if count == 0 else None)
-    yield from after
-
-
-def _delayed(
-    one: Any, assignments: list[Quantity], delay: Expression, symbols: Symbols
-) -> tuple[list[Quantity], list[Event]]:
-    """Return what is noted when the event is set off (when it is due comes last), and what executes it."""
-    name = one.getId() or "event"
-    due = symbols.fresh(f"{name}_due")
-    symbols.model.held.append(Quantity(due, _NEVER))
     noted: list[Quantity] = []
-    if one.getUseValuesFromTriggerTime():
-        for k, assignment in enumerate(assignments):
-            value = symbols.fresh(f"{name}_{assignment.name}")
-            symbols.model.held.append(Quantity(value, ZERO))
-            noted.append(Quantity(value, assignment.value))
-            assignments[k] = Quantity(assignment.name, Name(value))
+    reads = set().union(*(_read(value.value, symbols) for value in assignments))
+    if one.getUseValuesFromTriggerTime() and (delay != ZERO or reads & before):
+        noted, assignments = _noted(name, assignments, symbols)
+
+    def when_set_off(block: list[Quantity]) -> list[Event]:
+        return [
+            Event(moment, block, comment, at_start if count == 0 else None)
+            for count, moment in enumerate(set_off)
+        ]
+
+    if delay == ZERO:
+        return when_set_off(noted) if noted else [], when_set_off(_together(assignments, symbols))
+    due = symbols.fresh(f"{name}_due")
+    never = Quantity(due, _NEVER)
+    symbols.model.held.append(never)
     symbols.note(one, name, "if it is set off again before it is executed, only the later time counts")
-    executed = [*_together(assignments, symbols), Quantity(due, _NEVER)]
-    comment = f"{' '.join(one.getName().split()) or name}: due"
-    noted.append(Quantity(due, Binary("+", TIME, delay)))
-    return noted, [Event(Binary("-", TIME, Name(due)), executed, comment)]
+    notes = when_set_off([*noted, Quantity(due, Binary("+", TIME, delay))])
+    if not trigger.getPersistent() and len(set_off) == 1:
+        notes.append(Event(_falling(set_off[0]), [never], f"{comment}: no longer"))
+    executed = [*_together(assignments, symbols), never]
+    return notes, [Event(Binary("-", TIME, Name(due)), executed, f"{comment}: due")]
+
+
+def _noted(name: str, assignments: list[Quantity], symbols: Symbols) -> tuple[list[Quantity], list[Quantity]]:
+    """Return assignments of values to names of their own, and those of these names to the event's targets."""
+    noted, then = [], []
+    for assignment in assignments:
+        value = symbols.fresh(f"{name}_{assignment.name}")
+        symbols.model.held.append(Quantity(value, ZERO))
+        noted.append(Quantity(value, assignment.value))
+        then.append(Quantity(assignment.name, Name(value)))
+    return noted, then
+
+
+def _changing(symbols: Symbols) -> set[str]:
+    """Return what changes while the model runs."""
+    model = symbols.model
+    names = {one.name for one in [*model.variables, *model.held]}
+    return names | {state.name for state in model.states} | {TIME.name}
 
 
 def _falling(rising_: Expression) -> Expression:

@@ -84,9 +84,7 @@ def _rates(model: Model, symbols: Symbols) -> None:
 
 def _settings(model: Model, symbols: Symbols) -> None:
     names = [symbols.sbml.getSpecies(k).getId() for k in range(symbols.sbml.getNumSpecies())]
-    model.settings = Settings(
-        rule=14, duration=DURATION, step=DURATION / (SAMPLES - 1), samples=SAMPLES, tolerance=TOLERANCE
-    )
+    model.settings = Settings(rule=14, duration=DURATION, samples=SAMPLES, tolerance=TOLERANCE)
     changing = {state.name for state in model.states}
     changing |= {one.name for one in [*model.variables, *model.held]}
     model.settings.ordinates = tuple(name for name in names if name in changing)[:12]

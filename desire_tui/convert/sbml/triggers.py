@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from desire_tui.convert.expressions import (
     ZERO,
     Binary,
@@ -12,19 +14,30 @@ from desire_tui.convert.expressions import (
     Not,
     Number,
     Relation,
+    names_in,
 )
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 
 class UnlocatableError(Exception):
     """A condition that holds at single moments only: the reason."""
 
 
-def rising(condition: Expression) -> list[Expression]:
+def rising(condition: Expression, changing: Collection[str]) -> list[Expression]:
     """Return what becomes positive at the moments at which a condition becomes true. UnlocatableError.
 
-    Two quantities are equal where their difference changes its sign, in one direction or the other.
+    Two quantities are equal where their difference changes its sign, in one direction or the other; what
+    holds all the time or never, since it reads nothing that is `changing`, may stand beside it.
     """
     match condition:
+        case Logical("and", left, right):
+            for fixed, other in ((left, right), (right, left)):
+                if not names_in(fixed) & changing:
+                    holds = Binary("-", fixed, Number(0.5))
+                    return [Call("min", (holds, moment)) for moment in rising(other, changing)]
+            return [becoming_positive(condition)]
         case Relation("=", left, right) if not (_is_truth(left) or _is_truth(right)):
             return [_difference(left, right), _difference(right, left)]
         case _:
