@@ -18,14 +18,14 @@ from desire_tui.convert.expressions import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Set as AbstractSet
 
 
 class UnlocatableError(Exception):
     """A condition that holds at single moments only: the reason."""
 
 
-def rising(condition: Expression, changing: Collection[str]) -> list[Expression]:
+def rising(condition: Expression, changing: AbstractSet[str]) -> list[Expression]:
     """Return what becomes positive at the moments at which a condition becomes true. UnlocatableError.
 
     Two quantities are equal where their difference changes its sign, in one direction or the other; what
