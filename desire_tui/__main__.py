@@ -10,7 +10,7 @@ from desire_tui.systems import reason_against
 COMMANDS = frozenset({
     "sensitivity",
     "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide", "export",
-    "average", "histogram", "maximise", "minimise", "section", "spectrum",
+    "average", "histogram", "linearise", "lyapunov", "maximise", "minimise", "section", "spectrum",
     "fmt", "lsp", "convert",
     "steady", "continue",
 })  # fmt: skip

@@ -51,9 +51,19 @@ ANALYSES = (
         "max(x) over k in [0, 5]", "desire_tui.analysis.optimise.search:maximise",
     ),
     Analysis(
+        "linearise", "Linearise", "The linear system near a place: poles, margins, Bode, Nyquist, steps",
+        "[INPUT, … -> OUTPUT, …] [at start|end|steady|t = T] [from here] [along PLACES]", "u -> y at steady",
+        "desire_tui.analysis.linear.linearise", may_be_empty=True,
+    ),
+    Analysis(
         "section", "Section", "Passages of orbits through a plane (Poincaré), located, and the return map",
         "STATE = LEVEL [up|down|both] | every PERIOD, then [of STATE, …] [from TIME] [points N]",
         "x = 0 up of y", "desire_tui.analysis.signals.section",
+    ),
+    Analysis(
+        "lyapunov", "Lyapunov exponents", "How fast neighbouring orbits part, by the variational equations",
+        "[for TIME] [every TIME] [from TIME]", "for 1000", "desire_tui.analysis.signals.lyapunov",
+        may_be_empty=True,
     ),
     Analysis(
         "histogram", "Distribution", "How the values of samples are distributed",
