@@ -14,6 +14,7 @@ from tests.messages.test_messages import FILES, spoken
 
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {
+    "no-headway": "tests/integration/test_headway.py::test_runs_without_end_are_errors",
     "initial-unknown": "tests/api/test_model.py::test_states_and_quantities_that_are_not_there_are_named",
     "record-unknown": "tests/api/test_model.py::test_states_and_quantities_that_are_not_there_are_named",
     "equations-missing": "tests/api/test_equations.py::test_derivatives_that_are_no_function_of_t_and_the_states",

@@ -67,6 +67,15 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
         assert memory.culprit is not None
         name, where = memory.culprit
         return _placed("switch-chatters", {"t": t, "name": name}, segment, where)
+    if ended is Ended.NO_HEADWAY:
+        found = memory.standstill
+        assert found is not None
+        name, where = state_name(segment, found.state)
+        facts = {
+            "t": t, "dt": cells[DT], "state": name, "why": found.why, "advice": found.advice,
+            "steps": int(memory.steps), "rule": plan.rule,
+        }  # fmt: skip
+        return _placed("no-headway", facts, segment, where)
     if ended is Ended.SOLVER:
         name, where = state_name(segment, int(memory.suspect))
         facts = {"t": t, "dt": cells[DT], "rule": plan.rule, "state": name, "flag": which}

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Where
+    from desire_tui.engine.runtime.headway import Standstill
 
 
 class Phase(IntEnum):
@@ -54,6 +55,8 @@ class Ended(IntEnum):
     """Event number `which` comes ever faster."""
     FULL = 10
     """The room for histories of delays is used up: the model makes it larger and goes on."""
+    NO_HEADWAY = 11
+    """The run would not end in days: the memory's `standstill` says why."""
 
 
 class RunMemory(ctypes.Structure):
@@ -112,3 +115,5 @@ class RunMemory(ctypes.Structure):
     )
     culprit: tuple[str, Where] | None = None
     """CHATTERS: the switch's name and place."""
+    standstill: Standstill | None = None
+    """NO_HEADWAY: what is known of it."""

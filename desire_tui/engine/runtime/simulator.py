@@ -14,6 +14,7 @@ from desire_tui.engine.runtime.block_start import BlockStart
 from desire_tui.engine.runtime.defaults import Defaults
 from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.runtime.event_times import delay_times, event_times
+from desire_tui.engine.runtime.headway import Headway
 from desire_tui.engine.runtime.heartbeat import Heartbeat
 from desire_tui.engine.runtime.history import RunHistory
 from desire_tui.engine.runtime.run_faults import fault, watched_fault
@@ -110,7 +111,7 @@ class Simulator:
         self._heartbeat.begin()
         ended = Ended.STOPPED
         try:
-            ended = self._advance(model, segment, memory, record, observer)
+            ended = self._advance(model, segment, plan, memory, record, observer)
         finally:
             self._heartbeat.end()
             self._control.attach(None)
@@ -162,10 +163,17 @@ class Simulator:
         return memory
 
     def _advance(
-        self, model: Model, segment: Segment, memory: RunMemory, record: RunRecord, observer: Observer
+        self,
+        model: Model,
+        segment: Segment,
+        plan: RunPlan,
+        memory: RunMemory,
+        record: RunRecord,
+        observer: Observer,
     ) -> Ended:
         """Blocks of about BLOCK_SECONDS until the run ends; one sample each where SHOW wants pictures."""
         block = float(BLOCK_FIRST)
+        headway = Headway(plan.rule)
         while True:
             first = int(memory.row)
             if first >= len(record.rows):
@@ -184,6 +192,8 @@ class Simulator:
                 self._keep_pictures(segment, record)
             if record.count > first:
                 observer.block(record, first)
+            if ended in {Ended.STOPPED, Ended.RUNNING} and self._stands_still(headway, segment, memory):
+                return Ended.NO_HEADWAY
             if ended is Ended.STOPPED:
                 cells, direction = self._values.cells, self.direction
                 cells[T], self.direction = direction * cells[T], 1.0  # commands may read t
@@ -196,6 +206,18 @@ class Simulator:
             else:
                 block *= min(BLOCK_GROWTH, BLOCK_SECONDS / max(took, 1e-6))
                 block = max(1.0, min(block, float(len(record.rows))))
+
+    def _stands_still(self, headway: Headway, segment: Segment, memory: RunMemory) -> bool:
+        """Whether the run gets nowhere; looked at once in half a million steps."""
+        if not headway.is_due(memory.steps):
+            return False
+        values, t = self._values, self._values.cells[T]
+        states = [values.data[s.slot : s.slot + s.count] for s in segment.states]
+        left = memory.t_start + memory.t_max - t
+        memory.standstill = headway.look(
+            memory.steps, memory.rejected, t, left, np.concatenate(states) if states else np.zeros(0)
+        )
+        return memory.standstill is not None
 
     def _held(self) -> bool:
         """Wait while the user pauses the run, whose clock stands still; return whether it may go on."""

@@ -97,6 +97,13 @@ MESSAGES: dict[str, Wording] = {
         "t stays at {t:.6g}: a step of DT = {dt:.3g} does not go forward",
         "DT must stay above 0, and large enough to change t",
     ),
+    "no-headway": Wording(
+        495,
+        "rule {rule} makes no headway: t = {t:.6g} with DT = {dt:.3g} after {steps:,} steps, and {why};"
+        " state '{state}' moves most",
+        "{advice}",
+        "The samples before are kept. Such a run would go on for hours or days.",
+    ),
     "switch-chatters": Wording(
         477,
         "'{name}' switches to and fro at t = {t:.6g} and holds the run up",
