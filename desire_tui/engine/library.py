@@ -195,11 +195,11 @@ Kind = Literal["real", "complex", "random", "table", "time", "choice", "noise", 
 class LibraryFunction:
     """One function.
 
-    `parameters` as shown to the user; `fewest` … `most` arguments; `where`: S script, D DYNAMIC, M MATRIX;
-    `kind`: `real`, `complex` (takes COMPLEX arguments; `value` gets complex numbers), `random` (draws),
-    `table` (array arguments), `time`, `choice` (real, but a user's FUNCTION of that name wins),
-    `noise` and `history` (of segments); `value` is
-    None where more than numbers is needed; `gives_complex` marks COMPLEX results.
+    `parameters` as shown to the user, in brackets what may be left out; `fewest` … `most` arguments; `where`:
+    S script, D DYNAMIC, M MATRIX; `kind`: `real`, `complex` (takes COMPLEX arguments; `value` gets complex
+    numbers), `random` (draws), `table` (array arguments), `time`, `choice` (real, but a user's FUNCTION of
+    that name wins), `noise` and `history` (of segments); `value` is None where more than numbers is needed;
+    `gives_complex` marks COMPLEX results.
     """
 
     name: str
@@ -277,7 +277,7 @@ _ALL = (
                     kind="choice"),
     LibraryFunction("white", "s", 1, 1, "white noise of spectral density s² for d/dt lines, new at each step",
                     None, where="D", kind="noise"),
-    LibraryFunction("delay", "x, tau", 2, 3, "x at t − tau; before the start h(t), or the initial value",
+    LibraryFunction("delay", "x, tau[, h]", 2, 3, "x at t − tau; before the start h(t), or the initial value",
                     None, where="D", kind="history"),
     _of_complex("Re", lambda z: z.real, "real part"),
     _of_complex("Im", lambda z: z.imag, "imaginary part"),

@@ -19,8 +19,9 @@ from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.reference.moments import connect
 from desire_tui.engine.reference.steps import chattering
 from desire_tui.engine.reference.stiff import StiffReferenceModel
-from desire_tui.engine.runtime.moments.blocks import any_rises, arrive, begin, next_time
+from desire_tui.engine.runtime.moments.blocks import any_doubt, any_falls, any_rises, arrive, begin, next_time
 from desire_tui.engine.runtime.moments.histories import record
+from desire_tui.engine.runtime.moments.locate import PROBES
 from desire_tui.engine.runtime.moments.setup import Stepper
 from desire_tui.engine.runtime.moments.steps import SPLITS_MOST, note_extremes
 from desire_tui.engine.runtime.run_memory import Ended, Phase
@@ -163,6 +164,8 @@ class StiffMomentModel(StiffReferenceModel):
         m, t1 = self._stepper.moments, self.cells[T]
         if not m.condition_count or t1 <= t0:
             return False
+        if any(m.in_doubt[i] for i in range(m.count)):
+            self._decide(t0, t1)
         left, right = t0, t1
         for k in range(1, _PLACES + 1):
             right = t1 if k == _PLACES else t0 + (t1 - t0) * k / _PLACES
@@ -182,6 +185,19 @@ class StiffMomentModel(StiffReferenceModel):
         self._place(right, self._between(right))
         any_rises(m)
         return True
+
+    def _decide(self, t0: float, t1: float) -> None:
+        """Look whether a condition has fallen from 0 and risen again in the step (`locate.rises_in_step`)."""
+        m = self._stepper.moments
+        self._place(t1, self._between(t1))
+        any_rises(m)
+        if not any_doubt(m):
+            return
+        for k in range(1, PROBES):
+            t = t0 + (t1 - t0) * 0.5**k
+            self._place(t, self._between(t))
+            if any_falls(m):
+                return
 
     def _between(self, t: float) -> Array:
         """Return the states at a time in the last step."""

@@ -197,13 +197,18 @@ class Defaults:
         return self._or_default("ERMAX", ERMAX, ERMAX_DEFAULT, counts=rule.controls_error)
 
     def _absolute(self) -> float:
-        """Return ERABS: no system variable, since programs may use the name; a number that they may set."""
+        """Return ERABS: no system variable, since programs may use the name; a number that they may set.
+
+        Error 87: it is below 0, inf or nan.
+        """
         found = self._values.find("ERABS")
         if found is None or found.shape or found.is_state or found.kind is not Kind.REAL:
             return 0.0
         value = self._values.cells[found.slot]
-        if not self._values.is_defined(found) or not value > 0.0 or value == inf:
+        if not self._values.is_defined(found):
             return 0.0
+        if not 0.0 <= value < inf:
+            raise _error("tolerance-negative", name="ERABS", value=value)
         return value
 
     def _checked(self, order: int) -> int:

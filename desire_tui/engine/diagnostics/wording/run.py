@@ -39,6 +39,9 @@ MESSAGES: dict[str, Wording] = {
         "set TMAX to a number above 0, or below 0 to go backward in time",
         _TMAX_PAGE,
     ),
+    "tolerance-negative": Wording(
+        87, "{name} = {value:g} is no tolerance", "set {name} to 0 or above, or leave it out"
+    ),
     "setting-not-positive": Wording(
         87,
         "{name} = {value:g} is not above 0, so that a run takes {taken:g}",

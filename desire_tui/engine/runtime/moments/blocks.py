@@ -38,6 +38,7 @@ def begin(m: Moments) -> int:
         m.gap[i] = 0.0
         m.shrunk[i] = 0
         m.quick[i] = 0
+        m.in_doubt[i] = 0
         m.armed[i] = value < 0.0 or (value == 0.0 and m.goes_on == 0)
     if due(m, 0.0) != 0 and carry_out(m) > 1:
         return 2
@@ -69,6 +70,29 @@ def any_rises(m: Moments) -> int:
     found = 0
     for i in range(m.count):
         if rises(m, i, m.values[m.now + i]) != 0:
+            found = 1
+    return found
+
+
+def any_doubt(m: Moments) -> int:
+    """Whether a condition that was 0 behind its own block is above 0: it may have been below in between."""
+    found = 0
+    for i in range(m.count):
+        if m.in_doubt[i] != 0 and m.values[m.now + i] > 0.0:
+            found = 1
+    return found
+
+
+def any_falls(m: Moments) -> int:
+    """Arm conditions in doubt that are below 0 at the t and states in the values; whether there is one."""
+    m.conditions(m.memory, m.k_at[0])
+    found = 0
+    for i in range(m.count):
+        value: float = m.values[m.now + i]
+        if m.in_doubt[i] != 0 and value < 0.0:
+            m.in_doubt[i] = 0
+            m.armed[i] = 1
+            m.before[i] = value
             found = 1
     return found
 
@@ -123,8 +147,10 @@ def carry_out(m: Moments) -> int:
                 found += note(m, i)
             else:
                 value: float = m.values[m.now + i]
-                # at 0 by its own block: it may rise again; at 0 as it was before: it has had its turn
+                # at 0 by its own block: it may rise again; at 0 as it was before: it has had its turn,
+                # unless it falls from here on, as it does where the block has turned a state round
                 m.armed[i] = value < 0.0 or (value == 0.0 and m.fired[i] > 0.0)
+                m.in_doubt[i] = value == 0.0 and m.fired[i] == 0.0
                 m.before[i] = value
         if found == 0:
             return 1
@@ -133,6 +159,7 @@ def carry_out(m: Moments) -> int:
 def note(m: Moments, i: int) -> int:
     """Take up the present value of condition i; 1: its block is due."""
     value: float = m.values[m.now + i]
+    m.in_doubt[i] = 0
     due = rises(m, i, value)
     if due != 0:
         m.values[m.due + i] = 1.0

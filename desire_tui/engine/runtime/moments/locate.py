@@ -5,12 +5,36 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.halving import RESOLUTION
-from desire_tui.engine.runtime.moments.blocks import any_rises, rises
+from desire_tui.engine.runtime.moments.blocks import any_doubt, any_falls, any_rises, rises
 from desire_tui.engine.runtime.moments.stages import make_step
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
     from desire_tui.engine.runtime.moments.memory import Moments
+
+
+PROBES = 60
+"""Looks at a step's first half, quarter, eighth … for a condition that falls from 0 and rises again."""
+
+
+def rises_in_step(m: Moments, here: float, end: float) -> int:
+    """Whether an expression has risen in the step from `here` to `end` that has been made."""
+    risen = any_rises(m)
+    if any_doubt(m) == 0:
+        return risen
+    part = 1.0
+    for _ in range(PROBES):
+        part *= 0.5
+        t = here + part * (end - here)
+        if not t > here:
+            break
+        make_step(m, here, t - here)
+        m.values[T] = t
+        if any_falls(m) != 0:
+            break
+    make_step(m, here, end - here)
+    m.values[T] = end
+    return any_rises(m)
 
 
 def locate(m: Moments, here: float, end: float) -> float:

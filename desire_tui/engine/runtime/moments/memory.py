@@ -40,6 +40,7 @@ class Moments(ctypes.Structure):
         ("now", _INT), ("due", _INT),  # first slots
         ("before", _REALS), ("at_left", _REALS), ("at_right", _REALS), ("fired", _REALS),
         ("armed", _INTS),
+        ("in_doubt", _INTS),  # at 0 in front of its own block and behind it: up or down?
         ("goes_on", _INT),  # 1: the run continues one, in which what stands at 0 has had its turn
         ("period", _REALS), ("start", _REALS), ("ticks", _REALS), ("next", _REALS),
         # an event that comes ever faster, until it does every few steps

@@ -73,7 +73,7 @@ class Stepper:
         m.now, m.due = values.room(max(count, 1)), values.room(max(count, 1))
         for name in ("before", "at_left", "at_right", "fired", "ticks", "next", "came", "gap"):
             self._reals(name, np.zeros(count))
-        for name in ("armed", "shrunk", "quick"):
+        for name in ("armed", "in_doubt", "shrunk", "quick"):
             self._ints(name, np.zeros(count, dtype=np.int64))
         self._period, self._start = np.zeros(count), np.zeros(count)
         self._reals("period", self._period)

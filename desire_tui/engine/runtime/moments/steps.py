@@ -8,7 +8,7 @@ from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.tableaus import STILL_MOST
 from desire_tui.engine.runtime.moments.blocks import any_rises, arrive, next_time
 from desire_tui.engine.runtime.moments.histories import record
-from desire_tui.engine.runtime.moments.locate import locate
+from desire_tui.engine.runtime.moments.locate import locate, rises_in_step
 from desire_tui.engine.runtime.moments.stages import (
     combined,
     make_stages,
@@ -73,7 +73,7 @@ def fixed_step(m: Moments, memory: RunMemory) -> Int32:
         save(m)
         make_step(m, here, dt if whole != 0 else stop - here)
         m.values[T] = stop
-        if m.condition_count != 0 and any_rises(m) != 0:
+        if m.condition_count != 0 and rises_in_step(m, here, stop) != 0:
             stop = locate(m, here, stop)
         came = arrive(m, _SLACK * dt)
         if came > 1:
@@ -146,7 +146,7 @@ def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
         m.values[DT] = min(2.0 * m.values[DT], memory.dt_max)
     if m.watch != 0:
         m.look(m.watch, here, m.values[T])
-    if m.condition_count != 0 and any_rises(m) != 0:
+    if m.condition_count != 0 and rises_in_step(m, here, m.values[T]) != 0:
         locate(m, here, m.values[T])
     return Ended.ZENO if arrive(m, _SLACK * dt) > 1 else Ended.RUNNING
 
