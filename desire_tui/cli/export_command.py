@@ -30,6 +30,7 @@ def _formats(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.argument("file", type=PROGRAMS)
 @_formats
 @click.option("-o", "--output", metavar="F", help="Where it goes; - is standard output. [default: here]")
+@click.option("--inputs", metavar="NAMES", help="Parameters that an FMU gets from others while it runs: u,w.")
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", callback=settings,
               help="Override the script's own values.")  # fmt: skip
 @click.option("--input", "answers", metavar="F", help="File with the lines that `input` reads.")

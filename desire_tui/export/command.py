@@ -26,6 +26,7 @@ def export_file(name: str, known: ExportFormat, output: str | None, options: dic
             () if answers is None else tuple(read_source(Path(answers)).text.splitlines()),
             options["allow_shell"],
             options["allow_write"],
+            tuple(name.strip() for name in (options["inputs"] or "").split(",") if name.strip()),
         )
         content = known.content(export)
         if output == "-" or (output is None and name == STANDARD_INPUT):

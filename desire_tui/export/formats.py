@@ -22,6 +22,8 @@ class Export:
     answers: tuple[str, ...] = ()
     allow_shell: bool = False
     allow_write: bool = False
+    inputs: tuple[str, ...] = ()
+    """Parameters that an FMU gets from others while it runs."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,6 @@ class ExportFormat:
     ending: str
     about: str
     module: str
-    is_text: bool = True
 
     def content(self, export: Export) -> bytes:
         """Return the file. DesireError: the program has mistakes, or something that the format has not."""
@@ -46,5 +47,11 @@ FORMATS = (
         ".c",
         "One C99 file with the run: the segment, the rule, samples as CSV",
         "desire_tui.export.c.content",
+    ),
+    ExportFormat(
+        "fmu",
+        ".fmu",
+        "An FMU (FMI 3.0), compiled here by cc: co-simulation and model exchange",
+        "desire_tui.export.fmu.content",
     ),
 )

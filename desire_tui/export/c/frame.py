@@ -215,7 +215,8 @@ static int run(void)
 }
 """
 
-MAIN = """int main(void)
+MAIN = """#ifndef DESIRE_LIBRARY
+int main(void)
 {
     heading();
     if (run() != ENDED) {
@@ -224,4 +225,5 @@ MAIN = """int main(void)
     }
     return 0;
 }
+#endif
 """

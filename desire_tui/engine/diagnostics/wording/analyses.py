@@ -17,6 +17,11 @@ MESSAGES: dict[str, Wording] = {
         "{remedy}",
         "An analysis was understood and begun, and came to no result: the text says at what.",
     ),
+    "export-compiler": Wording(
+        531,
+        "{format} needs a C compiler: {reason}",
+        "install gcc or clang (apt install gcc, xcode-select --install); --c writes the source alone",
+    ),
     "export-refused": Wording(530, "{what} has no form in {format} here", "{remedy}"),
     "analysis-library": Wording(
         522, "{what} needs the library {library}", "pip install 'desire-tui[analysis]'"
