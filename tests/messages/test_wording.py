@@ -70,6 +70,7 @@ ELSEWHERE = {
     "study-library": "tests/studies/test_study.py::test_a_library_that_is_missing_is_said_first",
     "study-no-run": "tests/studies/test_study.py::test_a_script_without_a_run",
     "analysis-form": "tests/analysis/test_request.py::test_mistakes_are_told_at_their_place",
+    "export-compiler": "tests/export/test_fmu.py::test_without_a_compiler_it_is_said",
     "export-refused": "tests/export/test_c.py::test_all_that_has_no_form_is_named_at_once",
     "analysis-failed": "tests/analysis/test_spectrum.py::test_a_run_of_few_samples_says_nothing",
     "analysis-library": "tests/analysis/test_front_ends.py::test_a_library_that_is_missing_is_named",
