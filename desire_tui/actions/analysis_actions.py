@@ -37,14 +37,14 @@ class AnalysisActions(Controller):
         if app.analyses.is_going:
             app.notify("An analysis goes on: Shift+F10 stops it.", timeout=3)
             return
-        if not argument and analysis.form:
+        if not argument and not analysis.may_be_empty:
             asked = LineDialog(
                 f"{analysis.title} of the front tab",
                 self._typed.get(analysis.name, analysis.example),
                 analysis.form,
             )
             argument = await app.push_screen_wait(asked) or ""
-            if not argument and not analysis.may_be_empty:
+            if not argument:
                 return
         self._typed[analysis.name] = argument
         app.analyses.begin(analysis, self._subject(), argument)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.analysis.linear.differences import derivative
+from desire_tui.analysis.equilibria.flow import central
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+_STEP = 1e-5
+"""In parts of a quantity's size: rounding is then 1e-11 of a derivative, and what bends over a hundredth of
+the size is followed as exactly by differences of the fourth order."""
 _INSTANT = 1e-9
 """In parts of a run: a run so short samples quantities as they are at its start."""
 
@@ -54,11 +58,8 @@ def state_space(subject: Subject, inputs: Sequence[str], outputs: Sequence[str],
     names = tuple(model.states)
     b = np.zeros((len(names), len(inputs)))
     for k, name in enumerate(inputs):
-
-        def slopes(value: float, name: str = name) -> Floats:
-            return model.rhs(place.t, place.x, **{**settings, name: value})
-
-        b[:, k] = derivative(slopes, values[name], abs(values[name]) or 1.0)
+        slopes = partial(_slopes, subject, place, name, values[name])
+        b[:, k] = central(slopes, _STEP * (abs(values[name]) or 1.0))
     c, d = np.zeros((len(outputs), len(names))), np.zeros((len(outputs), len(inputs)))
     computed = [k for k, name in enumerate(outputs) if name not in names]
     for k, name in enumerate(outputs):
@@ -67,15 +68,18 @@ def state_space(subject: Subject, inputs: Sequence[str], outputs: Sequence[str],
     if computed:
         reading = _Reading(subject, [outputs[k] for k in computed], place)
         for i in range(len(names)):
-            c[computed, i] = derivative(lambda value, i=i: reading.at_state(i, value),  # type: ignore[misc]
-                                        place.x[i], abs(place.x[i]) or 1.0)  # fmt: skip
+            c[computed, i] = central(partial(reading.with_state, i), _STEP * (abs(place.x[i]) or 1.0))
         for i, name in enumerate(inputs):
-            size = abs(values[name]) or 1.0
-            d[computed, i] = derivative(lambda value, name=name: reading.at_input(name, value),  # type: ignore[misc]
-                                        values[name], size)  # fmt: skip
+            read = partial(reading.with_input, name, values[name])
+            d[computed, i] = central(read, _STEP * (abs(values[name]) or 1.0))
     return StateSpace(
         names, tuple(inputs), tuple(outputs), model.jacobian(place.t, place.x, **settings), b, c, d
     )
+
+
+def _slopes(subject: Subject, place: Place, name: str, value: float, step: float) -> Floats:
+    """Return dx/dt with a parameter moved by a step."""
+    return subject.model.rhs(place.t, place.x, **{**subject.settings, name: value + step})
 
 
 class _Reading:
@@ -84,13 +88,15 @@ class _Reading:
     def __init__(self, subject: Subject, names: Sequence[str], place: Place) -> None:
         self._subject, self._names, self._place = subject, tuple(names), place
 
-    def at_state(self, number: int, value: float) -> Floats:
+    def with_state(self, number: int, step: float) -> Floats:
+        """Return them with a state moved by a step."""
         x = self._place.x.copy()
-        x[number] = value
+        x[number] += step
         return self._read(x, {})
 
-    def at_input(self, name: str, value: float) -> Floats:
-        return self._read(self._place.x, {name: value})
+    def with_input(self, name: str, value: float, step: float) -> Floats:
+        """Return them with a parameter moved by a step."""
+        return self._read(self._place.x, {name: value + step})
 
     def _read(self, x: Floats, changed: dict[str, float]) -> Floats:
         t = self._place.t
