@@ -38,6 +38,11 @@ class Analysis:
 _OVER = "QUANTITY over NAME [= START] [in [LOW, HIGH]] [log], … [by local|global|cma] [runs N]"
 ANALYSES = (
     Analysis(
+        "fit", "Fit", "Parameters and initial values that make curves agree with measurements",
+        "NAME [= START] [in [LOW, HIGH]] [log], … to QUANTITY [~ COLUMN] [weights SIGMA], … [loss NAME]",
+        "k, x in [0, 10] to y ~ position", "desire_tui.analysis.fit.analysis",
+    ),
+    Analysis(
         "sensitivity", "Sensitivity", "What changes with what: exact derivatives along runs, or whole ranges",
         "NAME, … of NAME, … [normalised], or global NAME in [LOW, HIGH], … of QUANTITY, … [morris] [runs N]",
         "k of x", "desire_tui.analysis.sensitivity.question",

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.analysis.request import Request
+    from desire_tui.analysis.subject import Subject
     from desire_tui.engine.source import Span
 
     Floats = NDArray[np.float64]
@@ -59,6 +60,21 @@ def read_unknowns(asked: Request, *stops: str) -> list[Unknown]:
     if not asked.is_done and asked.peek() not in stops:
         asked.expect(",", *stops)
     return found
+
+
+def start_values(subject: Subject, unknowns: Sequence[Unknown]) -> Floats:
+    """Return where the search begins: what is given, else the program's own values, inside the bounds."""
+    model = subject.model
+    own = {**model.states, **model.parameters, **subject.settings}
+    values = []
+    for one in unknowns:
+        value = one.start if one.start is not None else own.get(one.name)
+        if value is None:
+            value = 0.0  # no such quantity: the study says so
+        if one.is_log and value <= 0.0:
+            value = float(np.sqrt(one.low * one.high)) if one.is_bounded else 1.0
+        values.append(min(max(value, one.low), one.high))
+    return np.array(values)
 
 
 class Scale:

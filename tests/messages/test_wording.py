@@ -15,6 +15,10 @@ from tests.messages.test_messages import FILES, spoken
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {
     "no-headway": "tests/integration/test_headway.py::test_runs_without_end_are_errors",
+    "data-empty": "tests/interpreter/test_data_file.py::test_files_without_measurements",
+    "data-ragged": "tests/interpreter/test_data_file.py::test_everything_that_is_wrong_at_once",
+    "data-cell": "tests/interpreter/test_data_file.py::test_everything_that_is_wrong_at_once",
+    "data-library": "tests/interpreter/test_data_file.py::test_excel_without_its_library",
     "initial-unknown": "tests/api/test_model.py::test_states_and_quantities_that_are_not_there_are_named",
     "record-unknown": "tests/api/test_model.py::test_states_and_quantities_that_are_not_there_are_named",
     "equations-missing": "tests/api/test_equations.py::test_derivatives_that_are_no_function_of_t_and_the_states",

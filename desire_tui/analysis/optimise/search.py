@@ -11,7 +11,7 @@ from desire_tui.analysis.optimise import methods
 from desire_tui.analysis.optimise.objective import Objective
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.result import Result, Table
-from desire_tui.analysis.unknowns import Scale, Unknown, read_unknowns
+from desire_tui.analysis.unknowns import Scale, Unknown, read_unknowns, start_values
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.chart import Chart, Series
 
@@ -74,7 +74,7 @@ def _read(request: str) -> _Asked:
 
 def _search(subject: Subject, asked: _Asked, progress: Progress, sign: float) -> Result:
     objective = Objective(subject, asked.text, asked.unknowns, sign)
-    start = _start(subject, asked.unknowns)
+    start = start_values(subject, asked.unknowns)
     objective.scale = Scale(asked.unknowns, start)
     objective.check(objective.scale.values(objective.scale.start))
     is_stopped = False
@@ -102,21 +102,6 @@ def _search(subject: Subject, asked: _Asked, progress: Progress, sign: float) ->
         if objective.evaluations >= asked.runs and asked.way == "local":
             found.notes.append(f"ended after {objective.evaluations} runs: 'runs {10 * asked.runs}' goes on")
     return found
-
-
-def _start(subject: Subject, unknowns: list[Unknown]) -> Floats:
-    """Return where the search begins: what is given, else the program's own values, inside the bounds."""
-    model = subject.model
-    own = {**model.states, **model.parameters, **subject.settings}
-    values = []
-    for one in unknowns:
-        value = one.start if one.start is not None else own.get(one.name)
-        if value is None:
-            value = 0.0  # no such quantity: the study says so
-        if one.is_log and value <= 0.0:
-            value = float(np.sqrt(one.low * one.high)) if one.is_bounded else 1.0
-        values.append(min(max(value, one.low), one.high))
-    return np.array(values)
 
 
 def _needs_influence(subject: Subject, asked: _Asked, objective: Objective) -> None:

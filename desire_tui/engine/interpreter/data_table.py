@@ -28,7 +28,7 @@ class DataTable:
     def __init__(self, names: Sequence[str], separator: str | None) -> None:
         self.names, self._separator = names, separator
         self._place: dict[str, int] = {}
-        for form in (str, _plain, _folded):
+        for form in (str, plain_name, _folded):
             for place, name in enumerate(names):
                 self._place.setdefault(form(name), place)
 
@@ -41,7 +41,7 @@ class DataTable:
         """Return what a message says about a column that is not there."""
         shown = ", ".join(filter(None, self.names[:_NAMES_SHOWN]))
         more = " …" if len(self.names) > _NAMES_SHOWN else ""
-        return {"name": name, "columns": shown + more, "close": closest(name, map(_plain, self.names))}
+        return {"name": name, "columns": shown + more, "close": closest(name, map(plain_name, self.names))}
 
     def columns(
         self, lines: Iterable[tuple[int, str]], wanted: Sequence[int], file: str, check: Callable[[], object]
@@ -49,10 +49,10 @@ class DataTable:
         """Return the numbers of some columns. DesireError 18: a cell holds none."""
         found: list[list[float]] = [[] for _ in wanted]
         for count, (number, line) in enumerate(lines, 1):
-            cells = _cells(line, self._separator)
+            cells = cells_of(line, self._separator)
             for place, column in zip(wanted, found, strict=True):
                 text = cells[place].strip() if place < len(cells) else ""
-                value = _number(text)
+                value = number_in(text)
                 if value is None:
                     facts = {"line": number, "file": file, "column": self.names[place], "entry": text}
                     raise DesireError(Diagnostic("cell-not-a-number", facts=facts))
@@ -74,7 +74,7 @@ def column_names(line: str, is_value: Callable[[str], bool] | None) -> list[str]
     columns nevertheless.
     """
     separator = separator_of(line)
-    names = [name.strip() for name in _cells(line, separator)]
+    names = [name.strip() for name in cells_of(line, separator)]
     if separator is None:
         names = [name for name in names if name[0] not in "(["]  # units
     given = [name for name in names if name]
@@ -87,18 +87,19 @@ def column_names(line: str, is_value: Callable[[str], bool] | None) -> list[str]
 
 def begins_with_number(line: str) -> bool:
     """Whether a line begins with a number, as those below the names of columns do."""
-    cells = _cells(line, separator_of(line))
-    return bool(cells) and _number(cells[0]) is not None
+    cells = cells_of(line, separator_of(line))
+    return bool(cells) and number_in(cells[0]) is not None
 
 
 def _is_label(text: str) -> bool:
-    if _number(text) is not None or _LABEL.fullmatch(text) is None:
+    if number_in(text) is not None or _LABEL.fullmatch(text) is None:
         return False
     call = _CALL.match(text)
     return call is None or call[1] not in LIBRARY
 
 
-def _cells(line: str, separator: str | None) -> list[str]:
+def cells_of(line: str, separator: str | None) -> list[str]:
+    """Return what stands between the separators of a line, or between its blanks."""
     if separator is None:
         return line.replace('"', "").split()
     try:
@@ -107,16 +108,16 @@ def _cells(line: str, separator: str | None) -> list[str]:
         return line.split(separator)
 
 
-def _plain(name: str) -> str:
+def plain_name(name: str) -> str:
     """Return what a column's name is as one of the language: `Temp. (°C)` is `Temp`, `x pos` is `x_pos`."""
     return _NOT_IN_NAMES.sub("_", _UNIT.sub("", name)).strip("_")
 
 
 def _folded(name: str) -> str:
-    return _plain(name).casefold()
+    return plain_name(name).casefold()
 
 
-def _number(text: str) -> float | None:
+def number_in(text: str) -> float | None:
     """Return a finite number, its decimal sign a point or a comma."""
     try:
         value = float(text.replace(",", ".", 1))

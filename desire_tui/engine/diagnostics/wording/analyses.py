@@ -26,4 +26,22 @@ MESSAGES: dict[str, Wording] = {
     "analysis-library": Wording(
         522, "{what} needs the library {library}", "pip install 'desire-tui[analysis]'"
     ),
+    "data-empty": Wording(
+        531,
+        "there are no measurements in {file}: {what}",
+        "names of columns in one line, numbers below: t, x",
+    ),
+    "data-ragged": Wording(
+        532,
+        "{file}: the number of entries in this line, {have}, is not that of the columns, {want}",
+        "leave blank what is missing, or begin the line with # to leave it out",
+    ),
+    "data-cell": Wording(
+        533,
+        "'{entry}' in column {column} of {file} is no number",
+        "correct it, leave it blank if it is missing, or begin the line with #",
+    ),
+    "data-library": Wording(
+        534, "{file} needs the library {library}", "pip install 'desire-tui[data]', or save it as CSV"
+    ),
 }

@@ -1,0 +1,114 @@
+"""What was measured: times, values and standard deviations of each pair, in one or several data sets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from desire_tui.engine.diagnostics import DesireError, Diagnostic
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from desire_tui.analysis.fit.request import Asked, Pair
+    from desire_tui.engine.interpreter.data_file import DataFile
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Of one pair: `t`, `y` and standard deviations `sigma`, None where they are to be estimated."""
+
+    t: Floats
+    y: Floats
+    sigma: Floats | None
+
+
+@dataclass(frozen=True)
+class DataSet:
+    """What one run has to agree with: a list in the order of the pairs; `settings` of that run alone."""
+
+    name: str
+    measured: tuple[Measured, ...]
+    settings: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """How many numbers were measured."""
+        return sum(len(one.t) for one in self.measured)
+
+
+def data_sets(
+    files: Sequence[DataFile], asked: Asked, span: tuple[float, float]
+) -> tuple[list[DataSet], list[str]]:
+    """Return the data sets of files within a run's `span`, and notes.
+
+    DesireError 520: columns that are not there; 521: nothing was measured while the run lasts.
+    """
+    notes = [note for file in files for note in file.notes]
+    found = []
+    for file in files:
+        measured, outside = [], 0
+        for pair in asked.pairs:
+            one = _measured(file, pair, asked)
+            inside = (one.t >= span[0] - _slack(span)) & (one.t <= span[1] + _slack(span))
+            outside += int((~inside).sum())
+            sigma = None if one.sigma is None else one.sigma[inside]
+            measured.append(Measured(one.t[inside], one.y[inside], sigma))
+        made = DataSet(file.name, tuple(measured), dict(file.settings))
+        if not made.count:
+            times = file.columns[file.time]
+            low, high = (float(end(times, initial=np.nan)) for end in (np.fmin.reduce, np.fmax.reduce))
+            lasts = f"the run from {span[0]:g} to {span[1]:g}: they do not overlap"
+            facts = {
+                "what": f"the data of {file.name} go from t = {low:g} to {high:g}, {lasts}",
+                "remedy": "set t and TMAX so that the run covers the data, or shift their times",
+            }
+            raise DesireError(Diagnostic("analysis-failed", None, facts))
+        if outside:
+            notes.append(f"{file.name}: {outside} values outside the run are left out")
+        for name in made.settings:
+            if name in {one.name for one in asked.unknowns}:
+                span_of = next(one.span for one in asked.unknowns if one.name == name)
+                what = f"{file.name} sets {name}, which is to be fitted"
+                asked.request.fail(what, "take it out of one of both", span_of)
+        found.append(made)
+    return found, notes
+
+
+def _slack(span: tuple[float, float]) -> float:
+    return 1e-9 * (span[1] - span[0])
+
+
+def _measured(file: DataFile, pair: Pair, asked: Asked) -> Measured:
+    t = file.columns[file.time]
+    y = _column(file, pair.column, pair, asked)
+    sigma = None
+    if isinstance(pair.weights, float):
+        sigma = np.full(len(t), pair.weights)
+    elif pair.weights is not None:
+        sigma = _column(file, pair.weights, pair, asked)
+    good = np.isfinite(t) & np.isfinite(y)
+    if sigma is not None:
+        if np.any(sigma[good] <= 0.0):
+            asked.request.fail(
+                f"{file.name} has weights in {pair.weights} that are not above 0",
+                "weights are standard deviations", pair.span,
+            )  # fmt: skip
+        good &= np.isfinite(sigma)
+    order = np.argsort(t[good], kind="stable")
+    return Measured(t[good][order], y[good][order], None if sigma is None else sigma[good][order])
+
+
+def _column(file: DataFile, name: str, pair: Pair, asked: Asked) -> Floats:
+    found = file.find(name)
+    if found is None:
+        near = file.near(name)
+        remedy = f"did you mean {near}?" if near else f"there are {', '.join(file.columns)}"
+        asked.request.fail(f"{file.name} has no column '{name}'", remedy, pair.span)
+    return file.columns[found]
