@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 _SUMS = 8
 """Products of a row of a matrix are added up in so many sums (`codegen.vector.products`)."""
+_ELEMENT_MOST = 10_000
+"""Operations of one element that `element_of` writes out."""
 _ZERO = Const(0.0)
 
 
@@ -55,6 +57,15 @@ def scalar_elements(segment: Segment, most: int) -> WrittenOut:
     if not writer.written:
         return WrittenOut(segment, frozenset())
     return WrittenOut(replace(segment, body=body), frozenset(writer.over_elements))
+
+
+def element_of(value: Value, at: int) -> Value | None:
+    """Return element `at` (of a matrix: row by row) of an expression; None: it cannot be written out."""
+    try:
+        made = _Element(_Writer(_ELEMENT_MOST), at).value(value)
+    except TooManyError:
+        return None
+    return None if any(isinstance(node, ElementOperand) for node in walk_values(made)) else made
 
 
 class _Writer:

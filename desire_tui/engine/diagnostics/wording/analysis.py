@@ -214,8 +214,10 @@ MESSAGES: dict[str, Wording] = {
     "white-without-states": Wording(
         488, "white() needs a differential equation: its size depends on DT", "use gauss() between points"
     ),
-    "delay-of-array": Wording(
-        75, "delay(x, tau) is a number, not an array", "assign it to a variable in a line of its own"
+    "delay-of-product": Wording(
+        75,
+        "delay(x, tau) cannot look into this product of arrays",
+        "assign the product to an array in a line of its own, and delay that",
     ),
     "delay-without-states": Wording(
         484, "delay(x, tau) needs a differential equation", "use the statement delay y = D(x, tau)"
