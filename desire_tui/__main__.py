@@ -12,7 +12,7 @@ COMMANDS = frozenset({
     "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide", "export",
     "average", "histogram", "linearise", "lyapunov", "maximise", "minimise", "section", "spectrum",
     "fmt", "lsp", "convert",
-    "steady", "continue",
+    "steady", "continue", "phase",
 })  # fmt: skip
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 

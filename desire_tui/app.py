@@ -30,6 +30,7 @@ from desire_tui.desktop.command_line import CommandLine
 from desire_tui.desktop.engine_messages import CheckFinished
 from desire_tui.desktop.first_tabs import open_first
 from desire_tui.desktop.frame_pacing import FramePacing
+from desire_tui.desktop.live_chart import LivePage
 from desire_tui.desktop.live_mode import LiveMode
 from desire_tui.desktop.main_screen import MainScreen
 from desire_tui.desktop.message_handlers import MessageHandlers
@@ -90,6 +91,7 @@ class DesireApp(AskedApp):
         self.live_mode = LiveMode(self)
         self.studies = StudyRunner(self)
         self.analyses = AnalysisRunner(self)
+        self.live_page = LivePage(self)
         self.tour = Tour(self)
         self.run_actions = RunActions(self)
         self.file_actions = FileActions(self)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
 from desire_tui.actions.run_actions import source_of
-from desire_tui.analysis.registry import ANALYSES
+from desire_tui.analysis.registry import ANALYSES, BY_NAME
 from desire_tui.common.dialogs import LineDialog
 from desire_tui.common.paths import full
 from desire_tui.engine.diagnostics import DesireError
@@ -64,6 +64,41 @@ class AnalysisActions(Controller):
             settings={slider.quantity: slider.value for slider in sliders if slider.value != slider.start},
             here=here or None,
         )
+
+    async def over(self, argument: str = "") -> None:
+        """Follow steady states and cycles over the range of the slider in focus, or else the first one."""
+        del argument
+        app = self.app
+        sliders = app.live_mode.sliders.shown
+        slider = next((one for one in sliders if one.has_focus), sliders[0] if sliders else None)
+        if slider is None:
+            app.notify("No parameter has a slider: live gives it one.", timeout=3)
+            return
+        request = f"{slider.quantity} in [{slider.scale.low:.10g}, {slider.scale.high:.10g}]"
+        await self.start(BY_NAME["continue"], request)
+
+    async def orbit(self, argument: str = "") -> None:
+        """Begin an orbit in the phase plane that is shown."""
+        from desire_tui.analysis.request import Request
+
+        app = self.app
+        if not app.live_page.is_shown:
+            app.notify("Orbits begin in a phase plane: type  phase", timeout=3)
+            return
+        told = "x and y, or click into the graph"
+        asked = argument or await app.push_screen_wait(LineDialog("An orbit from", "0.5, 1", told))
+        if not asked:
+            return
+        words = Request(asked, "orbit 0.5, 1")
+        try:
+            x = words.number("the abscissa")
+            words.expect(",")
+            y = words.number("the ordinate")
+            words.end()
+        except DesireError as error:
+            app.show_problems(error.diagnostics)
+        else:
+            app.live_page.started(x, y)
 
     def stop(self, argument: str = "") -> None:
         """End the analysis."""

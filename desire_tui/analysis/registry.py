@@ -92,5 +92,10 @@ ANALYSES = (
         "NAME in [FROM, TO] [from here | from STATE = VALUE, … | from cycle] [without cycles]",
         "k in [0, 2]", "desire_tui.analysis.continuation.continuation",
     ),
+    Analysis(
+        "phase", "Phase plane", "Field, nullclines, steady states, manifolds and basins in a plane",
+        "[STATE, STATE] [in STATE = [FROM, TO], …] [from STATE = VALUE, …] [without basins]",
+        "x, y in x = [-2, 2], y = [-2, 2]", "desire_tui.analysis.phase_plane.phase", may_be_empty=True,
+    ),
 )  # fmt: skip
 BY_NAME = {analysis.name: analysis for analysis in ANALYSES}

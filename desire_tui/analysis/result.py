@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -52,6 +52,18 @@ def _cell(value: Any) -> str:
     return value if isinstance(value, str) else f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
+class LiveChart(Protocol):
+    """Charts that follow what is done on the desktop, within some ten milliseconds."""
+
+    def moved(self, values: Mapping[str, float]) -> Chart:
+        """Return the chart with the sliders at these values."""
+        ...
+
+    def started(self, x: float, y: float) -> Chart:
+        """Return the chart with an orbit that begins at a place of it."""
+        ...
+
+
 @dataclass
 class Result:
     """Of one analysis of one program.
@@ -66,6 +78,8 @@ class Result:
     charts: list[Chart] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     is_partial: bool = False
+    live: LiveChart | None = None
+    """What redraws the first chart when a slider is moved or an orbit is begun."""
 
     def lines(self) -> list[str]:
         """Return what a terminal shows of it."""

@@ -65,7 +65,8 @@ class SharedEquations:
             ready = self._ready(self._make(), {**self.parameters, **parameters})
         else:
             instance, before = ready.instance, ready.instance.prepared
-            instance.prepared.begin(self._begin(instance, {**self.parameters, **parameters}))
+            start = self._begin(instance, {**self.parameters, **parameters})  # it may run the script anew
+            instance.prepared.begin(start)
             if instance.prepared is not before:  # the script ran anew
                 ready = ready._replace(equations=instance.prepared.equations())
         self._varied = ready._replace(parameters=dict(parameters))

@@ -86,6 +86,8 @@ class AnalysisRunner:
         self.result = found
         if found is not None:
             self._show(found)
+            if found.live is not None and self._pages:
+                self._app.live_page.follow(self._pages[0], found.live)
             text = "\n".join(found.lines())
             app.command.console.add(text, "output")
             page = self._pages[0] if self._pages else None

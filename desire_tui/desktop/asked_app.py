@@ -21,6 +21,7 @@ from desire_tui.panes.status_bar import StatusBar
 
 if TYPE_CHECKING:
     from desire_tui.desktop.command_line import CommandLine
+    from desire_tui.desktop.live_chart import LivePage
     from desire_tui.desktop.live_mode import LiveMode
     from desire_tui.desktop.message_handlers import MessageHandlers
     from desire_tui.language.live_check import LiveChecker
@@ -32,6 +33,7 @@ class AskedApp(LastingApp):
     message_handlers: MessageHandlers
     command_line: CommandLine
     live_mode: LiveMode
+    live_page: LivePage
     checker: LiveChecker
 
     def do(self, command_id: str, argument: str = "") -> Any:
@@ -96,7 +98,10 @@ class AskedApp(LastingApp):
 
     @on(Sliders.Moved)
     def _slider_moved(self, event: Sliders.Moved) -> None:
-        self.live_mode.ask(event.values, overlay=event.overlay, quantity=event.quantity)
+        if self.live_page.is_shown:
+            self.live_page.moved(event.values)
+        else:
+            self.live_mode.ask(event.values, overlay=event.overlay, quantity=event.quantity)
 
     @on(QuantitiesPane.SliderRequested)
     def _slider_requested(self, event: QuantitiesPane.SliderRequested) -> None:
@@ -109,6 +114,11 @@ class AskedApp(LastingApp):
     @on(GraphPane.TurnRequested)
     def _turn_requested(self, event: GraphPane.TurnRequested) -> None:
         self.do("graph.older" if event.step < 0 else "graph.newer")
+
+    @on(GraphPane.Pointed)
+    def _pointed(self, event: GraphPane.Pointed) -> None:
+        if self.live_page.is_shown:
+            self.live_page.pointed(event.x, event.y)
 
     @on(GraphPane.PauseRequested)
     def _pause_requested(self) -> None:

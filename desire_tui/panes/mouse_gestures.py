@@ -24,6 +24,13 @@ class MouseGestures(DrawnGraph):
     class PauseRequested(Message):
         """The graph was clicked twice."""
 
+    class Pointed(Message):
+        """The graph was clicked at a place, given in parts of its frame from the left and from below."""
+
+        def __init__(self, x: float, y: float) -> None:
+            super().__init__()
+            self.x, self.y = x, y
+
     def set_cursor(self, x: float) -> None:
         """Move the cursor line, if it is shown, to x (part of the window)."""
         raise NotImplementedError
@@ -63,7 +70,11 @@ class MouseGestures(DrawnGraph):
             bottom, top = 1 - box.bottom / rows, 1 - box.y / rows
             self.look_at(self.view.part(box.x / columns, box.right / columns, bottom, top))
         elif (cell := self._cell(event)) is not None:
-            self.set_cursor((cell[0] + 0.5) / columns)
+            across, up, view = (cell[0] + 0.5) / columns, 1 - (cell[1] + 0.5) / rows, self.view
+            self.set_cursor(across)
+            self.post_message(self.Pointed(
+                view.left + across * (view.right - view.left), view.bottom + up * (view.top - view.bottom),
+            ))  # fmt: skip
         self.mark_cells()
 
     def on_click(self, event: events.Click) -> None:

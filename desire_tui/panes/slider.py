@@ -39,6 +39,7 @@ class Slider(Widget, can_focus=True):
         Binding("l", "log", "logarithmic, or linear again", show=False),
         Binding("enter", "edit", "type value and limits", show=False),
         Binding("w", "app.do('run.live_write')", "write into the program", show=False),
+        Binding("c", "app.do('analysis.over')", "steady states and cycles over its range", show=False),
         Binding("o", "app.do('run.live_overlay')", "overlay or replace", show=False),
         Binding("delete,backspace", "remove", "take the slider away", show=False),
         Binding("escape", "leave", "leave the sliders", show=False),

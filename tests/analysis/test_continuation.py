@@ -194,6 +194,9 @@ def test_cycles_of_the_normal_form_are_circles(s, stable):
     assert hopf["mu"] == pytest.approx(0.0, abs=1e-9)
     assert hopf["period"] == pytest.approx(np.pi)
     assert np.sign(hopf["lyapunov"]) == s
+    # 2 s/w in the measure of the states themselves, which are divided by a power of 2
+    powers = np.log2(hopf["lyapunov"] / (2 * s / 2)) / 2
+    assert powers == pytest.approx(round(powers), abs=1e-6)
     cycles = found["branches"][1]
     inside = np.abs(cycles["mu"]) > 1e-3
     assert cycles["x"] == pytest.approx(np.sqrt(cycles["mu"] / -s), rel=2e-3)  # the largest of the nodes
@@ -213,6 +216,41 @@ def test_roessler_doubles_its_period_again_and_again():
     c, stable = doubled["c"], doubled["stable"]
     assert np.all(stable[(c > 2.84) & (c < 3.83)])
     assert not np.any(stable[c > 3.85])
+
+
+def test_a_torus_is_born_where_trace_and_sum_say():
+    """W. F. Langford (1984), with its symmetry: cycles at z = b of radius r turn once in 2π/d."""
+    text = """a = 0.95 | b = 0.9 | c = 0.6 | d = 3.5 | e = 0.25 | x = 0.1 | y = 0 | z = 1
+TMAX = 20 | DT = 0.01 | NN = 501
+drun
+DYNAMIC
+d/dt x = (z - b)*x - d*y
+d/dt y = d*x + (z - b)*y
+d/dt z = c + a*z - z*z*z/3 - (x*x + y*y)*(1 + e*z)
+dispxy x, z
+"""
+    found = diagram(text, "b in [0.6, 2.2]")
+    (torus,) = [p for p in found["points"] if p["kind"] == "torus"]
+    assert torus["period"] == pytest.approx(2 * np.pi / 3.5, rel=1e-8)
+    # in the plane of r and z the trace a - b^2 - e r^2 is 0, with r^2 (1 + e b) = c + a b - b^3/3
+    b = torus["b"]
+    assert 0.95 - b**2 == pytest.approx(0.25 * (0.6 + 0.95 * b - b**3 / 3) / (1 + 0.25 * b), abs=1e-6)
+    cycles = next(one for one in found["branches"] if one["of"] == "cycle")
+    apart = np.abs(cycles["b"] - b) > 1e-6
+    assert np.all(cycles["stable"][apart] == (cycles["b"][apart] > b))
+
+
+def test_a_closed_curve_of_steady_states_is_followed_once():
+    text = (
+        "k = 0 | x = 0.5 | TMAX = 5 | DT = 0.01 | NN = 11\ndrun\nDYNAMIC\nd/dt x = 1 - x*x - k*k\ndispt x\n"
+    )
+    found = diagram(text, "k in [-2, 2]")
+    (branch,) = found["branches"]
+    assert branch["k"] ** 2 + branch["x"] ** 2 == pytest.approx(1.0, abs=1e-12)
+    assert sorted(points(found, "fold", "k")) == pytest.approx([-1, 1], abs=1e-10)
+    assert (branch["k"][0], branch["x"][0]) == (branch["k"][-1], branch["x"][-1])
+    angles = np.unwrap(np.arctan2(branch["x"], branch["k"]))
+    assert abs(angles[-1] - angles[0]) == pytest.approx(2 * np.pi)
 
 
 def test_a_forced_system_follows_its_oscillator():
@@ -317,3 +355,21 @@ def test_it_shows_what_it_has_and_can_be_stopped(subject, monkeypatch):
     counts = [len(one.tables[2].columns["p1"]) for one in shown if one is not None]
     assert counts == sorted(counts)
     assert len(counts) > 10
+
+
+def test_many_branch_points_in_one_step_are_told_apart(subject):
+    """Of the uniform state of a chain, a = 0.02 sin²(k π/10): steps are as long as three of them are apart."""
+    text = """n = 4 | a = 0.5
+STATE u[n]
+u[1] = 0.1 | TMAX = 10 | DT = 0.01 | NN = 11
+drun
+DYNAMIC
+Vectr d/dt u = a*u - u*u*u + 0.005*(u{1} - 2*u + u{-1})
+dispt u[1]
+"""
+    found = analyse(
+        subject(text), "a in [-1, 1] from u[1] = 0", lambda part, told, so_far=None: "branch 2" not in told
+    )
+    assert found.is_partial, "the branches that cross are many: the first is enough"
+    trivial = [p["a"] for p in found["points"] if p["kind"] == "branch point" and p["branch"] == 1]
+    assert sorted(trivial) == pytest.approx(0.02 * np.sin(np.arange(1, 5) * np.pi / 10) ** 2, abs=1e-9)

@@ -64,6 +64,13 @@ def test_jacobians_at_many_places(lotka):
         lotka.jacobian(0.0, places.T)
 
 
+def test_parameters_for_which_the_script_runs_anew_hold_at_once():
+    text = "ARRAY k[2]\nk[1] = 1 | k[2] = 5 | x = 1 | TMAX = 1 | DT = 0.1\ndrun\nDYNAMIC\nd/dt x = -k[1]*x\ndispt x\n"
+    rhs = desire_tui.load(text).rhs
+    for value in (1.0, 2.0, 1.0, 3.0):
+        assert rhs(0.0, [1.0], **{"k[1]": value}) == [-value]
+
+
 def test_the_jacobian_is_exact(lotka):
     assert lotka.jacobian(0, [3, 0.5]) == pytest.approx(np.array([[0, -6], [0.5, 2]]), rel=1e-15, abs=1e-15)
     assert lotka.jacobian.sparse(0, [3, 0.5]).toarray() == pytest.approx(lotka.jacobian(0, [3, 0.5]))

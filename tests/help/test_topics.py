@@ -86,7 +86,7 @@ def test_search_puts_names_before_mentions():
     ("text", "first"),
     [
         ("sin", "sin"), ("ERMAX", "ERMAX"), ("ermax", "ERMAX"), ("error 94", "error 94"), ("94", "error 94"),
-        ("phase plane", "dispxy"), ("phase portrait", "dispxy"), ("initial condition", "d/dt"), ("step size", "DT"),
+        ("phase plane", "phase"), ("phase portrait", "phase"), ("y against x", "dispxy"), ("initial condition", "d/dt"), ("step size", "DT"),
         ("loops", "for"), ("color", "display"), ("colour", "display"), ("how to stop a run", "running programs"),
         ("slider", "live mode"), ("zoom", "the graph"), ("breakpoints", "stepping and breakpoints"),
         ("undefined variable", "error 200"), ("subroutine", "PROCEDURE"), ("Runge-Kutta", "irule"), ("stiff", "irule"),

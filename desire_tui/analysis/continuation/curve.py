@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -61,6 +61,11 @@ class Curve(ABC):
     @abstractmethod
     def examine(self, point: Point, matrix: Any) -> None:
         """Put tests and facts into a point."""
+
+    def explains(self, here: Point, ahead: Point, zeros: Sequence[tuple[str, Point]]) -> bool:
+        """Whether the zeros found in a step can be all: two of one test in a step leave no sign."""
+        del here, ahead, zeros
+        return True
 
     def adapted(self, point: Point) -> Point:
         """Return an accepted point as the next step is to begin at; the curve may change its mesh for it."""

@@ -88,11 +88,10 @@ class EquilibriaTracer:
         branch = Branch(len(diagram.branches) + 1, "steady", seed.origin)
         diagram.branches.append(branch)
         first = Point(seed.u, seed.tangent)
+        curve.examine(first, curve.matrix(seed.u))
         if seed.origin == "steady state":
             first = point_at(curve, seed.u, seed.tangent) or first
-        else:
-            curve.examine(first, curve.matrix(seed.u))
-            # at the crossing the tests say nothing but for the ends
+        else:  # at the crossing the tests say nothing but for the ends
             first.tests = {name: first.tests[name] for name in curve.ends}
         branch.points = [first]
         seeds: list[_Seed] = []
@@ -106,6 +105,7 @@ class EquilibriaTracer:
             ends.append(self._half(branch, start, sign, seeds))
             if ends == ["closed"]:
                 branch.ends = ("closed", "closed")
+                branch.points[-1] = first
         if branch.ends == ("", ""):
             branch.ends = (ends[1], ends[0])
         return seeds

@@ -11,6 +11,8 @@ from desire_tui.analysis.continuation.curve import Curve
 from desire_tui.analysis.equilibria.kinds import eigenvalues, unstable_count
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from desire_tui.analysis.continuation.curve import Point
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
 _LARGEST = 600.0
 _ROUNDING = 1e-11
+_ROUNDED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,12 @@ class AtRest:
     def unstable(self) -> int:
         """In how many directions disturbances grow."""
         return unstable_count(self.eigenvalues)
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether no eigenvalue is so near to the imaginary axis that rounding decides its side."""
+        sizes = np.abs(self.eigenvalues)
+        return bool(np.abs(self.eigenvalues.real).min(initial=np.inf) > _ROUNDED * sizes.max(initial=0.0))
 
 
 class EquilibriumCurve(Curve):
@@ -98,6 +107,17 @@ class EquilibriumCurve(Curve):
         }
         if self.mark is not None:
             point.tests["mark"] = float(point.u[-1]) - self.mark
+
+    def explains(self, here: Point, ahead: Point, zeros: Sequence[tuple[str, Point]]) -> bool:
+        """Whether as many eigenvalues have passed the imaginary axis as the zeros tell."""
+        if "fold" not in here.tests or not here.facts.is_clear or not ahead.facts.is_clear:
+            return True
+        alone = sum(name in ("fold", "branch") for name, _ in zeros)
+        pairs = sum(
+            name == "hopf" and turning_pair(place.facts.eigenvalues) is not None for name, place in zeros
+        )
+        change = abs(ahead.facts.unstable - here.facts.unstable)
+        return bool(change <= alone + 2 * pairs and (change - alone) % 2 == 0)
 
 
 def determinant(matrix: Floats) -> float:

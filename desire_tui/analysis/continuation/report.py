@@ -8,6 +8,7 @@ import numpy as np
 
 from desire_tui.analysis.continuation.pictures import charts
 from desire_tui.analysis.equilibria.kinds import is_stable, shown
+from desire_tui.analysis.equilibria.listed import tables
 from desire_tui.analysis.result import Result, Table
 
 if TYPE_CHECKING:
@@ -24,9 +25,8 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 _ENDS: dict[End, str] = {
-    "bound": "limit of the range", "far": "runs off", "lost": "no step further is found", "closed": "closed",
-    "many": "too many points", "stopped": "stopped", "hopf": "Hopf point", "homoclinic": "homoclinic orbit",
-    "": "beginning",
+    "bound": "limit", "far": "runs off", "lost": "no further step", "closed": "closed", "many": "many points",
+    "stopped": "stopped", "hopf": "Hopf", "homoclinic": "homoclinic", "": "begins",
 }  # fmt: skip
 _ROUNDING = 1e-12
 _WHAT = {"steady": "steady states", "cycle": "cycles", "fold": "folds", "Hopf": "Hopf points"}
@@ -40,14 +40,14 @@ class Report:
 
     def result(self, diagram: Diagram, *, draws: bool = True) -> Result:
         """Return all that is known of a diagram."""
-        tables = [self._specials(diagram), self._branches(diagram)]
+        found = [*self._specials(diagram), self._branches(diagram)]
         points = Table("points", self._points(diagram), is_listed=False)
         drawn = charts(diagram, self._system, self._over, self._states) if draws else []
         notes = [*(f"conserved: {text}" for text in self._system.law_texts), *diagram.notes]
         return Result(
             self._title,
             self._values(diagram),
-            [*tables, points],
+            [*found, points],
             drawn,
             notes,
             diagram.is_partial,
@@ -66,7 +66,7 @@ class Report:
         x = self._system.states(point.u[: len(self._system)])
         return np.where(np.abs(x) < _ROUNDING * self._system.size, 0.0, x)
 
-    def _specials(self, diagram: Diagram) -> Table:
+    def _specials(self, diagram: Diagram) -> list[Table]:
         kinds = {branch.number: branch.kind for branch in diagram.branches}
         rows = [(s, self.states(s.point, kinds[s.branch])) for s in diagram.specials]
         columns: dict[str, list[Any]] = {
@@ -78,7 +78,8 @@ class Report:
             columns[name] = [float(np.atleast_2d(x)[0][k]) for _, x in rows]
         columns["eigenvalues"] = [_eigenvalues(s) for s, _ in rows]
         columns["details"] = [s.details for s, _ in rows]
-        return Table("points where something changes (of cycles: largest values, multipliers)", columns)
+        title = "points where something changes (of cycles: largest values, multipliers)"
+        return tables(title, columns, self._system.flow.names, self._states)
 
     def _branches(self, diagram: Diagram) -> Table:
         every = [b for b in diagram.branches if b.points]

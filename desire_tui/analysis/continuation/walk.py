@@ -17,8 +17,12 @@ if TYPE_CHECKING:
 End = Literal["", "bound", "far", "lost", "closed", "many", "stopped", "hopf", "homoclinic"]
 
 _FIRST, _LEAST, _MOST = 0.01, 1e-7, 0.05
+_FINE = 2e-3
+"""Steps so short are not halved any more to tell zeros apart."""
 _STRAIGHT = 0.97
 """Cosine of the angle by which the tangent may turn in a step."""
+_EASY, _HARD = 6, 9
+"""Iterations after which a step is made longer, or shorter."""
 _LOCATED = 1e-11
 _HALVINGS = 60
 _TINY = 1e-13
@@ -47,18 +51,11 @@ def walk(
     here, length = first, min(_FIRST, step_most)
     travelled = 0.0
     for _ in range(points_most):
-        ahead = advanced(curve, here, length)
-        while (
-            ahead is None
-            or here.tangent @ (curve.weights * ahead.tangent) < _STRAIGHT
-            or _is_fold_back(curve, here, ahead)
-        ):
-            length /= 2.0
-            if length < _LEAST:
-                yield Step(here, end="lost")
-                return
-            ahead = advanced(curve, here, length)
-        zeros = sorted(_zeros(curve, here, ahead, length), key=lambda zero: zero[0])
+        found = _step(curve, here, length)
+        if found is None:
+            yield Step(here, end="lost")
+            return
+        ahead, length, zeros = found
         step = Step(ahead)
         for _, name, place in zeros:
             if name in curve.ends:
@@ -75,12 +72,33 @@ def walk(
         if step.end:
             return
         here = curve.adapted(ahead)
-        if ahead.iterations <= 4:
+        if ahead.iterations <= _EASY:
             size = 1.0 + float(np.sqrt(here.u @ (curve.weights * here.u)))
             length = min(length * 1.4, step_most * size)
-        elif ahead.iterations >= 7:
+        elif ahead.iterations >= _HARD:
             length /= 2.0
     yield Step(here, end="many")
+
+
+def _step(
+    curve: Curve, here: Point, length: float
+) -> tuple[Point, float, list[tuple[float, str, Point]]] | None:
+    """Return the next point, how far it is, and the zeros between; None: there is none.
+
+    A step is halved if the curve bends too much in it, or if more happens there than its zeros tell.
+    """
+    while length >= _LEAST:
+        ahead = advanced(curve, here, length)
+        if (
+            ahead is not None
+            and here.tangent @ (curve.weights * ahead.tangent) >= _STRAIGHT
+            and not _is_fold_back(curve, here, ahead)
+        ):
+            zeros = sorted(_zeros(curve, here, ahead, length), key=lambda zero: zero[0])
+            if length <= _FINE or curve.explains(here, ahead, [(name, place) for _, name, place in zeros]):
+                return ahead, length, zeros
+        length /= 2.0
+    return None
 
 
 def _is_fold_back(curve: Curve, here: Point, ahead: Point) -> bool:

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
     Complex = NDArray[np.complex128]
 
+_SHOWN_MOST = 8
 _NOTHING = 1e-7
 """So small against the largest eigenvalue is 0: double eigenvalues are no more exact."""
 
@@ -58,10 +59,13 @@ def unstable_count(values: Complex) -> int:
 
 
 def shown(values: Complex) -> str:
-    """Return eigenvalues as text, a conjugate pair as one: `-0.1 ± 2.3i, -5`."""
-    parts = []
+    """Return eigenvalues as text, a conjugate pair as one: `-0.1 ± 2.3i, -5`; the first ones of many."""
+    parts: list[str] = []
     nothing = 1e-11 * float(np.abs(values).max(initial=0.0))
     for value in values:
+        if len(parts) == _SHOWN_MOST:
+            parts.append("…")
+            break
         real = value.real if abs(value.real) > nothing else 0.0
         if abs(value.imag) <= nothing:
             parts.append(f"{real:.5g}")

@@ -30,6 +30,10 @@ class Travelled:
         recorded = names if len(names) <= _RECORDED_MOST else ()
         self.shown: tuple[str, ...] = ()
         """States that the program displays, or all, those first that it displays."""
+        self.across: tuple[str, ...] = ()
+        """Abscissa and first ordinate of the program's dispxy."""
+        self.passed: list[Floats] = []
+        """Samples of all states, if they are recorded and the run came to its end."""
         self.duration = 1.0
         self.problem = ""
         """Why there is no run; empty if there is one."""
@@ -41,6 +45,9 @@ class Travelled:
             self.low = self.high = self.start
             return
         self.shown = tuple(curve.name for curve in run.curves if curve.name in model.states)
+        if run.request == "dispxy":
+            over = next((curve for curve in run.curves if curve.x is not None), None)
+            self.across = () if over is None or over.x is None else (over.x, over.name)
         self.duration = run.tmax
         self.start = np.array([run.initial.get(name, model.states[name]) for name in names])
         is_known = np.all(np.isfinite(run.state)) and run.error is None
@@ -52,7 +59,8 @@ class Travelled:
             self.problem = self.problem or "the states grew without bound"
             self.end = self.low = self.high = self.start
             return
-        passed = [np.asarray(run[name]) for name in recorded] or list(np.vstack([self.start, self.end]).T)
+        self.passed = [np.asarray(run[name]) for name in recorded]
+        passed = self.passed or list(np.vstack([self.start, self.end]).T)
         self.low = np.array([np.nanmin(np.where(np.isfinite(c), c, np.nan)) for c in passed])
         self.high = np.array([np.nanmax(np.where(np.isfinite(c), c, np.nan)) for c in passed])
 

@@ -8,11 +8,12 @@ import numpy as np
 
 from desire_tui.analysis.equilibria.flow import Flow
 from desire_tui.analysis.equilibria.kinds import shown
+from desire_tui.analysis.equilibria.listed import tables
 from desire_tui.analysis.equilibria.search import search
 from desire_tui.analysis.equilibria.starts import Travelled, spread
 from desire_tui.analysis.equilibria.system import System
 from desire_tui.analysis.request import Request
-from desire_tui.analysis.result import Result, Table
+from desire_tui.analysis.result import Result
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     from desire_tui.analysis.equilibria.search import Found, Steady
     from desire_tui.analysis.progress import Progress
+    from desire_tui.analysis.result import Table
     from desire_tui.analysis.subject import Subject
 
     Floats = NDArray[np.float64]
@@ -128,7 +130,7 @@ def _result(subject: Subject, system: System, found: Found, travelled: Travelled
     if lost:
         notes.append(f"{lost} of {sum(found.outcomes.values())} starts ran off to infinity")
     if told:
-        notes.append("over a parameter: continue NAME in [FROM, TO]")
+        notes.append("over a parameter: continue NAME in [FROM, TO], on the desktop c on its slider")
     values = {
         "states": {name: np.array([s.x[k] for s in told]) for k, name in enumerate(system.flow.names)},
         "kinds": [s.kind for s in told],
@@ -136,13 +138,13 @@ def _result(subject: Subject, system: System, found: Found, travelled: Travelled
         "conserved": [dict(zip(system.flow.names, row.tolist(), strict=True)) for row in system.laws],
     }
     title = f"Steady states, {subject.name}"
-    return Result(title, values, [_table(system, told)], [], notes, found.is_partial)
+    return Result(title, values, _tables(system, told, travelled.shown), [], notes, found.is_partial)
 
 
-def _table(system: System, states: list[Steady]) -> Table:
+def _tables(system: System, states: list[Steady], shown_states: tuple[str, ...]) -> list[Table]:
     columns: dict[str, list[object]] = {
         "number": [k for k, _ in enumerate(states, 1)], "kind": [s.kind for s in states],
     }  # fmt: skip
     columns |= {name: [float(s.x[k]) for s in states] for k, name in enumerate(system.flow.names)}
     columns["eigenvalues"] = [shown(s.eigenvalues) for s in states]
-    return Table("", columns)
+    return tables("", columns, system.flow.names, shown_states)

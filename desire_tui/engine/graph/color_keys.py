@@ -46,7 +46,8 @@ def color_keys(curves: Sequence[Curve], study: Study) -> tuple[Key, ...]:
     """
     groups: dict[tuple[str, int], dict[RunRecord, None]] = {}
     for curve in curves:
-        groups.setdefault((curve.name, curve.color), {})[curve.record] = None
+        if curve.name:  # marks and fields of charts have none
+            groups.setdefault((curve.name, curve.color), {})[curve.record] = None
     names = dict.fromkeys(name for name, _ in groups)
     dashes = {curve.name: curve.dash for curve in curves}
     if len(study.records) < 2:
