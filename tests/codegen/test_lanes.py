@@ -106,7 +106,7 @@ MODELS = {
     + SPRING
     + "OUT\nVectr delta w = 0.1*s\na = w[2] + y[1]\n",
     "noise in vectors": VECTORS
-    + "Vectr d/dt y = s - k*y\n"
+    + "Vectr d/dt y = s - k*y + 0.1*ran()\n"
     + SPRING
     + "a = y[1]\nb = y[5]\nOUT\nVector s = gauss(0) + ran()\nn = ran()\n",
     "nothing random differs but noise": "k = 1 | n = 0\ndrun\nDYNAMIC\nd/dt x = n\nOUT\nn = gauss(0)\n",

@@ -1,4 +1,4 @@
-"""Models of scalars run in lock step and one by one: the same bits, the same errors."""
+"""Models of scalars and small vectors run in lock step and one by one: the same bits, the same errors."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ HEAD = """\
 ARRAY f[8] | data -1, 0, 0.5, 1, 3, 1, -2, 0 | read f
 k = 1 | r = 0.5 | a = 0 | b = 0.1 | c = 0 | d = 0 | e = 0 | u = 0 | h = 0 | g = 0 | SEED 4
 p = 0 | w = 0 | ARRAY D[40], E[9], S[5], G[30] | for i = 1 to 9 | G[i] = i | E[i] = -i | next
+STATE Y[5] | ARRAY V[5], U[5], M[5,5] | for i = 1 to 5 | Y[i] = 0.1*i | U[i] = 1 - 0.3*i | for j = 1 to 5 | M[i,j] = 0.1*i - 0.07*j | next | next
 """
 KEPT = "a[end], b[end], c[end], mean(a), d[end], e[end], u[end], h[end], t[end], max(q), p[end], mean(w)"
 
@@ -56,11 +57,14 @@ class _Maker:
     def __init__(self, rng: Random) -> None:
         self._rng = rng
         self._states = ["x", "y", "z"][: rng.randint(0, 3)]
+        self._vectors = bool(self._states) and rng.random() < 0.5
         self._names = ["a", "b", "c", "k", "r", "t", "h", "p", "w", *self._states]
 
     def program(self) -> str:
         rng = self._rng
         lines = [f"d/dt {state} = -{state} + sat({self._value(2)})" for state in self._states]
+        if self._vectors:
+            lines.append(f"Vectr d/dt Y = -Y + sat({self._vector_value(2)})")
         lines += self._block(2)
         histories = [
             f"delay p = D({self._value(1)}, 0.35)", f"tdelay w = E({self._value(1)}, 0.05)", "store S = b",
@@ -86,7 +90,13 @@ class _Maker:
         lines: list[str] = []
         for _ in range(rng.randint(1, 3)):
             kind = rng.random()
-            if kind < 0.55 or depth <= 0:
+            if self._vectors and kind < 0.25:
+                lines.append(
+                    f"Vector V = sat({self._vector_value(2)})"
+                    if rng.random() < 0.7
+                    else f"a = V[{rng.randint(1, 5)}]"
+                )
+            elif kind < 0.55 or depth <= 0:
                 value = f"sat({self._value(2)})" if rng.random() < 0.8 else f"{rng.choice(targets)} + 0.1"
                 lines.append(f"{rng.choice(targets)} = {value}")
             elif kind < 0.85:
@@ -97,6 +107,18 @@ class _Maker:
             else:
                 lines.append(f"trkhld h, g = {self._value(1)}, {self._value(1)}")
         return lines
+
+    def _vector_value(self, depth: int) -> str:
+        rng = self._rng
+        kind = rng.random()
+        if depth <= 0 or kind < 0.25:
+            return rng.choice(
+                ["V", "U", "Y", "U{1}", "Y{-1}", "M*Y", "M%*U", "ran()", "gauss(0)", self._value(0)]
+            )
+        one, other = self._vector_value(depth - 1), self._vector_value(depth - 1)
+        if kind < 0.6:
+            return f"(({one}) {rng.choice('+-*')} ({other}))"
+        return f"{rng.choice(FUNCTIONS)}({one})" if kind < 0.9 else f"max({one}, {other})"
 
     def _value(self, depth: int) -> str:
         rng = self._rng

@@ -75,7 +75,11 @@ class _Writer:
         self.over_elements = set[int]()
 
     def actions(self, actions: Iterable[Action]) -> Iterator[Action]:
-        """Yield statements; what cannot be written out is left as it is."""
+        """Yield statements; what cannot be written out is left as it is.
+
+        Of a vector the last element comes first: so random numbers are drawn, and so it changes if it reads
+        itself.
+        """
         for action in actions:
             match action:
                 case Guard():
@@ -85,15 +89,14 @@ class _Writer:
                 case SetVec(mask_slot=None) if action.mode != "largest" and not reads_replaced(action):
                     yield from self._vector(action)
                 case DerivVec():
-                    for at in range(action.count):
+                    self.written = True
+                    for at in reversed(range(action.count)):
                         value = _Element(self, at).value(action.value)
                         yield Deriv(action.state + at, value, action.where)
-                    self.written = True
                 case _:
                     yield action
 
     def _vector(self, action: SetVec) -> Iterator[Action]:
-        """Yield the last element first: so numbers are drawn, and so vectors change that read themselves."""
         self.written = True
         for at in reversed(range(action.count)):
             value = _Element(self, at).value(action.value)
