@@ -121,7 +121,7 @@ class Interpreter:
         structure = script_structure(statements, self.program.source)
         text = StatementList(tuple(statements), structure, self.program.source)
         code = self._machine.link(text, self._machine.scope, 0, len(statements), is_command=True)
-        return partial(self._run, code.base)
+        return partial(self._machine.run_straight, code.base, len(statements))
 
     def _run(self, address: int) -> None:
         try:

@@ -146,6 +146,18 @@ class ScriptMachine:
         finally:
             self.returns = before
 
+    def run_straight(self, address: int, count: int) -> None:
+        """Carry out `count` statements without jumps, loops and output. DesireError with its place."""
+        self.refresh()
+        operations = self.code_table.operations
+        try:
+            for _ in range(count):
+                address = operations[address]()
+        except (TracingToggled, Interrupted):
+            raise
+        except Exception as error:
+            raise self._explained(error, address) from error
+
     def _loop(self, address: int) -> None:
         operations, host = self.code_table.operations, self.host
         try:
@@ -163,9 +175,12 @@ class ScriptMachine:
         except (Finished, TracingToggled, Interrupted):
             raise
         except Exception as error:
-            code, place = self.code_table.locate(address)
-            placed = code.text.placed[place]
-            raise explain(error, placed, code.text.source, self.origins, self._callers()) from error
+            raise self._explained(error, address) from error
+
+    def _explained(self, error: Exception, address: int) -> DesireError:
+        """Return what a user is told of an error at an address."""
+        code, place = self.code_table.locate(address)
+        return explain(error, code.text.placed[place], code.text.source, self.origins, self._callers())
 
     def runs_ahead(self) -> int | None:
         """Return how many runs come after the one being made, where loops show it."""

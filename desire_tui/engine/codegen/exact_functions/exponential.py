@@ -34,8 +34,8 @@ def exponential(lanes: Lanes) -> tuple[str, str]:
     high = pairs.fma(whole, lanes.const(-first), x)  # without error: what is left has fewer bits
     low = lanes.mul(whole, lanes.const(-second))
     square = pairs.product(high, high)
-    rest = pairs.polynomial(high, [Fraction(1, factorial(n)) for n in range(4, _TERMS)])
-    inner = pairs.times(high, pairs.constant_plus(Fraction(1, 6), lanes.mul(high, rest)))
+    more = [Fraction(1, factorial(n)) for n in range(4, _TERMS)]
+    inner = pairs.times(high, pairs.series(high, Fraction(1, 6), more))
     change = pairs.by(square, pairs.constant_plus(Fraction(1, 2), inner))
     grown = pairs.sum(high, change.high)
     total = pairs.sum(lanes.const(1.0), grown.high)

@@ -63,17 +63,16 @@ class Pairs:
         part = self.times(a.high, b)
         return Pair(part.high, self.fma(a.low, b.high, part.low))
 
-    def constant_plus(self, value: Fraction, small: Pair | str) -> Pair:
-        """Return a constant, to 106 bits, plus something smaller."""
-        high, low = split(value)
-        if isinstance(small, Pair):
-            found = self.sum(self.const(high), small.high)
-            rest = small.low
-        else:
-            found = self.sum(self.const(high), small)
-            rest = ""
-        tail = self.lanes.add(found.low, rest) if rest else found.low
-        return Pair(found.high, self.lanes.add(tail, self.const(low)) if low else tail)
+    def constant_plus(self, value: Fraction, small: Pair) -> Pair:
+        """Return a constant that is a double plus a smaller pair."""
+        found = self.sum(self.const(float(value)), small.high)
+        return Pair(found.high, self.lanes.add(found.low, small.low))
+
+    def series(self, x: str, first: Fraction, more: Sequence[Fraction]) -> Pair:
+        """Return first + x·(Σ more[i]·xⁱ) where the sum behind the first term is small beside it."""
+        high, low = split(first)
+        rest = self.fma(x, self.polynomial(x, more), self.const(low))
+        return self.sum(self.const(high), rest)
 
     def polynomial(self, x: str, coefficients: Sequence[Fraction]) -> str:
         """Return Σ coefficient[i]·xⁱ in plain doubles (Horner)."""

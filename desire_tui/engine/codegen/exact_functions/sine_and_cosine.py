@@ -1,10 +1,11 @@
 """sin and cos of many numbers, with the bits of glibc's.
 
 Arguments are reduced by multiples of π/2 to |r| ≤ π/4 as pairs of doubles (Cody and Waite, fused), both
-functions are Taylor sums whose first terms are pairs: within 2⁻⁶² of the value. glibc (2.28 and later) adds
-one correction of at most 2⁻⁸ to an entry of a table of sines at multiples of 1/128 (Gal and Bachelis 1991);
-the roundings in that correction amount to less than 3.6·2⁻⁶². Where the result is below 1/8, glibc says
-0.501 units of the last place.
+functions are Taylor sums whose first terms are pairs. What is not a pair is the sum behind x³/6: its
+roundings, 2⁻⁶⁰ and 2⁻⁶¹ at most, times r³ leave less than 2.2·2⁻⁶². glibc (2.28 and later) adds one
+correction of at most 2⁻⁸ to an entry of a table of sines at multiples of 1/128 (Gal and Bachelis 1991); the
+three or four roundings of half a unit in that correction amount to less than 3.6·2⁻⁶². Where the result is
+below 1/8, glibc says 0.501 units of the last place.
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ if TYPE_CHECKING:
 
 _MOST = 2.0**20
 """Larger arguments are the library's: reduction by three doubles is exact enough up to here."""
-_LEAST = 2.0**-20
-"""So near to a multiple of π/2 the reduced argument loses too many bits."""
+_LEAST = 2.0**-30
+"""So near, for each multiple of π/2 taken away, the reduced argument loses too many bits."""
 _MAGIC = 1.5 * 2.0**52
 """Added and taken away: rounds to a whole number, whose last bits it shows."""
-_BAND = 1.25 * 2.0**-60
+_BAND = 1.5 * 2.0**-60
 _SMALL, _RELATIVE = 0.125, 2.0**-60
 
 
@@ -35,11 +36,32 @@ def _term(n: int) -> Fraction:
     return Fraction((-1) ** (n // 2), factorial(n))
 
 
+def _economized(terms: list[Fraction], most: Fraction) -> list[Fraction]:
+    """Return a polynomial of one degree less, as near as can be for x in [0, most].
+
+    The last term gives way to what Chebyshev's polynomial of its degree leaves of it (C. Lanczos 1938).
+    """
+    degree = len(terms) - 1
+    before, now = [Fraction(1)], [Fraction(-1), 2 / most]  # T0, T1 of 2x/most - 1
+    for _ in range(1, degree):
+        doubled = [2 * a for a in (*(-c for c in now), Fraction(0))]
+        for power, c in enumerate(now):
+            doubled[power + 1] += 4 / most * c
+        before, now = now, [a - b for a, b in zip(doubled, [*before, Fraction(0), Fraction(0)], strict=False)]
+    part = terms[-1] / now[-1]
+    return [term - part * c for term, c in zip(terms[:-1], now[:-1], strict=True)]
+
+
+_SQUARE_MOST = (half_pi() / 2) ** 2
+_SINE = _economized([_term(n) for n in range(5, 18, 2)], _SQUARE_MOST)
+_COSINE = _economized([_term(n) for n in range(6, 19, 2)], _SQUARE_MOST)
+"""Taylor's series behind x³ and x⁴, in powers of x²: 2⁻⁶⁴ off."""
+
+
 def sine(pairs: Pairs, r: Pair, square: Pair) -> Pair:
     """Return sin r for |r| ≤ π/4."""
     lanes = pairs.lanes
-    rest = lanes.mul(square.high, pairs.polynomial(square.high, [_term(n) for n in range(5, 18, 2)]))
-    factor = pairs.by(square, pairs.constant_plus(_term(3), rest))
+    factor = pairs.by(square, pairs.series(square.high, _term(3), _SINE))
     change = pairs.by(r, factor)
     total = pairs.sum(r.high, change.high)
     return Pair(total.high, lanes.add(total.low, lanes.add(change.low, r.low)))
@@ -47,9 +69,7 @@ def sine(pairs: Pairs, r: Pair, square: Pair) -> Pair:
 
 def cosine(pairs: Pairs, square: Pair) -> Pair:
     """Return cos r for |r| ≤ π/4."""
-    lanes = pairs.lanes
-    rest = lanes.mul(square.high, pairs.polynomial(square.high, [_term(n) for n in range(6, 19, 2)]))
-    inner = pairs.by(square, pairs.constant_plus(_term(4), rest))
+    inner = pairs.by(square, pairs.series(square.high, _term(4), _COSINE))
     return pairs.constant_plus(Fraction(1), pairs.by(square, pairs.constant_plus(_term(2), inner)))
 
 
@@ -70,9 +90,8 @@ class SineAndCosine:
         square = Pair(square.high, pairs.fma(doubled, reduced.low, square.low))
         self._sine, self._cosine = sine(pairs, reduced, square), cosine(pairs, square)
         large = lanes.compare("ogt", size, lanes.const(_MOST))
-        near = lanes.compare("olt", lanes.intrinsic("fabs", reduced.high), lanes.const(_LEAST))
-        turned = lanes.compare("ogt", turns, lanes.const(0.0))
-        near = text.op(f"and {lanes.flags} {near}, {turned}")
+        least = lanes.mul(turns, lanes.const(_LEAST))
+        near = lanes.compare("olt", lanes.intrinsic("fabs", reduced.high), least)
         self._strange = text.op(f"or {lanes.flags} {large}, {near}")
 
     def _reduce(self, x: str, turns: str) -> Pair:
