@@ -95,6 +95,7 @@ Expression: TypeAlias = Number | Name | Negative | Binary | Relation | Logical |
 ZERO, ONE = Number(0.0), Number(1.0)
 TIME, PI, STEP = Name("<t>"), Name("<PI>"), Name("<DT>")
 """Desire's own quantities stand in angle brackets, so that a model may have some of these names."""
+OWN_NAMES = frozenset({TIME.name, PI.name, STEP.name})
 
 
 def number(value: float) -> Expression:

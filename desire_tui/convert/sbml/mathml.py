@@ -44,6 +44,8 @@ def expression_of(node: Any) -> Expression:
     """Return a formula as an expression. UnknownMathError."""
     if node is None:
         raise UnknownMathError("it has no formula")
+    if not node.isWellFormedASTNode():
+        raise UnknownMathError("it is no complete formula")
     found = _kinds().get(node.getType())
     if found is None:
         what = node.getName() or library().formulaToL3String(node)

@@ -35,6 +35,9 @@ def species(symbols: Symbols, changes: Mapping[str, Expression]) -> None:
     for k in range(symbols.sbml.getNumSpecies()):
         one = symbols.sbml.getSpecies(k)
         name, change = one.getId(), changes.get(one.getId())
+        if symbols.sbml.getCompartment(one.getCompartment()) is None:
+            symbols.refuse(one, name, f"there is no compartment '{one.getCompartment()}'")
+            continue
         start = _start(symbols, one)
         if symbols.held_as_amount(one):
             _held_as_amount(symbols, one, start, change)

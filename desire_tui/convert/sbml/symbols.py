@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.convert.expressions import ZERO, Expression, Name, number
+from desire_tui.convert.expressions import OWN_NAMES, ZERO, Expression, Name, names_in, number
 from desire_tui.convert.problem import placed
 from desire_tui.convert.sbml.document import line_span
 from desire_tui.convert.sbml.mathml import UnknownMathError, expression_of
@@ -39,7 +39,7 @@ class Symbols:
             for event in self.events()
             for k in range(event.getNumEventAssignments())
         }
-        self.taken = {sbml.getElementBySId(one.getId()).getId() for one in self._with_ids()}
+        self.taken = {one.getId() for one in self._with_ids()}
 
     def _with_ids(self) -> Iterator[Any]:
         elements = self.sbml.getListOfAllElements()
@@ -74,16 +74,21 @@ class Symbols:
     def formula(self, element: Any, what: str) -> Expression:
         """Return the formula of an element that has one; 0 where it cannot be said: a problem."""
         try:
-            return expression_of(element.getMath() if element is not None else None)
+            found = expression_of(element.getMath() if element is not None else None)
         except UnknownMathError as reason:
             self.refuse(element, what, str(reason))
             return ZERO
+        for name in sorted(names_in(found) - self.taken - OWN_NAMES):
+            self.refuse(element, what, f"'{name}' is declared nowhere")
+        return found
 
     # --------------------------------------------------------------------------------------------- species
 
     def is_amount(self, species: Any) -> bool:
         """Whether the species stands for its amount in formulas."""
         compartment = self.sbml.getCompartment(species.getCompartment())
+        if compartment is None:
+            return True  # told by `parts`
         sizeless = compartment.isSetSpatialDimensions() and compartment.getSpatialDimensionsAsDouble() == 0
         return bool(species.getHasOnlySubstanceUnits() or sizeless)
 

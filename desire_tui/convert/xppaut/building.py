@@ -30,8 +30,8 @@ class Building:
         self.declarations = declarations
         self.spelling: dict[str, str] = {}
         """Names in lower case as they are spelled where they are declared."""
-        self.tables: set[str] = set()
-        """Those of tables."""
+        self.roles: dict[str, str] = {}
+        """What they are: quantity, function, table."""
         self.histories: dict[str, Expression] = {}
         """What states were before the start, for delays: where `x(0)=` says it."""
         self.starts: dict[str, tuple[Expression, Line]] = {}
@@ -65,14 +65,20 @@ class Building:
         noises = [name for one in self.of("wiener") for name, _ in pairs(one.right) or ()]
         chains = [one.right.split()[0] for one in self.of("markov")]
         fixed = [one.name for one in self.of("fixed")]
-        other = [one.name for one in self.of("derived", "function")]
-        tables = [word for one in self.of("table") for word in one.right.split()[:1]]
-        for name in [*states, *chains, *parameters, *fixed, *noises, *other, *tables]:
-            self.spelling.setdefault(name.lower(), name)
-        self.tables.update(name.lower() for name in tables)
+        for group, role in (
+            ([*states, *chains, *parameters, *fixed, *noises], "quantity"),
+            ([one.name for one in self.of("derived")], "quantity"),
+            ([one.name for one in self.of("function")], "function"),
+            ([word for one in self.of("table") for word in one.right.split()[:1]], "table"),
+        ):
+            for name in group:
+                self.spelling.setdefault(name.lower(), name)
+                self.roles.setdefault(name.lower(), role)
         for one in self.of("rate", "next", "fixed", "function", "derived"):
             if one.name.lower() in BUILT_IN:
                 self.refuse(one.line, f"'{one.name}' is a word of XPPAUT's")
+            elif (self.roles[one.name.lower()] == "function") != (one.kind == "function"):
+                self.refuse(one.line, f"'{one.name}' is a {self.roles[one.name.lower()]} already")
         kinds = [[name.lower() for name in group] for group in (states + chains, fixed, parameters)]
         self.places = Places(kinds, constants)
 
@@ -110,14 +116,17 @@ class Building:
             case Name(name):
                 if name not in self.spelling:
                     self.refuse(line, f"'{name}' is declared nowhere")
+                elif self.roles[name] != "quantity":
+                    self.refuse(line, f"'{name}' is a {self.roles[name]} and needs an argument")
                 return Name(self.spelling.get(name, name))
             case Call("delay", arguments):
                 return self._delay(arguments, line, dummies)
             case Call(function, arguments):
                 inner = tuple(self._known(argument, line, dummies) for argument in arguments)
-                if function in self.tables and len(inner) == 1:
+                role = self.roles.get(function)
+                if role == "table":
                     return Call("func1", (inner[0], Name(self.spelling[function])))
-                if function not in self.spelling and function not in FUNCTIONS:
+                if role != "function" and function not in FUNCTIONS:
                     self.refuse(line, f"there is no function '{function}'")
                 return Call(self.spelling.get(function, function), inner)
             case _:

@@ -30,6 +30,9 @@ def presets(building: Building) -> None:
         if idle:
             building.note(one.line, ", ".join(idle), "no meaning here")
         if values:
+            taken = {preset.name for preset in building.model.presets}
+            while name in taken:
+                name = f"{name}_again"
             building.model.presets.append(Preset(name, values, one.line.comment))
 
 
@@ -64,5 +67,8 @@ def settings(building: Building) -> None:
     discrete = building.options.is_map or bool(building.of("next") and not building.of("rate"))
     formulas = [state.rate for state in model.states] + [one.value for one in model.variables]
     drawn = any({"ran", "gauss"} & functions_in(one) for one in formulas)
+    for one in building.of("wiener"):
+        if discrete or not model.states:
+            building.refuse(one.line, "white noise needs a differential equation")
     noisy = drawn or bool(model.noises or model.markov)
     building.options.settings(model.settings, discrete=discrete, noisy=noisy)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.expressions import Expression, number, substituted
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from desire_tui.convert.xppaut.declarations import Declaration
     from desire_tui.convert.xppaut.options import Options
 
+_DUMMY = re.compile(r"[a-z]\w*\Z", re.ASCII)
 _NO_LIST = "it is no list of name=value"
 
 
@@ -27,6 +29,9 @@ def quantities(building: Building) -> None:
     model.parameters.extend(_parameters(building))
     _starts(building)
     for one in building.of("function"):
+        if not all(_DUMMY.match(dummy) for dummy in one.dummies):
+            building.refuse(one.line, "its arguments are no names")
+            continue
         name, body = building.spelling[one.name.lower()], building.formula(one.right, one.line, one.dummies)
         model.functions.append(Function(name, one.dummies, body, one.line.comment))
     for one in building.of("table"):
