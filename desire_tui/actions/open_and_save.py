@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.actions import Controller
+from desire_tui.actions.foreign_models import converted
 from desire_tui.actions.save_and_reload import SaveAndReload
 from desire_tui.common.dialogs import LineDialog
 from desire_tui.common.paths import exists, full
@@ -45,8 +46,14 @@ class OpenAndSave(Controller):
         """Open a file, asking which if none is named."""
         from_prompt = self.app.command.prompt.has_focus
         path = self._resolve(argument) if argument else await self._pick()
-        if path is not None:
-            await self.open_path(path, focus=not from_prompt)
+        if path is None or (self._is_foreign(path) and await converted(self.app, path)):
+            return
+        await self.open_path(path, focus=not from_prompt)
+
+    def _is_foreign(self, path: Path) -> bool:
+        from desire_tui.convert.conversion import is_convertible
+
+        return is_convertible(path.name) and exists(path) and self.app.may_read(path)
 
     async def _pick(self) -> Path | None:
         if self.app.reach.folder is not None:  # a dialog that shows every folder is not for visitors

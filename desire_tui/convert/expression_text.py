@@ -92,7 +92,7 @@ class _Writer:
                 return f"{self.at_least(expression, _SUM)} <> 0"
 
     def _operand(self, expression: Expression, outer: str) -> str:
-        """Return an operand of `and`, `or`; `and` binds tighter."""
+        """Return an operand of `and`, `or`; `and` binds tighter, and behind neither a sign may stand."""
         text = self.condition(expression)
         mixed = isinstance(expression, Logical) and expression.operator != outer
-        return f"({text})" if mixed else text
+        return f"({text})" if mixed or text.startswith("-") else text

@@ -20,7 +20,7 @@ def comment_lines(comment: str) -> Iterator[str]:
 def broken(statement: str) -> Iterator[str]:
     """Yield a statement in lines of at most WIDTH characters, where it has places to break it.
 
-    A line goes on in the next if it ends in an operator, or in `_` behind a comma. Quoted texts stay whole.
+    A line goes on in the next if it ends in an operator, or in `_`. Quoted texts stay whole.
     """
     rest, indent = statement, ""
     while len(indent) + len(rest) > WIDTH:
@@ -28,7 +28,7 @@ def broken(statement: str) -> Iterator[str]:
         if cut is None:
             break
         first, rest = rest[:cut].rstrip(), rest[cut:].lstrip()
-        yield indent + first + (" _" if first.endswith(",") else "")
+        yield indent + first + ("" if first[-1] in "+-*/" else " _")
         indent = _INDENT
     yield indent + rest
 
@@ -37,7 +37,7 @@ def _break_before(text: str, most: int) -> int | None:
     """Return where a text of more than `most` characters is best broken; None: nowhere."""
     depth, quoted = 0, False
     places: list[tuple[int, int]] = []
-    for at, sign in enumerate(text[: most + 1]):
+    for at, sign in enumerate(text[:most]):
         if sign == "'":
             quoted = not quoted
         elif quoted:
@@ -51,7 +51,8 @@ def _break_before(text: str, most: int) -> int | None:
         elif sign in "*/" and at > most // 2:
             places.append((at + 1, depth + 1))  # between terms rather than inside one
     if not places:
-        return None
+        blank = text.rfind(" ", 0, most)
+        return None if blank <= 0 or quoted else blank + 1
     far = [place for place in places if place[0] > most // 2] or places
     least = min(depth for _, depth in far)
     return max(at for at, depth in far if depth == least)

@@ -32,6 +32,8 @@ class Building:
         """Names in lower case as they are spelled where they are declared."""
         self.roles: dict[str, str] = {}
         """What they are: quantity, function, table."""
+        self.arguments = {one.name.lower(): len(one.dummies) for one in self.of("function")}
+        """How many each function takes."""
         self.histories: dict[str, Expression] = {}
         """What states were before the start, for delays: where `x(0)=` says it."""
         self.starts: dict[str, tuple[Expression, Line]] = {}
@@ -128,6 +130,8 @@ class Building:
                     return Call("func1", (inner[0], Name(self.spelling[function])))
                 if role != "function" and function not in FUNCTIONS:
                     self.refuse(line, f"there is no function '{function}'")
+                elif role == "function" and len(inner) != self.arguments[function]:
+                    self.refuse(line, f"'{function}' takes {self.arguments[function]} argument(s)")
                 return Call(self.spelling.get(function, function), inner)
             case _:
                 return with_parts(expression, lambda part: self._known(part, line, dummies))
