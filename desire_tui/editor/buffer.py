@@ -28,8 +28,8 @@ Nobody edits them, and a wrong file must not fill the memory.
 OTHER_SUFFIXES = frozenset(
     {
         ".bib", ".c", ".cfg", ".conf", ".css", ".csv", ".dat", ".diff", ".h", ".html", ".ini", ".jl", ".js",
-        ".json", ".log", ".m", ".md", ".ode", ".patch", ".py", ".rst", ".sh", ".svg", ".tex", ".toml", ".tsv", ".xml",
-        ".yaml", ".yml",
+        ".json", ".log", ".m", ".md", ".ode", ".patch", ".py", ".rst", ".sh", ".svg", ".tex", ".toml", ".tsv",
+        ".xml", ".yaml", ".yml",
     }
 )  # fmt: skip
 """Endings of files that hold no Desire program."""
