@@ -40,9 +40,8 @@ class Frame:
             self._constants[id(constant)] = self.text.op(f"load double, ptr {self.slot(constant.slot)}")
 
     def load_first(self, node: Series) -> None:
-        """Read coefficient 0 of a number's series, and keep it in its row."""
-        value = self._first[node.number] = self.text.op(f"load double, ptr {self.slot(node.slot)}")
-        self.put(self.layout.place(node), value)
+        """Read coefficient 0 of a number's series."""
+        self._first[node.number] = self.text.op(f"load double, ptr {self.slot(node.slot)}")
 
     def load_reciprocal(self, operand: Series | Constant) -> None:
         """Compute one over a number's coefficient 0."""

@@ -8,55 +8,55 @@ from desire_tui.engine.integration.taylor.memory import ORDER_MOST
 from desire_tui.engine.passes.series.nodes import Series
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from desire_tui.engine.passes.series.nodes import SeriesProgram
 
-ROW = 32
-"""Numbers kept for one number's series: orders up to ORDER_MOST, and what vector code reads beyond."""
+ROW = 24
+"""Numbers kept for one number's series, orders up to ORDER_MOST, in whole cache lines."""
+CELL = 16
+"""Numbers in a cell: a vector of sums or coefficients, and some single ones (`scalar`)."""
 WIDTH = 8
 """Rows of arrays are whole multiples of so many numbers, so that loops over elements leave no rest."""
 
 
 class Layout:
-    """Places in a flat array: first what must be 0 at a step's start, then arrays.
+    """Places in a flat array: first what must be 0 at a step's start, then rows and arrays.
 
     A number's coefficients are neighbours: coefficient k at `place` + k. An array's k-th coefficients are
     neighbours: element i's at `place` + k·`apart` + i.
     """
 
     def __init__(self, program: SeriesProgram) -> None:
-        assert ORDER_MOST + WIDTH < ROW
+        assert ORDER_MOST < ROW
         self._places: dict[int, int] = {}
-        self._extra: dict[tuple[str, int], int] = {}
-        self.cleared = 0
-        for node in program.nodes:
-            if node.count is None:
-                self._places[node.number] = self._row()
-        self._end = self.cleared
-        self._arrays = [node for node in program.nodes if node.count is not None]
-        self._placed = False
+        self._cells: dict[tuple[str, int], int] = {}
+        self._squares: dict[int, int] = {}
         self._program = program
+        self.cleared = 0
 
-    def row_for(self, what: str, node: Series) -> int:
-        """Return the place of a row that belongs to a number's series besides its coefficients."""
-        key = what, node.number
-        if key not in self._extra:
-            assert not self._placed
-            self._extra[key] = self._row()
-        return self._extra[key]
+    def cell(self, what: str, number: int) -> int:
+        """Return the place of a series' cell, which is 0 at a step's start."""
+        return self._cells[what, number]
 
-    def finish(self) -> None:
-        """Place arrays behind all rows."""
-        self._placed = True
-        place = self.cleared
-        for node in self._arrays:
+    def squares(self, node: Series) -> int:
+        """Return the place of the products of equal orders that a sum consists of: 2k's at `place` + 2k."""
+        return self._squares[node.number]
+
+    def finish(self, cells: Iterable[tuple[str, Series]], sums: Iterable[Series]) -> None:
+        """Give everything its place: `cells` in memory, rows for `sums` of products."""
+        place = 0
+        for what, node in cells:
+            self._cells[what, node.number] = place
+            place += CELL
+        self.cleared = place
+        for node in sums:
+            self._squares[node.number] = place
+            place += ROW
+        for node in self._program.nodes:
             self._places[node.number] = place
-            place += apart(node) * (ORDER_MOST + 1) + WIDTH
+            place += ROW if node.count is None else apart(node) * (ORDER_MOST + 1) + WIDTH
         self.room = place + WIDTH
-
-    def _row(self) -> int:
-        place = self.cleared
-        self.cleared += ROW
-        return place
 
     def place(self, node: Series) -> int:
         """Return where coefficient 0 stands, an array's first element's."""

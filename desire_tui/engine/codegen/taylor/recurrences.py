@@ -10,7 +10,8 @@ from desire_tui.engine.codegen.ir.text import IrText, literal
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.taylor.frame import Frame
-from desire_tui.engine.codegen.taylor.scalar import ScalarRecurrences, helper
+from desire_tui.engine.codegen.taylor.scalar import ScalarRecurrences
+from desire_tui.engine.codegen.taylor.sums import Sums
 from desire_tui.engine.codegen.taylor.vector import VectorRecurrences
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
@@ -18,9 +19,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.taylor.layout import Layout
     from desire_tui.engine.passes.series.nodes import SeriesProgram
 
-_HELPER = "taylor.products"
-INLINE_MOST = 40
-"""With more sums of products the function that adds to them is called, not written out for each."""
+REGISTERS_MOST = 24
+"""With more sums of products what turns hand on is kept in memory."""
 _OF_ARRAYS = frozenset(("element", "total"))
 
 
@@ -30,125 +30,126 @@ def recurrences(program: SeriesProgram, layout: Layout) -> Piece:
     Coefficients 0 are taken from the values (`SeriesProgram.values_pass` has put them there). `layout` is
     finished here.
     """
-    text = IrText()
-    frame = Frame(text, layout)
-    numbers = [node for node in program.nodes if node.count is None]
-    sums = 0
-    for node in numbers:
-        ScalarRecurrences.reserve(frame, node)
-        sums += node.kind in {"mul", "div", "sqrt", "integral", "quotient"}
-    wide = _broadcast(program)
-    for node in wide:
-        layout.row_for("wide", node)
-    layout.finish()
-    scalar, vector = ScalarRecurrences(frame, _HELPER), VectorRecurrences(frame, machine().width)
-    _begin(program, frame, vector, wide)
-    cells = _derivative_cells(program, frame)
-    text.jump("orders")
-    text.begin("orders")
-    text.do("%k = phi i64 [ 1, %begun ], [ %k.next, %turn ]")
-    text.do("%kf = sitofp i64 %k to double")
-    text.do(f"%ki = fdiv double {literal(1.0)}, %kf")
-    broadcast = {node.number for node in wide}
-    derivatives = {piece.series.number: piece.derivative for piece in program.states}
-    for node in program.nodes:
-        if node.kind == "state":
-            _state(node, derivatives[node.number], frame, vector, cells)
-    text.branch(text.op("icmp slt i64 %k, %p"), "inner", "last")
-    text.begin("inner")
-    for node in program.nodes:
-        cancellation_point()
-        if node.kind == "state":
+    return _Function(program, layout).piece()
+
+
+class _Function:
+    def __init__(self, program: SeriesProgram, layout: Layout) -> None:
+        self._program = program
+        self._text = text = IrText()
+        self._frame = frame = Frame(text, layout)
+        numbers = [node for node in program.nodes if node.count is None]
+        many = sum(node.kind in {"mul", "div", "sqrt", "integral", "quotient"} for node in numbers)
+        self._sums = Sums(frame, in_memory=many > REGISTERS_MOST)
+        self._scalar = ScalarRecurrences(frame, self._sums)
+        self._has_sums = [self._scalar.announce(node) for node in numbers].count(True) > 0
+        self._sums.finish_layout()
+        self._vector = VectorRecurrences(frame, machine().width)
+        self._kept = _kept(program)
+        self._derivatives = {piece.series.number: piece.derivative for piece in program.states}
+
+    def piece(self) -> Piece:
+        """Write everything."""
+        text = self._text
+        self._begin()
+        cells = self._derivative_cells()
+        text.jump("begun")
+        text.begin("begun")
+        text.jump("orders")
+        text.begin("orders")
+        text.do("%k = phi i64 [ 1, %begun ], [ %k.next, %turn ]")
+        text.do("%kf = sitofp i64 %k to double")
+        text.do(f"%ki = fdiv double {literal(1.0)}, %kf")
+        self._states(cells)
+        text.branch(text.op("icmp slt i64 %k, %p"), "inner", "last")
+        text.begin("inner")
+        self._turn(cells)
+        text.jump("turn")
+        text.begin("turn")
+        text.do("%k.next = add i64 %k, 1")
+        text.jump("orders")
+        text.begin("last")
+        text.do("ret void")
+        body = text.body()
+        digest = "t" + blake2b(body.encode(), digest_size=10).hexdigest()
+        function = f"define void @{digest}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}"
+        return Piece(digest, function, frozenset(text.declarations))
+
+    def _begin(self) -> None:
+        """Write what comes before the loop."""
+        text, frame = self._text, self._frame
+        if frame.layout.cleared:
+            text.declarations.add("declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)")
+            size = 8 * frame.layout.cleared
+            text.do(f"call void @llvm.memset.p0.i64(ptr %c, i8 0, i64 {size}, i1 false)")
+        self._sums.begin()
+        for node in self._program.nodes:
+            if node.count is not None:
+                self._vector.load_first(node)
+            else:
+                frame.load_first(node)
+                if node.number in self._kept:
+                    frame.put(frame.layout.place(node), frame.first(node))
+        for node in self._program.nodes:
+            for operand in node.operands:
+                if isinstance(operand, Constant):
+                    frame.load_constant(operand)
             if node.count is None:
-                scalar.keep(node)
-        elif node.count is not None:
-            vector.write(node)
-        elif node.kind in _OF_ARRAYS:
-            frame.now[node.number] = vector.number(node)
-            scalar.keep(node)
-        else:
-            scalar.write(node)
-        if node.number in broadcast:
-            frame.put(layout.row_for("wide", node), frame.now[node.number], "%k")
-    scalar.end_turn()
-    for number, cell in cells.items():
-        derivative = derivatives[number]
-        text.do(f"store double {frame.coefficient(derivative)}, ptr {cell}")
-    text.jump("turn")
-    text.begin("turn")
-    text.do("%k.next = add i64 %k, 1")
-    text.jump("orders")
-    text.begin("last")
+                self._scalar.prepare(node)
+        for derivative in self._derivatives.values():
+            if isinstance(derivative, Constant):
+                frame.load_constant(derivative)
+
+    def _derivative_cells(self) -> dict[int, str]:
+        """Make cells for numbers' derivatives, which are one order behind."""
+        cells: dict[int, str] = {}
+        for piece in self._program.states:
+            if piece.series.count is None:
+                cell = cells[piece.series.number] = self._text.alloca("double")
+                self._text.do(f"store double {self._frame.first(piece.derivative)}, ptr {cell}")
+        return cells
+
+    def _states(self, cells: dict[int, str]) -> None:
+        """Write what computes the states' coefficients."""
+        text, frame = self._text, self._frame
+        for piece in self._program.states:
+            node = piece.series
+            if node.count is not None:
+                self._vector.state(node, piece.derivative)
+                continue
+            slope = text.op(f"load double, ptr {cells[node.number]}")
+            frame.now[node.number] = text.op(f"fmul double {slope}, %ki")
+            frame.put(frame.layout.place(node), frame.now[node.number], "%k")
+
+    def _turn(self, cells: dict[int, str]) -> None:
+        """Write what computes all others' coefficients, and hands on what the next turn needs."""
+        text, frame = self._text, self._frame
+        if self._has_sums:
+            self._sums.turn()
+        for node in self._program.nodes:
+            cancellation_point()
+            if node.kind == "state":
+                continue
+            if node.count is not None:
+                self._vector.write(node)
+                continue
+            if node.kind in _OF_ARRAYS:
+                frame.now[node.number] = self._vector.number(node)
+            else:
+                self._scalar.write(node)
+            if node.number in self._kept:
+                frame.put(frame.layout.place(node), frame.now[node.number], "%k")
+        if self._has_sums:
+            self._sums.end_turn(self._scalar.factors(self._sums.factors))
+        for number, cell in cells.items():
+            text.do(f"store double {frame.coefficient(self._derivatives[number])}, ptr {cell}")
+
+
+def _kept(program: SeriesProgram) -> set[int]:
+    """Return the numbers whose coefficients others read: the solver, arrays' sums of products."""
+    found = {piece.series.number for piece in program.states}
+    found |= {operand.number for operand, _ in program.arguments if isinstance(operand, Series)}
     for node in program.nodes:
-        if node.kind == "state" and node.count is None:
-            frame.put(layout.place(node), frame.now[node.number], "%k")
-    text.do("ret void")
-    body = text.body()
-    inline = sums <= INLINE_MOST
-    digest = "t" + blake2b(f"{inline}{body}".encode(), digest_size=10).hexdigest()
-    name = f"{_HELPER}.{digest}"
-    function = f"define void @{digest}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}".replace(
-        f"@{_HELPER}(", f"@{name}("
-    )
-    return Piece(digest, helper(name, inline=inline) + "\n" + function, frozenset(text.declarations))
-
-
-def _broadcast(program: SeriesProgram) -> list[Series]:
-    """Return the numbers whose coefficients arrays' sums of products read."""
-    found: dict[int, Series] = {}
-    for node in program.nodes:
-        if node.count is None or node.kind not in {"mul", "div", "sqrt", "integral", "quotient"}:
-            continue
-        for operand in node.operands:
-            if isinstance(operand, Series) and operand.count is None:
-                found[operand.number] = operand
-    return list(found.values())
-
-
-def _begin(program: SeriesProgram, frame: Frame, vector: VectorRecurrences, wide: list[Series]) -> None:
-    """Write what comes before the loop."""
-    text, layout = frame.text, frame.layout
-    text.declarations.add("declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)")
-    text.do(f"call void @llvm.memset.p0.i64(ptr %c, i8 0, i64 {8 * layout.cleared}, i1 false)")
-    for node in program.nodes:
-        if node.count is None:
-            frame.load_first(node)
-        else:
-            vector.load_first(node)
-    for node in wide:
-        frame.put(layout.row_for("wide", node), frame.first(node))
-    for node in program.nodes:
-        for operand in node.operands:
-            if isinstance(operand, Constant):
-                frame.load_constant(operand)
-        if node.count is None:
-            ScalarRecurrences.prepare(frame, node)
-    for piece in program.states:
-        if isinstance(piece.derivative, Constant):
-            frame.load_constant(piece.derivative)
-    text.jump("begun")
-    text.begin("begun")
-
-
-def _derivative_cells(program: SeriesProgram, frame: Frame) -> dict[int, str]:
-    """Make cells for numbers' derivatives, which are one order behind."""
-    cells: dict[int, str] = {}
-    for piece in program.states:
-        if piece.series.count is None:
-            cell = cells[piece.series.number] = frame.text.alloca("double")
-            frame.text.do(f"store double {frame.first(piece.derivative)}, ptr {cell}")
-    return cells
-
-
-def _state(
-    node: Series,
-    derivative: Series | Constant,
-    frame: Frame,
-    vector: VectorRecurrences,
-    cells: dict[int, str],
-) -> None:
-    if node.count is not None:
-        vector.state(node, derivative)
-        return
-    slope = frame.text.op(f"load double, ptr {cells[node.number]}")
-    frame.now[node.number] = frame.text.op(f"fmul double {slope}, %ki")
+        if node.count is not None and node.kind in {"mul", "div", "sqrt", "integral", "quotient"}:
+            found |= {operand.number for operand in node.operands if isinstance(operand, Series)}
+    return found

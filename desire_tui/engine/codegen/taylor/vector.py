@@ -240,7 +240,7 @@ class VectorRecurrences:
 
     def _at_order(self, operand: Series, order: str, i: str) -> str:
         if operand.count is None:
-            return self._lanes.splat(self._frame.get(self._frame.layout.row_for("wide", operand), order))
+            return self._lanes.splat(self._frame.get(self._frame.layout.place(operand), order))
         return fetch(self._lanes, self._frame.row(operand, order), i)
 
     def _first(self, operand: Series | Constant, i: str) -> str:
