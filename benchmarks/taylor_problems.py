@@ -1,8 +1,9 @@
-"""Five smooth problems, each written once and put into four languages: Desire, C, Python, heyoka's expressions.
+"""Smooth problems, each written once and put into four languages: Desire, C, Python, heyoka's expressions.
 
-Lorenz' equations to t = 20; Arenstorf's orbit, one period; seven stars (Pleiades) to t = 3; Kepler's orbit of eccentricity 0.9, three
-turns; the Brusselator with diffusion along a line. Hairer, Nørsett and Wanner, "Solving Ordinary Differential
-Equations I", II.10; II: IV.10.
+Lorenz' equations to t = 20; Arenstorf's orbit, one period; seven stars (Pleiades) to t = 3; Kepler's orbit of
+eccentricity 0.9, three turns; the Brusselator with diffusion along a line. Hairer, Nørsett and Wanner,
+"Solving Ordinary Differential Equations" I: II.10, II: IV.10. The outer solar system: Hairer, Lubich, Wanner,
+"Geometric Numerical Integration", I.2.4.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import sin, pi, sqrt
+from math import pi, sin, sqrt
 from typing import Any
 
 import numpy as np
@@ -65,7 +66,8 @@ class SmoothProblem:
         space = {name: heyoka.make_vars(name) for name in self.start}
         for name, text in self.helpers.items():
             space[name] = eval(_python(text), {}, space)
-        return [(space[name], eval(_python(self.rates[name]), {}, space) + 0.0 * space[name]) for name in self.start]
+        rates = {name: eval(_python(text), {}, space) for name, text in self.rates.items()}
+        return [(space[name], rates[name] + 0.0 * space[name]) for name in self.start]  # never a mere number
 
     @property
     def begin(self) -> np.ndarray:
@@ -133,7 +135,8 @@ def _brusselator(n: int = 64, rate: float = 0.02) -> SmoothProblem:
         below, above = (f"v{i - 1}" if i > 1 else "3"), (f"v{i + 1}" if i < n else "3")
         rates[f"v{i}"] = f"3*u{i} - p{i} + {factor!r}*({below} - 2*v{i} + {above})"
     script = (
-        f"n = {n} | STATE u[n], v[n] | ARRAY e[n], p[n]\nfor i = 1 to n | u[i] = 1 + sin(2*PI*i/(n + 1)) | v[i] = 3 | next\n"
+        f"n = {n} | STATE u[n], v[n] | ARRAY e[n], p[n]\n"
+        "for i = 1 to n | u[i] = 1 + sin(2*PI*i/(n + 1)) | v[i] = 3 | next\n"
         f"e[1] = 1 | e[n] = 1 | c = {rate!r}*(n + 1)^2"
     )
     body = (
@@ -141,6 +144,62 @@ def _brusselator(n: int = 64, rate: float = 0.02) -> SmoothProblem:
         "Vectr d/dt v = 3*u - p + c*(v{1} - 2*v + v{-1} + 3*e)\ndispt u[1]"
     )
     return SmoothProblem("Brusselator, 128 states, to t = 10", 10.0, start, rates, helpers, (script, body))
+
+
+GRAVITY = 2.95912208286e-4
+"""In astronomical units, days and masses of the Sun; hers holds the inner planets' too."""
+MASSES = (
+    1.00000597682,
+    0.000954786104043,
+    0.000285583733151,
+    0.0000437273164546,
+    0.0000517759138449,
+    1 / 1.3e8,
+)
+_PLACES = (
+    (0.0, 0.0, 0.0), (-3.5023653, -3.8169847, -1.5507963), (9.0755314, -3.0458353, -1.6483708),
+    (8.3101420, -16.2901086, -7.2521278), (11.4707666, -25.7294829, -10.8169456),
+    (-15.5387357, -25.2225594, -3.1902382),
+)  # fmt: skip
+_SPEEDS = (
+    (0.0, 0.0, 0.0), (0.00565429, -0.00412490, -0.00190589), (0.00168318, 0.00483525, 0.00192462),
+    (0.00354178, 0.00137102, 0.00055029), (0.00288930, 0.00114527, 0.00039677),
+    (0.00276725, -0.00170702, -0.00136504),
+)  # fmt: skip
+YEAR = 365.25
+
+
+def outer_planets(years: float) -> SmoothProblem:
+    """Sun, Jupiter, Saturn, Uranus, Neptune, Pluto."""
+    bodies = range(6)
+    forces: dict[tuple[str, int], list[str]] = {(axis, i): [] for axis in "xyz" for i in bodies}
+    helpers: dict[str, str] = {}
+    for i in bodies:
+        for j in range(i + 1, 6):
+            helpers |= {f"d{axis}{i}{j}": f"{axis}{j} - {axis}{i}" for axis in "xyz"}
+            helpers[f"r{i}{j}"] = " + ".join(f"d{axis}{i}{j}^2" for axis in "xyz")
+            helpers[f"w{i}{j}"] = f"r{i}{j}^(-1.5)"
+            for axis in "xyz":
+                helpers[f"f{axis}{i}{j}"] = f"d{axis}{i}{j}*w{i}{j}"
+                forces[axis, i].append(f"+ {GRAVITY * MASSES[j]!r}*f{axis}{i}{j}")
+                forces[axis, j].append(f"- {GRAVITY * MASSES[i]!r}*f{axis}{i}{j}")
+    start = {f"{axis}{i}": _PLACES[i][k] for k, axis in enumerate("xyz") for i in bodies}
+    start |= {f"v{axis}{i}": _SPEEDS[i][k] for k, axis in enumerate("xyz") for i in bodies}
+    rates = {f"{axis}{i}": f"v{axis}{i}" for axis in "xyz" for i in bodies}
+    rates |= {f"v{axis}{i}": "0 " + " ".join(forces[axis, i]) for axis in "xyz" for i in bodies}
+    return SmoothProblem(f"outer solar system, {years:g} years", years * YEAR, start, rates, helpers)
+
+
+def energy(states: np.ndarray) -> np.longdouble:
+    """Return the energy of `outer_planets`' states, in their order, with 64 bits of mantissa."""
+    places, speeds = np.array(states, dtype=np.longdouble).reshape(2, 3, 6)
+    masses = np.array(MASSES, dtype=np.longdouble)
+    total = 0.5 * (masses * (speeds**2).sum(axis=0)).sum()
+    for i in range(6):
+        for j in range(i + 1, 6):
+            distance = np.sqrt(((places[:, i] - places[:, j]) ** 2).sum())
+            total -= np.longdouble(GRAVITY) * masses[i] * masses[j] / distance
+    return total
 
 
 PROBLEMS = (LORENZ, ARENSTORF, _pleiades(), KEPLER, _brusselator())

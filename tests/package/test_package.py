@@ -36,7 +36,7 @@ def test_there_is_a_wheel_of_every_dependency_for_linux_on_arm():
 def test_all_is_every_extra_for_users_and_developers_have_what_users_may_have():
     extras = PROJECT["optional-dependencies"]
     everything = set().union(*(Requirement(part).extras for part in extras["all"]))
-    assert everything == extras.keys() - {"all", "dev", "docs"}
+    assert everything == extras.keys() - {"all", "dev", "docs", "bench"}
     for_users = set().union(*(names(extras[name]) for name in everything))
     assert for_users <= names(extras["dev"])
     assert not for_users & names(PROJECT["dependencies"])

@@ -167,7 +167,7 @@ def test_errors_of_rounding_do_not_drift():
     )
     found = made(text, 0.0, t_max=2 * pi * 1000, nn=1001)
     energy = found.rows[:, 1]
-    assert np.abs(energy / energy[0] - 1).max() < 4e-15
+    assert np.abs(energy / energy[0] - 1).max() < 1e-16 * sqrt(found.record.steps)  # a random walk
     assert found.rows[-1, 0] == pytest.approx(2000 * pi)
 
 

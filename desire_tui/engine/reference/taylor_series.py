@@ -45,13 +45,17 @@ class ReferenceSeries:
         nodes = self._program.nodes
         self._order = order
         self._rows = {
-            node.number: [self._data[node.slot : node.slot + node.size].copy()]
-            + [np.zeros(node.size) for _ in range(order)]
-            for node in nodes
+            node.number: [self._values(node)] + [np.zeros(node.size) for _ in range(order)] for node in nodes
         }
         for k in range(1, order + 1):
             for node in nodes:
                 self._rows[node.number][k][:] = self._coefficient(node, k)
+
+    def _values(self, node: Series) -> Array:
+        """Return coefficients 0."""
+        if node.slots:
+            return self._data[list(node.slots)]
+        return self._data[node.slot : node.slot + node.size].copy()
 
     def give(self, order: int, coefficients: Array) -> None:
         """Compute coefficients, and write states' and modes' arguments' where the solver reads them."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.integration.taylor.memory import ORDER_MOST
 from desire_tui.engine.passes.series.nodes import Series
 
@@ -16,8 +17,8 @@ ROW = 24
 """Numbers kept for one number's series, orders up to ORDER_MOST, in whole cache lines."""
 CELL = 16
 """Numbers in a cell: a vector of sums or coefficients, and some single ones (`scalar`)."""
-WIDTH = 8
-"""Rows of arrays are whole multiples of so many numbers, so that loops over elements leave no rest."""
+VECTORS = 4
+"""So many vectors are computed side by side: none waits for its own last sum."""
 
 
 class Layout:
@@ -55,8 +56,9 @@ class Layout:
             place += ROW
         for node in self._program.nodes:
             self._places[node.number] = place
-            place += ROW if node.count is None else apart(node) * (ORDER_MOST + 1) + WIDTH
-        self.room = place + WIDTH
+            place += ROW if node.count is None else apart(node) * (ORDER_MOST + 1)
+            place = -(-place // 8) * 8
+        self.room = place + 4 * ROW
 
     def place(self, node: Series) -> int:
         """Return where coefficient 0 stands, an array's first element's."""
@@ -76,6 +78,12 @@ class Layout:
         ]
 
 
+def strip(size: int) -> int:
+    """Return how many elements of an array of this size are computed at a time; rows are multiples of it."""
+    most = VECTORS * machine().width
+    return next((width for width in (2, 4, 8, 16, 32) if size <= width < most), most)
+
+
 def apart(node: Series) -> int:
     """Return the distance of an element's neighbouring coefficients."""
-    return 1 if node.count is None else -(-node.count // WIDTH) * WIDTH
+    return 1 if node.count is None else -(-node.count // strip(node.count)) * strip(node.count)

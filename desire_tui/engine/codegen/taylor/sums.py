@@ -8,8 +8,8 @@ coefficients are added to all sums to come, so that nothing waits for long sums.
     i = 2 … 9, i < k       at the end of the turn, as one vector: sums k + 2 … k + 9;
     i = k                  at the end of the turn, for the sum of order 2k.
 
-More is not wanted up to order 20: the other factor's order would be i too. Every vector moves on by one element
-in a turn, so that it meets memory as a whole only, and reading what has just been written never waits.
+More is not wanted up to order 20: the other factor's order would be i too. Every vector moves on by one
+element in a turn, so that it meets memory as a whole only, and reading what was just written never waits.
 """
 
 from __future__ import annotations
@@ -66,7 +66,9 @@ class Sums:
         """Place everything."""
         cells = [(f.what, f.series) for f in self._factors.values()]
         cells += [("sums", node) for node, _, _ in self._sums.values()]
-        self._frame.layout.finish(cells if self._in_memory else (), [node for node, _, _ in self._sums.values()])
+        self._frame.layout.finish(
+            cells if self._in_memory else (), [node for node, _, _ in self._sums.values()]
+        )
 
     def begin(self) -> None:
         """Write what makes cells in the function's frame, all 0; those in memory have been cleared."""
@@ -112,10 +114,14 @@ class Sums:
             a, b = ((f.what, f.series.number) for f in (first, second))
             sums = self._get("sums", number, "vector")
             self._put("sums", number, "next", text.op(f"extractelement {wide.kind} {sums}, i64 0"))
-            ahead = text.op(f"shufflevector {wide.kind} {sums}, {wide.kind} zeroinitializer, <{LANES} x i32> {moved}")
+            ahead = text.op(
+                f"shufflevector {wide.kind} {sums}, {wide.kind} zeroinitializer, <{LANES} x i32> {moved}"
+            )
             products = wide.add(wide.mul(splats[a], vectors[b]), wide.mul(splats[b], vectors[a]))
             self._put("sums", number, "vector", wide.add(ahead, products))
-            self._frame.put(self._frame.layout.squares(node), one.mul(coefficients[a], coefficients[b]), double)
+            self._frame.put(
+                self._frame.layout.squares(node), one.mul(coefficients[a], coefficients[b]), double
+            )
         is_first = text.op("icmp eq i64 %k, 1")
         for key in self._factors:
             now = coefficients[key]

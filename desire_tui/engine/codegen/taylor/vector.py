@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import literal
-from desire_tui.engine.codegen.taylor.layout import apart
+from desire_tui.engine.codegen.taylor.layout import apart, strip
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
@@ -21,15 +21,22 @@ class VectorRecurrences:
 
     def __init__(self, frame: Frame, width: int) -> None:
         self._frame = frame
-        self._lanes = Lanes(frame.text, width)
-        self._rows: dict[tuple[int, str], str] = {}
+        self._narrow = Lanes(frame.text, width)
+        """For sums of elements, whose order must not depend on the array's length."""
+        self._lanes = self._narrow
 
     def load_first(self, node: Series) -> None:
         """Copy coefficients 0 from the values."""
+        if node.slots:
+            one, target = Lanes(self._frame.text), self._frame.at(self._frame.layout.place(node))
+            for i, slot in enumerate(node.slots):
+                put(one, target, str(i), fetch(one, self._frame.slot(slot), "0"))
+            return
         self._copy(self._frame.at(self._frame.layout.place(node)), self._frame.slot(node.slot), node.size)
 
     def write(self, node: Series) -> None:
         """Write what computes an array's k-th coefficients."""
+        self._lanes = Lanes(self._frame.text, strip(node.size))
         write: Callable[[Series], None] | None = getattr(self, f"_{node.kind}", None)
         if write is not None:
             write(node)
@@ -41,6 +48,7 @@ class VectorRecurrences:
 
     def state(self, node: Series, derivative: Series | Constant) -> None:
         """Write an array of states' k-th coefficients: the derivatives' one order lower, divided by k."""
+        self._lanes = Lanes(self._frame.text, strip(node.size))
         text, lanes = self._frame.text, self._lanes
         target = self._frame.row(node)
         before = text.op("sub i64 %k, 1")
@@ -258,7 +266,7 @@ class VectorRecurrences:
 
     def _sum(self, count: int, element: Callable[[Lanes, str], str]) -> str:
         """Return the sum of some elements: as many partial sums as there are lanes, added in order."""
-        text, lanes, one = self._frame.text, self._lanes, Lanes(self._frame.text)
+        text, lanes, one = self._frame.text, self._narrow, Lanes(self._frame.text)
         wide, single = text.alloca(lanes.kind), text.alloca("double")
         text.do(f"store {lanes.kind} {lanes.const(0.0)}, ptr {wide}")
         main = count // lanes.width * lanes.width

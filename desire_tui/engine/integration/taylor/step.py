@@ -111,35 +111,49 @@ def add_up(s: Taylor, h: float) -> None:
 
     So errors of rounding grow with the square root of the number of steps and not faster (Brouwer's law).
     """
-    c: Reals = s.coefficients
-    order = s.order
-    for k in range(s.piece_count):
-        first = s.pieces[4 * k]
-        base = s.pieces[4 * k + 2]
-        apart = s.pieces[4 * k + 3]
-        for i in range(s.pieces[4 * k + 1]):
-            total: float = c[base + order * apart + i]
-            for down in range(order - 1):
-                total = total * h + c[base + (order - 1 - down) * apart + i]
-            x: float = s.base[first + i]
-            change = total * h + s.base_rest[first + i]
-            moved = x + change
-            part = moved - x
-            s.y[first + i] = moved
-            s.rest[first + i] = (x - (moved - part)) + (change - part)
+    sum_up(s, h, s.y)
+    for i in range(s.n):
+        x: float = s.base[i]
+        change = s.y[i] * h + s.base_rest[i]
+        moved = x + change
+        part = moved - x
+        s.y[i] = moved
+        s.rest[i] = (x - (moved - part)) + (change - part)
 
 
 def put_inside(s: Taylor, t: float, out: Reals) -> None:
     """Write the solution inside the last step to `out`."""
-    c: Reals = s.coefficients
-    order = s.order
     h = t - s.t_base
+    sum_up(s, h, out)
+    for i in range(s.n):
+        out[i] = s.base[i] + (out[i] * h + s.base_rest[i])
+
+
+def sum_up(s: Taylor, h: float, out: Reals) -> None:
+    """Write what the series change by in h, divided by h; odd and even powers apart: half as long a wait."""
+    c: Reals = s.coefficients
+    square = h * h
     for k in range(s.piece_count):
         first = s.pieces[4 * k]
+        count = s.pieces[4 * k + 1]
         base = s.pieces[4 * k + 2]
         apart = s.pieces[4 * k + 3]
-        for i in range(s.pieces[4 * k + 1]):
-            total: float = c[base + order * apart + i]
-            for down in range(order - 1):
-                total = total * h + c[base + (order - 1 - down) * apart + i]
-            out[first + i] = s.base[first + i] + (total * h + s.base_rest[first + i])
+        j = s.order
+        if count == 1:
+            one = 0.0
+            other = 0.0
+            while j >= 2:
+                one = one * square + c[base + j * apart]
+                other = other * square + c[base + (j - 1) * apart]
+                j -= 2
+            if j == 1:
+                out[first] = (one * square + c[base + apart]) + h * other
+            else:
+                out[first] = other + h * one
+        else:
+            for i in range(count):
+                out[first + i] = c[base + j * apart + i]
+            while j >= 2:
+                j -= 1
+                for i in range(count):
+                    out[first + i] = out[first + i] * h + c[base + j * apart + i]

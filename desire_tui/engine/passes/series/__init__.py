@@ -8,6 +8,7 @@
     `functions`   the library's functions as such nodes
     `reading`     which series stands in a slot where a statement reads it
     `translation` statements and expressions to nodes
+    `grouping`    numbers' series that are alike, put together as arrays
     `pieces`      kinks and tables as choices between smooth pieces, so that switches are located
 
 What the coefficients are is told, twice, by `codegen.taylor` and `reference.taylor`.

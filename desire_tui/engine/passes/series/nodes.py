@@ -45,6 +45,7 @@ class Series:
 
     `slot`: where coefficient 0 stands among the values. `by`: see `Kind`. `matrix` of a product: its slot,
     rows, columns, whether it is transposed. `lanes` of a gather: each element's operand, which element of it.
+    `slots`: where elements' values stand if they are not neighbours (`grouping`); then `slot` says nothing.
     """
 
     number: int
@@ -55,6 +56,7 @@ class Series:
     by: int = 0
     matrix: tuple[int, int, int, bool] | None = None
     lanes: tuple[tuple[Series | Constant, int], ...] = ()
+    slots: tuple[int, ...] = ()
 
     @property
     def size(self) -> int:

@@ -30,6 +30,7 @@ from desire_tui.engine.lowered.statements import (
 from desire_tui.engine.lowered.walk import simple_actions
 from desire_tui.engine.passes.series import functions
 from desire_tui.engine.passes.series.graph import Graph, widest
+from desire_tui.engine.passes.series.grouping import grouped
 from desire_tui.engine.passes.series.nodes import Constant, SeriesProgram, StatePiece
 from desire_tui.engine.passes.series.reading import Slots
 from desire_tui.engine.passes.slices import derivative_slice
@@ -70,7 +71,8 @@ def series_program(
 
     `allocate(count)` gives the first of `count` slots. NoSeriesError: a statement has no series.
     """
-    return _Translator(segment, allocate).program(switching)
+    program = _Translator(segment, allocate).program(switching)
+    return grouped(program, allocate, segment.states[0].where)
 
 
 class _Translator:

@@ -1,0 +1,173 @@
+"""Numbers' series that are made alike, put together as arrays: the forces between all pairs of stars at once.
+
+Nodes of one kind at one depth become the elements of one array. Its recurrence computes several of them at a
+time, by a text that does not grow with their number. What they read is gathered, what reads them takes
+elements; where neighbours keep their order, neither is needed.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.lowered.expressions import Vec
+from desire_tui.engine.lowered.statements import Set
+from desire_tui.engine.passes.series.nodes import Constant, Series, SeriesProgram, StatePiece
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from desire_tui.engine.lowered.statements import Action, Where
+    from desire_tui.engine.passes.series.nodes import Operand
+
+_PRODUCTS = frozenset(("mul", "div", "sqrt", "integral", "quotient"))
+_OTHERS = frozenset(("add", "sub", "neg", "times", "over", "raised"))
+_LEAST_PRODUCTS, _LEAST_OTHERS = 8, 16
+"""Fewer nodes of these kinds gain nothing: gathering costs about as much as adding."""
+
+
+def grouped(program: SeriesProgram, allocate: Callable[[int], int], where: Where) -> SeriesProgram:
+    """Return the program with nodes that are alike put together; `allocate` as in `translation`."""
+    depths = _depths(program)
+    groups: dict[tuple[object, ...], list[Series]] = {}
+    for node in program.nodes:
+        if node.count is None and node.kind in _PRODUCTS | _OTHERS:
+            groups.setdefault(_key(node, depths[node.number]), []).append(node)
+    large = [
+        members
+        for members in groups.values()
+        if len(members) >= (_LEAST_PRODUCTS if members[0].kind in _PRODUCTS else _LEAST_OTHERS)
+    ]
+    if not any(members[0].kind in _PRODUCTS for members in large):
+        return program
+    return _Grouping(program, depths, large, allocate, where).made()
+
+
+def _depths(program: SeriesProgram) -> dict[int, int]:
+    """Return how far each node is from what is given; an integral's factor comes later than the integral."""
+    depths: dict[int, int] = {}
+    for node in program.nodes:
+        before = node.operands[1:] if node.kind == "integral" else node.operands
+        below = [depths[o.number] for o in before if isinstance(o, Series)]
+        depths[node.number] = 1 + max(below, default=-1)
+    return depths
+
+
+def _key(node: Series, depth: int) -> tuple[object, ...]:
+    """Return what nodes of one group have in common."""
+    moves = tuple(isinstance(operand, Series) for operand in node.operands)
+    square = len(node.operands) == 2 and node.operands[0] is node.operands[1]
+    itself = node in node.operands
+    wide = any(o.count is not None for o in node.operands)
+    return node.kind, depth, moves, square, itself, wide
+
+
+class _Grouping:
+    def __init__(
+        self,
+        program: SeriesProgram,
+        depths: dict[int, int],
+        groups: list[list[Series]],
+        allocate: Callable[[int], int],
+        where: Where,
+    ) -> None:
+        self._program, self._depths, self._allocate, self._where = program, depths, allocate, where
+        self._nodes: list[Series] = []
+        self._copies: list[Action] = []
+        self._new: dict[int, Series] = {}
+        self._groups = groups
+        self._arrays: dict[int, Series] = {}
+        self._elements: dict[tuple[int, int], Series] = {}
+        self._gathered: dict[tuple[int, ...], Operand] = {}
+        self._place = {
+            node.number: (group, lane)
+            for group, members in enumerate(groups)
+            for lane, node in enumerate(members)
+        }
+        """Of a member: its group's number, its element's."""
+
+    def made(self) -> SeriesProgram:
+        """Return the new program."""
+        integrals: list[tuple[Series, list[Series]]] = []
+        for node in sorted(self._program.nodes, key=lambda n: self._depths[n.number]):
+            place = self._place.get(node.number)
+            members = [node] if place is None else self._groups[place[0]]
+            if place is not None and place[0] in self._arrays:
+                continue
+            made = self._node(members)
+            if place is None:
+                self._new[node.number] = made
+            else:
+                self._arrays[place[0]] = made
+            if node.kind == "integral":
+                integrals.append((made, members))
+        for made, members in integrals:
+            made.operands = (self._operand(members, 0), *made.operands)
+        states = tuple(
+            StatePiece(self._new[p.series.number], p.first, p.count, self._mapped(p.derivative))
+            for p in self._program.states
+        )
+        arguments = tuple(self._lane(operand, at) for operand, at in self._program.arguments)
+        for number, node in enumerate(self._nodes):
+            node.number = number
+        actions = self._program.values_pass + tuple(self._copies)
+        return SeriesProgram(actions, tuple(self._nodes), states, arguments)
+
+    def _node(self, members: list[Series]) -> Series:
+        """Make one node of one or several; an integral's factor is still to come."""
+        first = members[0]
+        positions = range(1 if first.kind == "integral" else 0, len(first.operands))
+        operands = tuple(self._operand(members, position) for position in positions)
+        lanes = tuple(self._lane(operand, at) for operand, at in first.lanes)
+        slots = tuple(member.slot for member in members) if len(members) > 1 else first.slots
+        count = len(members) if len(members) > 1 else first.count
+        made = Series(0, first.kind, first.slot, count, operands, first.by, first.matrix, lanes, slots)
+        self._nodes.append(made)
+        return made
+
+    def _operand(self, members: list[Series], position: int) -> Operand:
+        """Return what members read: one operand that they share, an array, or elements gathered."""
+        given = [member.operands[position] for member in members]
+        if all(operand is given[0] for operand in given):
+            return self._mapped(given[0])
+        key = tuple(map(id, given))
+        if key not in self._gathered:
+            self._gathered[key] = self._gather(given)
+        return self._gathered[key]
+
+    def _gather(self, given: list[Operand]) -> Operand:
+        size = len(given)
+        constants = [operand for operand in given if isinstance(operand, Constant)]
+        if len(constants) == size:
+            slot = self._allocate(size)
+            self._copies += [Set(slot + i, c.value, self._where) for i, c in enumerate(constants)]
+            return Constant(Vec(slot, size), slot, size)
+        lanes = tuple(self._lane(operand, 0) for operand in given)
+        array = lanes[0][0]
+        if array.count == size and all(lane == (array, i) for i, lane in enumerate(lanes)):
+            return array
+        used = tuple({id(operand): operand for operand, _ in lanes}.values())
+        slots = tuple(operand.slot for operand in given)
+        made = Series(0, "gather", -1, size, used, lanes=lanes, slots=slots)
+        self._nodes.append(made)
+        return made
+
+    def _lane(self, operand: Operand, at: int) -> tuple[Operand, int]:
+        """Return where an element is now."""
+        if isinstance(operand, Constant):
+            return operand, at
+        place = self._place.get(operand.number)
+        return (self._new[operand.number], at) if place is None else (self._arrays[place[0]], place[1])
+
+    def _mapped(self, operand: Operand) -> Operand:
+        """Return what an operand is now."""
+        if isinstance(operand, Constant):
+            return operand
+        place = self._place.get(operand.number)
+        if place is None:
+            return self._new[operand.number]
+        made = self._elements.get(place)
+        if made is None:
+            array = self._arrays[place[0]]
+            made = self._elements[place] = Series(0, "element", operand.slot, None, (array,), by=place[1])
+            self._nodes.append(made)
+        return made
