@@ -8,8 +8,8 @@ brings heyoka, without which its column is missing and the reference solution is
 All begin at the same states and report the last alone. Error: the largest of all states at the end, relative
 to each state's magnitude there or, if that is more, its initial one. The reference is heyoka with 80-bit
 numbers at 1e-18. Seconds are the least of several runs without compiling; rule 17's without what every run
-of Desire takes, whatever its rule and model, before and after its steps (printed: 0.1 ms), which the others' loops
-have not.
+of Desire takes, whatever its rule and model, before and after its steps (printed: 0.1 ms), which the others'
+loops have not.
 """
 
 from __future__ import annotations

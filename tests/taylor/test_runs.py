@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import acos, exp, log, pi, sin, sqrt
+from math import acos, cos, exp, log, pi, sin, sqrt, tau
 
 import numpy as np
 import pytest
@@ -197,3 +197,49 @@ def test_a_pole_is_told_with_its_state():
     assert 220 <= problem.code <= 228
     assert "'y'" in problem.message
     assert "t = 1 " in problem.message
+
+
+@both
+def test_many_numbers_that_are_alike_become_arrays(backend):
+    """A chain of 150, every second with a square: exp(-t)·… by hand for the first two, the rest as rule 4 finds it."""
+    n = 150
+    lines = ["d/dt x0 = 1 - x0"]
+    lines += [f"d/dt x{i} = x{i - 1} - x{i}{f' - 0.1*x{i}*x{i}' if i % 2 else ''}" for i in range(1, n)]
+    start = " | ".join(f"x{i} = 0" for i in range(n))
+    text = (
+        f"{start}\nTMAX = 2 | DT = 0.01 | NN = 2\ndrun\nDYNAMIC\n"
+        + "\n".join(lines)
+        + "\ndispt x0, x1, x2, x9\n"
+    )
+    found = made(text, 1e-12, backend)
+    other = run(f"irule 3\n{text.replace('DT = 0.01', 'DT = 0.001')}")
+    assert found.rows[-1, 1] == pytest.approx(1 - exp(-2), rel=1e-12)
+    assert found.rows[-1] == pytest.approx(other.rows[-1], rel=1e-9, abs=1e-14)
+    assert found.record.steps < 40
+
+
+@both
+def test_bodies_attract_each_other(backend):
+    """Five of equal mass on a ring turn as a rigid body: products for each pair are made as arrays."""
+    n = 5
+    pull = sum(1 / (4 * sin(pi * j / n)) for j in range(1, n))  # towards the middle, radius and masses 1
+    speed = sqrt(pull)
+    script, lines, sums = [], [], {i: ([], []) for i in range(n)}
+    for i in range(n):
+        x, y = cos(tau * i / n), sin(tau * i / n)
+        script.append(f"x{i} = {x!r} | y{i} = {y!r} | u{i} = {-speed * y!r} | v{i} = {speed * x!r}")
+        for j in range(i + 1, n):
+            lines += [
+                f"p{i}{j} = x{j} - x{i} | q{i}{j} = y{j} - y{i}",
+                f"w{i}{j} = (p{i}{j}^2 + q{i}{j}^2)^(-1.5)",
+            ]
+            for axis, name in enumerate("pq"):
+                sums[i][axis].append(f"+ {name}{i}{j}*w{i}{j}")
+                sums[j][axis].append(f"- {name}{i}{j}*w{i}{j}")
+    for i in range(n):
+        lines += [f"d/dt x{i} = u{i} | d/dt y{i} = v{i}"]
+        lines += [f"d/dt u{i} = 0 {' '.join(sums[i][0])} | d/dt v{i} = 0 {' '.join(sums[i][1])}"]
+    script, body = "\n".join(script), "\n".join(lines)
+    text = f"{script}\nTMAX = 1 | DT = 0.01 | NN = 2\ndrun\nDYNAMIC\n{body}\ndispt x0, y0, x3\n"
+    found = made(text, 0.0, backend).rows[-1, 1:]
+    assert found == pytest.approx([np.cos(speed), np.sin(speed), np.cos(speed + tau * 3 / n)], abs=1e-14)

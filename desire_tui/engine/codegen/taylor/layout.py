@@ -58,6 +58,8 @@ class Layout:
             self._places[node.number] = place
             place += ROW if node.count is None else apart(node) * (ORDER_MOST + 1)
             place = -(-place // 8) * 8
+        self.zeros = place
+        """Numbers that are always 0."""
         self.room = place + 4 * ROW
 
     def place(self, node: Series) -> int:

@@ -12,7 +12,7 @@ from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.taylor.frame import Frame
 from desire_tui.engine.codegen.taylor.scalar import ScalarRecurrences
 from desire_tui.engine.codegen.taylor.sums import Sums
-from desire_tui.engine.codegen.taylor.vector import VectorRecurrences
+from desire_tui.engine.codegen.taylor.vector import VectorRecurrences, scattered
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
@@ -150,6 +150,7 @@ def _kept(program: SeriesProgram) -> set[int]:
     found = {piece.series.number for piece in program.states}
     found |= {operand.number for operand, _ in program.arguments if isinstance(operand, Series)}
     for node in program.nodes:
-        if node.count is not None and node.kind in {"mul", "div", "sqrt", "integral", "quotient"}:
+        reads = {"mul", "div", "sqrt", "integral", "quotient"}
+        if node.count is not None and (node.kind in reads or (node.kind == "gather" and scattered(node))):
             found |= {operand.number for operand in node.operands if isinstance(operand, Series)}
     return found

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.taylor.memory import Taylor
     from desire_tui.engine.passes.series.nodes import SeriesProgram
 
+_TEXT_MOST = 400_000
+"""Characters of a function that LLVM is asked to compile well: its time grows with their square."""
+
 
 class SeriesCode:
     """Recurrences of a program; `give` puts them into use."""
@@ -31,8 +34,10 @@ class SeriesCode:
         taylor.recurrences = self._compiled[-1].address
 
     def improve(self) -> Iterator[None]:
-        """Compile fast code (`background.Improvable`)."""
-        better = self._store.fast(self._piece)
+        """Compile fast code (`background.Improvable`); where that would take minutes quick code has to do."""
+        if len(self._piece.text) > _TEXT_MOST:
+            return
+        better = self._store.fast(self._piece, slp=False)  # what may be done side by side is arrays already
         self._compiled.append(better)
         for taylor in self._users:
             taylor.recurrences = better.address  # one aligned store: who calls sees the old or the new

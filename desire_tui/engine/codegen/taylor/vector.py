@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
@@ -11,9 +12,12 @@ from desire_tui.engine.codegen.taylor.layout import apart, strip
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from desire_tui.engine.codegen.taylor.frame import Frame
+
+
+_RUNS_MOST = 64
 
 
 class VectorRecurrences:
@@ -28,9 +32,10 @@ class VectorRecurrences:
     def load_first(self, node: Series) -> None:
         """Copy coefficients 0 from the values."""
         if node.slots:
-            one, target = Lanes(self._frame.text), self._frame.at(self._frame.layout.place(node))
-            for i, slot in enumerate(node.slots):
-                put(one, target, str(i), fetch(one, self._frame.slot(slot), "0"))
+            one, text = Lanes(self._frame.text), self._frame.text
+            target, table = self._frame.at(self._frame.layout.place(node)), self._table(node.slots)
+            loop(text, "0", str(node.size), 1,
+                 lambda i: put(one, target, i, fetch(one, "%v", self._entry(table, i))))  # fmt: skip
             return
         self._copy(self._frame.at(self._frame.layout.place(node)), self._frame.slot(node.slot), node.size)
 
@@ -183,21 +188,45 @@ class VectorRecurrences:
 
     def _gather(self, node: Series) -> None:
         one, target = Lanes(self._frame.text), self._frame.row(node)
+        if scattered(node):
+            self._gather_by_table(node, target)
+            return
         place = 0
-        while place < node.size:
-            operand, at = node.lanes[place]
-            count = 1
+        for operand, at, count in runs(node):
             if isinstance(operand, Series) and operand.count is not None:
-                while place + count < node.size and node.lanes[place + count] == (operand, at + count):
-                    count += 1
                 to = self._frame.text.op(f"getelementptr double, ptr {target}, i64 {place}")
-                source = self._frame.text.op(
-                    f"getelementptr double, ptr {self._frame.row(operand)}, i64 {at}"
-                )
-                self._copy(to, source, count)
+                row = self._frame.row(operand)
+                self._copy(to, self._frame.text.op(f"getelementptr double, ptr {row}, i64 {at}"), count)
             else:
                 put(one, target, str(place), self._frame.coefficient(operand))
             place += count
+
+    def _gather_by_table(self, node: Series, target: str) -> None:
+        """Copy elements from places in tables: text for each of thousands would take LLVM minutes."""
+        text, one, layout = self._frame.text, Lanes(self._frame.text), self._frame.layout
+        moving = [(o, at) if isinstance(o, Series) else None for o, at in node.lanes]
+        places = self._table(layout.place(m[0]) + m[1] if m else layout.zeros for m in moving)
+        distances = self._table(apart(m[0]) if m else 0 for m in moving)
+
+        def element(i: str) -> None:
+            offset = text.op(f"mul i64 %k, {self._entry(distances, i)}")
+            place = text.op(f"add i64 {offset}, {self._entry(places, i)}")
+            put(one, target, i, fetch(one, "%c", place))
+
+        loop(text, "0", str(node.size), 1, element)
+
+    def _table(self, numbers: Iterable[int]) -> str:
+        """Return the name of a constant array of whole numbers."""
+        listed = list(numbers)
+        content = ", ".join(f"i64 {number}" for number in listed)
+        name = f"@taylor.{blake2b(content.encode(), digest_size=8).hexdigest()}"
+        kind = f"[{len(listed)} x i64]"
+        self._frame.text.declarations.add(f"{name} = private unnamed_addr constant {kind} [{content}]")
+        return name
+
+    def _entry(self, table: str, i: str) -> str:
+        at = self._frame.text.op(f"getelementptr i64, ptr {table}, i64 {i}")
+        return self._frame.text.op(f"load i64, ptr {at}")
 
     def _product(self, node: Series) -> None:
         assert node.matrix is not None
@@ -288,3 +317,20 @@ class VectorRecurrences:
         text = self._frame.text
         text.declarations.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
         text.do(f"call void @llvm.memcpy.p0.p0.i64(ptr {to}, ptr {source}, i64 {8 * count}, i1 false)")
+
+
+def runs(node: Series) -> list[tuple[Series | Constant, int, int]]:
+    """Return what a gather is made of: operands, the first element taken of each, how many behind it too."""
+    found: list[tuple[Series | Constant, int, int]] = []
+    for operand, at in node.lanes:
+        last = found[-1] if found else None
+        if last and operand.count is not None and last[0] is operand and last[1] + last[2] == at:
+            found[-1] = operand, last[1], last[2] + 1
+        else:
+            found.append((operand, at, 1))
+    return found
+
+
+def scattered(node: Series) -> bool:
+    """Whether a gather has too many parts for a text of each."""
+    return len(runs(node)) > _RUNS_MOST

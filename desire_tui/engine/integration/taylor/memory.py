@@ -47,6 +47,7 @@ class Taylor(ctypes.Structure):
         ("y", _REALS), ("rest", _REALS),
         ("base", _REALS), ("base_rest", _REALS),  # the same at the last step's start
         ("largest", _REALS),  # magnitudes of states so far
+        ("most", _REAL),  # the largest of them
         ("absolute", _REAL),  # what a state's scale is at least
         ("t", _REAL), ("t_base", _REAL),
         ("h_last", _REAL),

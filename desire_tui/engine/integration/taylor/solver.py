@@ -78,6 +78,7 @@ class TaylorSolver:
         taylor.absolute = absolute / tolerance if tolerance > 0.0 else 0.0
         taylor.h_most = max(largest, 0.0)
         taylor.steps = 0
+        taylor.most = 0.0
         self._arrays.reals[:] = 0.0
 
     def connect(self, expand: Any) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.problem import FLOOR
 from desire_tui.engine.integration.switching.mathematics import exp, log
 from desire_tui.engine.integration.taylor.memory import GAVE_UP, NO_COEFFICIENTS
 
@@ -62,6 +63,7 @@ def reach(s: Taylor) -> float:
     """Return how far the series may be trusted: from the last two coefficients. -1: one is not finite."""
     order = s.order
     total = 0.0
+    floor = max(s.most * FLOOR, s.absolute)
     before = 0.0
     last = 0.0
     for k in range(s.piece_count):
@@ -71,9 +73,10 @@ def reach(s: Taylor) -> float:
         for i in range(s.pieces[4 * k + 1]):
             size = max(s.largest[first + i], abs(s.y[first + i]))
             s.largest[first + i] = size
+            s.most = max(s.most, size)
             if size == 0.0:
                 size = 1.0
-            size = 1.0 / max(size, s.absolute)
+            size = 1.0 / max(size, floor)
             a = abs(s.coefficients[down + i]) * size
             b = abs(s.coefficients[place + i]) * size
             total += a + b

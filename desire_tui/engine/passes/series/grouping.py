@@ -14,7 +14,7 @@ from desire_tui.engine.lowered.statements import Set
 from desire_tui.engine.passes.series.nodes import Constant, Series, SeriesProgram, StatePiece
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator, Sequence
 
     from desire_tui.engine.lowered.statements import Action, Where
     from desire_tui.engine.passes.series.nodes import Operand
@@ -23,6 +23,8 @@ _PRODUCTS = frozenset(("mul", "div", "sqrt", "integral", "quotient"))
 _OTHERS = frozenset(("add", "sub", "neg", "times", "over", "raised"))
 _LEAST_PRODUCTS, _LEAST_OTHERS = 8, 16
 """Fewer nodes of these kinds gain nothing: gathering costs about as much as adding."""
+_LEAST_STATES = 16
+"""So many states one behind the other are an array too."""
 
 
 def grouped(program: SeriesProgram, allocate: Callable[[int], int], where: Where) -> SeriesProgram:
@@ -37,8 +39,10 @@ def grouped(program: SeriesProgram, allocate: Callable[[int], int], where: Where
         for members in groups.values()
         if len(members) >= (_LEAST_PRODUCTS if members[0].kind in _PRODUCTS else _LEAST_OTHERS)
     ]
-    if not any(members[0].kind in _PRODUCTS for members in large):
+    runs = [run for run in _state_runs(program) if len(run) >= _LEAST_STATES]
+    if not runs and not any(members[0].kind in _PRODUCTS for members in large):
         return program
+    large += [[piece.series for piece in run] for run in runs]
     return _Grouping(program, depths, large, allocate, where).made()
 
 
@@ -50,6 +54,20 @@ def _depths(program: SeriesProgram) -> dict[int, int]:
         below = [depths[o.number] for o in before if isinstance(o, Series)]
         depths[node.number] = 1 + max(below, default=-1)
     return depths
+
+
+def _state_runs(program: SeriesProgram) -> list[list[StatePiece]]:
+    """Return the states that are numbers, together those that are neighbours among all and in memory."""
+    runs: list[list[StatePiece]] = []
+    for piece in program.states:
+        if piece.series.count is not None:
+            continue
+        last = runs[-1][-1] if runs else None
+        if last and (piece.first, piece.series.slot) == (last.first + 1, last.series.slot + 1):
+            runs[-1].append(piece)
+        else:
+            runs.append([piece])
+    return runs
 
 
 def _key(node: Series, depth: int) -> tuple[object, ...]:
@@ -102,15 +120,25 @@ class _Grouping:
                 integrals.append((made, members))
         for made, members in integrals:
             made.operands = (self._operand(members, 0), *made.operands)
-        states = tuple(
-            StatePiece(self._new[p.series.number], p.first, p.count, self._mapped(p.derivative))
-            for p in self._program.states
-        )
+        states = tuple(self._states())
         arguments = tuple(self._lane(operand, at) for operand, at in self._program.arguments)
         for number, node in enumerate(self._nodes):
             node.number = number
         actions = self._program.values_pass + tuple(self._copies)
         return SeriesProgram(actions, tuple(self._nodes), states, arguments)
+
+    def _states(self) -> Iterator[StatePiece]:
+        """Yield the states' pieces, neighbours as one."""
+        derivatives = {p.series.number: p.derivative for p in self._program.states}
+        for piece in self._program.states:
+            place = self._place.get(piece.series.number)
+            if place is None:
+                derivative = self._mapped(piece.derivative)
+                yield StatePiece(self._new[piece.series.number], piece.first, piece.count, derivative)
+            elif place[1] == 0:
+                members = self._groups[place[0]]
+                found = self._gather([derivatives[member.number] for member in members])
+                yield StatePiece(self._arrays[place[0]], piece.first, len(members), found)
 
     def _node(self, members: list[Series]) -> Series:
         """Make one node of one or several; an integral's factor is still to come."""
@@ -118,9 +146,12 @@ class _Grouping:
         positions = range(1 if first.kind == "integral" else 0, len(first.operands))
         operands = tuple(self._operand(members, position) for position in positions)
         lanes = tuple(self._lane(operand, at) for operand, at in first.lanes)
-        slots = tuple(member.slot for member in members) if len(members) > 1 else first.slots
-        count = len(members) if len(members) > 1 else first.count
-        made = Series(0, first.kind, first.slot, count, operands, first.by, first.matrix, lanes, slots)
+        if len(members) == 1:
+            slot, slots, count = first.slot, first.slots, first.count
+        else:
+            slot, slots = _neighbours([member.slot for member in members])
+            count = len(members)
+        made = Series(0, first.kind, slot, count, operands, first.by, first.matrix, lanes, slots)
         self._nodes.append(made)
         return made
 
@@ -146,10 +177,19 @@ class _Grouping:
         if array.count == size and all(lane == (array, i) for i, lane in enumerate(lanes)):
             return array
         used = tuple({id(operand): operand for operand, _ in lanes}.values())
-        slots = tuple(operand.slot for operand in given)
-        made = Series(0, "gather", -1, size, used, lanes=lanes, slots=slots)
+        slot, slots = _neighbours([self._slot(operand) for operand in given])
+        made = Series(0, "gather", slot, size, used, lanes=lanes, slots=slots)
         self._nodes.append(made)
         return made
+
+    def _slot(self, operand: Operand) -> int:
+        """Return where a number stands at a step's start; one that the program's text tells is put there."""
+        if operand.slot >= 0:
+            return operand.slot
+        assert isinstance(operand, Constant)
+        slot = self._allocate(1)
+        self._copies.append(Set(slot, operand.value, self._where))
+        return slot
 
     def _lane(self, operand: Operand, at: int) -> tuple[Operand, int]:
         """Return where an element is now."""
@@ -171,3 +211,9 @@ class _Grouping:
             made = self._elements[place] = Series(0, "element", operand.slot, None, (array,), by=place[1])
             self._nodes.append(made)
         return made
+
+
+def _neighbours(slots: Sequence[int]) -> tuple[int, tuple[int, ...]]:
+    """Return the first slot, and all of them unless each is the one behind the last."""
+    together = all(slot == slots[0] + i for i, slot in enumerate(slots))
+    return slots[0], () if together else tuple(slots)
