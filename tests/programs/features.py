@@ -32,6 +32,7 @@ from desire_tui.engine.nodes.segment import (
     Derivative,
     Event,
     Every,
+    Fast,
     FunctionTable,
     Get,
     Invoke,
@@ -65,8 +66,8 @@ DYNAMIC = (
     "y = e", "y[i] = e", "d/dt x", "d/dt x[i]", "Vectr d/dt", "Vector", "Vector delta", "Vector ^", "Vector [m]",
     "A*x", "A% * x", "x{k}", "P#", "MATRIX", "MATRIX [M]", "MATRIX ; bounds", "u & v", "DELTA", "DOT", "AVG", "u*A*v",
     "store", "get", "tdelay", "delay", "trkhld", "func", "func2", "invoke", "submodel call", "term", "if e", "else",
-    "end if", "OUT", "SAMPLE", "step", "event", "every", "end event", "JACOBIAN", "dispt", "dispxy", "DISPXY", "type", "type #n", "stash", "recover",
-    "SHOW", "CLEARN", "PLEARN", "INTP", *(f"rule {rule}" for rule in (*range(6), *range(7, 17))),
+    "end if", "OUT", "SAMPLE", "step", "event", "every", "end event", "fast", "JACOBIAN", "dispt", "dispxy", "DISPXY", "type", "type #n", "stash", "recover",
+    "SHOW", "CLEARN", "PLEARN", "INTP", *(f"rule {rule}" for rule in (*range(6), *range(7, 18))),
 )  # fmt: skip
 """Rows about segments."""
 
@@ -76,7 +77,7 @@ _ONE = {
     Until: "until", While: "while", Label: "label", Procedure: "PROCEDURE", CallProcedure: "call",
     Submodel: "SUBMODEL", Function: "FUNCTION", Data: "data", Read: "read", Disconnect: "disconnect",
     Note: "note", Seed: "SEED", Show: "SHOW", ShowArea: "SHOW alone", Pair: "[a, b]", Truth: "(a > b)", Store: "store", Get: "get",
-    TrackHold: "trkhld", Invoke: "invoke", Term: "term", Sample: "SAMPLE", Event: "event", Every: "every",
+    TrackHold: "trkhld", Invoke: "invoke", Term: "term", Sample: "SAMPLE", Event: "event", Every: "every", Fast: "fast",
     RowOf: "P#", Shifted: "x{k}",
     VectorDerivative: "Vectr d/dt", Not: "not", Transposed: "A%",
 }  # fmt: skip

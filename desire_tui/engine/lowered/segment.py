@@ -120,7 +120,7 @@ class Segment:
     value) from which subscripts and the like were computed.
     `row_chosen` is the place of a `P#` whose row the script must choose (iRow above 0). `breakpoints` must
     not fall when a run begins. `events` happen at moments; `delays` are by number. `warnings` are to be shown
-    once, before a run or by the check.
+    once, before a run or by the check. `may_rearrange`: `fast` allows other orders of operations.
     """
 
     label: str | None
@@ -142,6 +142,7 @@ class Segment:
     events: tuple[Event, ...] = ()
     delays: tuple[DelayedValue, ...] = ()
     warnings: tuple[Diagnostic, ...] = ()
+    may_rearrange: bool = False
     names: dict[int, str] = field(default_factory=dict)
 
     @property

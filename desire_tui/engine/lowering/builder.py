@@ -72,6 +72,8 @@ class SegmentBuilder:
     requests: list[SampleRequest] = field(default_factory=list)
     pictures: list[Picture] = field(default_factory=list)
     by_size: bool | None = None
+    may_rearrange: bool = False
+    """Whether the segment says `fast`."""
     stash: list[SampleColumn] = field(default_factory=list)
     recover: list[SampleColumn] = field(default_factory=list)
     once_only: dict[str, Span] = field(default_factory=dict)

@@ -38,6 +38,7 @@ from desire_tui.engine.nodes.segment import (
     Derivative,
     Event,
     Every,
+    Fast,
     FunctionTable,
     Get,
     Invoke,
@@ -125,7 +126,7 @@ def lower_segment(
         counters=builder.counters, scalars=_scalars(context), names=builder.names,
         faults=tuple(builder.faults), levels=tuple(builder.levels), row_chosen=context.row_chosen,
         breakpoints=_filled_by_script(context.breakpoints, body), events=tuple(builder.events),
-        delays=tuple(context.delays),
+        delays=tuple(context.delays), may_rearrange=builder.may_rearrange,
     )  # fmt: skip
     warnings = [*_noise(context, segment), *recursions(segment, scope)]
     return replace(segment, warnings=tuple(warnings)), context.problems
@@ -199,6 +200,9 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
             return statements.event(builder, node)
         case Every():
             return statements.every(builder, node)
+        case Fast():
+            builder.may_rearrange = True
+            return None
         case Request():
             return requests.request(builder, node)
         case ShowArea():

@@ -17,6 +17,7 @@ from desire_tui.engine.nodes.segment import (
     Derivative,
     Event,
     Every,
+    Fast,
     FunctionTable,
     Get,
     Invoke,
@@ -80,6 +81,7 @@ def assigned(node: Statement) -> Assigned:
             | Sample()
             | Event()
             | Every()
+            | Fast()
             | Show()
             | ShowArea()
             | Plot()

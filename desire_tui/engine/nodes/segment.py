@@ -123,6 +123,14 @@ class Every(Node):
 
 
 @node
+class Fast(Node):
+    """`fast`: the segment's arithmetic may be rearranged."""
+
+    start: int = 0
+    end: int = 0
+
+
+@node
 class Learn(Node):
     """`CLEARN y = W(x) lrate, crit[#]` (`fast`: with #), `PLEARN y = W*x; lrate`, `INTP y = W*x; thresh`."""
 
@@ -149,6 +157,6 @@ class Invoke(Node):
 
 SegmentOnly = (
     Derivative | VectorDerivative | Store | Get | Delay | TrackHold | FunctionTable | Term | Sample | Event
-    | Every | Learn | Invoke
+    | Every | Fast | Learn | Invoke
 )  # fmt: skip
 """The statements of this module: a new class goes in here, too."""

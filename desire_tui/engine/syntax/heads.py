@@ -24,6 +24,7 @@ _OF_ARRAYS = frozenset({"delta", "UPDATE"})
 _TITLES = frozenset({"title", "xlabel", "ylabel", "units"})
 _QUOTED = re.compile(r"[ \t]*['\"]")
 _MOMENTS = frozenset({"event", "every"})
+_ALONE = re.compile(r"[ \t\r]*(?:\n|\||--|\Z)")
 _OPERAND = re.compile(r"[ \t]+(?:[A-Za-z0-9.(]|[-+](?![ \t]))|[ \t]*(?:\n|\||--|\Z)")
 """Behind a word of moments; `event - 1` and `every/2` are expressions of a program's own variables."""
 _BEYOND = frozenset({"compare", "notebook", "snapshot"})
@@ -97,6 +98,8 @@ def _gives_way(text: str, lexeme: str, pos: int) -> bool:
         return not _QUOTED.match(text, pos)
     if lexeme in _MOMENTS:
         return not _OPERAND.match(text, pos)
+    if lexeme == "fast":
+        return not _ALONE.match(text, pos)
     return lexeme in _BEYOND and text.startswith("(", pos)
 
 

@@ -12,7 +12,7 @@ KEYWORDS = {
     DELTA Vector Delta DOT AVG FFT display plot SHOW edit ed list keep load else proceed DYNAMIC OUT SAMPLE
     step term dispt dispxy DISPXY type stash recover CLEARN PLEARN INTP JACOBIAN store get tdelay delay
     trkhld func func2 invoke ARRAY STATE INTEGER COMPLEX erun run bye new NEW reload snapshot notebook
-    compare auto title xlabel ylabel units event every
+    compare auto title xlabel ylabel units event every fast
     """.split()  # noqa: SIM905 - a list of words reads better than a wall of quotes
 } | {
     "dimension": "ARRAY", "LEARN": "DELTA", "zz": "erun", "rld": "reload", "MACRO": "SUBMODEL", "quit": "bye",

@@ -26,6 +26,7 @@ from desire_tui.engine.nodes.segment import (
     Derivative,
     Event,
     Every,
+    Fast,
     FunctionTable,
     Get,
     Invoke,
@@ -144,6 +145,8 @@ def format_statement(node: Statement) -> str:
             return f"event {expression(node.value)}"
         case Every():
             return f"every {listed((node.period,) if node.first is None else (node.period, node.first))}"
+        case Fast():
+            return "fast"
         case Request():
             return f"{node.kind} {_channel(node.channel)}{listed(node.items)}"
         case Learn():

@@ -14,6 +14,7 @@ from desire_tui.engine.nodes.segment import (
     Derivative,
     Event,
     Every,
+    Fast,
     FunctionTable,
     Get,
     Learn,
@@ -105,6 +106,10 @@ class Dynamic:
     def every(self, kids: Kids, first: int, last: int) -> Statement:
         start = plain(kids[3]) if len(kids) > 3 else None
         return Every(plain(kids[1]), start, first, last)
+
+    def fast(self, kids: Kids, first: int, last: int) -> Statement:
+        del kids
+        return Fast(first, last)
 
     def request(self, kids: Kids, first: int, last: int) -> Statement:
         channel, rest = channel_of(kids)
