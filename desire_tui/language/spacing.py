@@ -88,6 +88,6 @@ def _blank(kinds: list[str], place: int, signs: set[int], brackets: list[str], g
     if before in RELATIONS or kind in RELATIONS:
         return " "
     if (kind in _SIGNS or before in _SIGNS) and brackets and brackets[-1] in _SUBSCRIPTS:
-        sign = place if kind in _SIGNS else place - 1
+        sign = place - 1 if before in _SIGNS else place  # of `+ -x` the blanks around `+` count
         return " " if gaps[sign] and gaps[sign + 1] else ""
     return " "

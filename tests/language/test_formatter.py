@@ -95,6 +95,8 @@ def test_the_usual_layout():
         ("write # 2 , $ n , %m;\n", "write #2, $n, %m;\n"),
         ("x = 5 – 2\n", "x = 5 - 2\n"),
         ("event - 1\n", "event - 1\n"),
+        ("y = A[i + -1]\n", "y = A[i + -1]\n"),
+        ("y = A[i +-1]\n", "y = A[i+-1]\n"),
     ],
 )  # fmt: skip
 def test_a_form(before, after):
