@@ -2,7 +2,7 @@
 
 Goals: on one thread at most 0.25 times C's time where the machine has AVX-512, 0.4 with AVX2; 1.8 times
 faster on two; 500 times faster than a Python loop over `desire_tui.run`; the first result after 0.5 s; a
-million runs of two states within 500 MB. `exact` calls the C library's functions run by run (the bits of
+million runs of two states within 500 MB. `exact` takes functions with the C library's bits (those of
 single runs), `fast` the vector library's. `--quick` makes a tenth of the runs.
 """
 # ruff: noqa: E501 - programs in C

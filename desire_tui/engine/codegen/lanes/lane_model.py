@@ -39,8 +39,8 @@ if TYPE_CHECKING:
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
 _STATES_MOST = 200
 """Larger models leave the registers anyway."""
-_OPERATIONS_MOST = 2000
-"""Of elements of vectors and matrices: more would take too long to compile."""
+_OPERATIONS_MOST = 600
+"""Of elements of vectors and matrices: more take half a second to compile, and win less than a half."""
 
 
 class LaneRows(NamedTuple):
