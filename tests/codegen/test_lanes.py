@@ -94,8 +94,8 @@ MODELS = {
     + SPRING
     + "a = y[1] + s[3]\nb = y[5]\n",
     "functions of vectors": VECTORS
-    + "Vector s = "
-    + " + ".join(f"{name}(0.45 + 0.4*cos(y))" for name in FUNCTIONS)
+    + "Vector w = 0.45 + 0.4*cos(y)\nVector s = "
+    + " + ".join(f"{name}(w)" for name in FUNCTIONS)
     + " + max(y, w) + abs(y)^1.7 + atan2(y, k)\nVectr d/dt y = tanh(s) + sin(t)*w - k*y\n"
     + SPRING
     + "a = y[1]\nb = y[5] + s[2]\n",
