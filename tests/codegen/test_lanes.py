@@ -99,8 +99,8 @@ MODELS = {
     + " + max(y, w) + abs(y)^1.7 + atan2(y, k)\nVectr d/dt y = tanh(s) + sin(t)*w - k*y\n"
     + SPRING
     + "a = y[1]\nb = y[5] + s[2]\n",
-    "matrices": "STATE y[11] | ARRAY W[11,11]\nfor i = 1 to 11 | y[i] = 0.1*i | for j = 1 to 11 | W[i,j] = sin(i*j) | next | next\n"
-    "drun\nDYNAMIC\nVectr d/dt y = tanh(W*y) - k*y + 0.1*(W%*y)\n" + SPRING + "a = y[1]\nb = y[11]\n",
+    "matrices": "STATE y[9] | ARRAY W[9,9]\nfor i = 1 to 9 | y[i] = 0.1*i | for j = 1 to 9 | W[i,j] = sin(i*j) | next | next\n"
+    "drun\nDYNAMIC\nVectr d/dt y = tanh(W*y) - k*y + 0.1*(W%*y)\n" + SPRING + "a = y[1]\nb = y[9]\n",
     "vectors under conditions": VECTORS
     + "if x > 0 | Vector s = y | else | Vector s = 2*y*x | end if\nVectr d/dt y = -s\n"
     + SPRING
