@@ -8,7 +8,7 @@ import sys
 from desire_tui.systems import reason_against
 
 COMMANDS = frozenset({
-    "sensitivity", "fit",
+    "sensitivity", "fit", "measured",
     "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide", "export",
     "average", "histogram", "linearise", "lyapunov", "maximise", "minimise", "section", "spectrum",
     "fmt", "lsp", "convert",

@@ -39,8 +39,13 @@ _OVER = "QUANTITY over NAME [= START] [in [LOW, HIGH]] [log], … [by local|glob
 ANALYSES = (
     Analysis(
         "fit", "Fit", "Parameters and initial values that make curves agree with measurements",
-        "NAME [= START] [in [LOW, HIGH]] [log], … to QUANTITY [~ COLUMN] [weights SIGMA], … [loss NAME]",
-        "k, x in [0, 10] to y ~ position", "desire_tui.analysis.fit.analysis",
+        "NAME [= START] [in [LOW, HIGH]] [log], … to QUANTITY [~ COLUMN] [weights SIGMA], … [from 'FILE']",
+        "k, x in [0, 10] to y ~ position from 'measured.csv'", "desire_tui.analysis.fit.analysis",
+    ),
+    Analysis(
+        "measured", "Measured points", "Measured points over the curves of a run, and how far they are off",
+        "QUANTITY [~ COLUMN], … from 'FILE'", "y ~ position from 'measured.csv'",
+        "desire_tui.analysis.fit.comparison",
     ),
     Analysis(
         "sensitivity", "Sensitivity", "What changes with what: exact derivatives along runs, or whole ranges",

@@ -53,25 +53,30 @@ def start_derivatives(
         instance.prepared.begin(start)
         return instance.prepared.values.data[instance.prepared.start_slots].copy()
 
-    numbers(given)
-    here = {name: _value(name, given, instance) for name in parameters}
-    derivatives = []
+    known: dict[str, dict[int, float]] = {}
+    computed = []
     for name in parameters:
         if name in states:
             slot = slot_of(name, instance)
             assert slot is not None
-            derivatives.append({slot: 1.0})
+            known[name] = {slot: 1.0}
             continue
         names = tuple(n for n in dict.fromkeys((*given, name)) if n not in states)
         found_way = way(names)
         if found_way.slots is not None and found_way.follow is None:
-            derivatives.append({found_way.slots[names.index(name)]: 1.0})
-            continue
+            known[name] = {found_way.slots[names.index(name)]: 1.0}
+        else:
+            computed.append(name)
+    if computed or not all(name in given for name in parameters):
+        numbers(given)
+    here = {name: _value(name, given, instance) for name in parameters}
+    for name in computed:
         found = _difference(lambda value, n=name: numbers({**given, n: value}), here[name])  # type: ignore[misc]
         slots = instance.prepared.start_slots
-        derivatives.append({int(slots[k]): float(found[k]) for k in np.flatnonzero(found)})
-    numbers(given)
-    return Start(here, derivatives)
+        known[name] = {int(slots[k]): float(found[k]) for k in np.flatnonzero(found)}
+    if computed:
+        numbers(given)
+    return Start(here, [known[name] for name in parameters])
 
 
 def _value(name: str, given: Mapping[str, float], instance: Instance) -> float:

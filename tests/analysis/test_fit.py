@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from desire_tui.analysis.fit.analysis import analyse, fit
+from desire_tui.analysis.fit.comparison import analyse as compare
 from desire_tui.analysis.fit.curves import cubic_weights
 from desire_tui.analysis.fit.request import read_request
 from desire_tui.analysis.progress import unwatched
@@ -301,7 +302,7 @@ def test_a_file_sets_what_is_fitted(subject):
 
 
 def test_without_data_and_with_files_that_are_wrong(subject, tmp_path):
-    with pytest.raises(DesireError, match="no data to fit"):
+    with pytest.raises(DesireError, match="no measurements"):
         analyse(subject(DECAY), "k to x", unwatched)
     paths = tuple(tmp_path / name for name in ("a.csv", "b.csv"))
     paths[0].write_text("t,x\n0,one\n")
@@ -342,3 +343,37 @@ def test_cubics_through_four_samples_are_exact_for_cubics():
     wanted = np.array([0.0, 0.2, 1.5, 2.9, 6.0, 7.0])
     places, weights = cubic_weights(t, wanted)
     assert np.einsum("ij,ij->i", (t**3 - t)[places], weights) == pytest.approx(wanted**3 - wanted)
+
+
+def test_files_beside_the_program_are_named_in_the_request(subject, tmp_path):
+    from desire_tui.analysis.subject import Subject
+    from desire_tui.engine.source import Source
+
+    (tmp_path / "program").mkdir()
+    lines = [f"{t:g},{value:.9f}" for t, value in zip(T, decay(T, 0.7, 3.2), strict=True)]
+    for folder in (tmp_path, tmp_path / "program"):
+        (folder / "made.csv").write_text("\n".join(["t,x", *lines]))
+    program = Subject(Source(DECAY, "decay.src", tmp_path / "program" / "decay.src"))
+    found = analyse(program, "k, x to x from 'made.csv' loss linear", unwatched)
+    assert found["k"] == pytest.approx(0.7, abs=1e-6)
+    with pytest.raises(DesireError, match="451"):
+        analyse(program, "k, x to x from '../made.csv'", unwatched)
+    with pytest.raises(DesireError, match="38"):
+        analyse(program, "k, x to x from 'other.csv'", unwatched)
+
+
+def test_points_over_the_curves_as_they_are(subject, tmp_path):
+    path = tmp_path / "made.csv"
+    path.write_text("t,height\n0,1.5\n1,0.4\n2,\n4,0.1\n")
+    found = compare(subject(DECAY, data=(path,)), "x ~ height", unwatched)
+    (row,) = found["deviations"]
+    off = np.array([1.5, 0.4, 0.1]) - np.exp([-0.0, -1.0, -4.0])
+    assert row["points"] == 3
+    assert row["root mean square"] == pytest.approx(np.sqrt(np.mean(off**2)), rel=1e-6)
+    assert row["largest"] == pytest.approx(0.5)
+    points, curve = found.charts[0].series
+    assert points.look == "points"
+    assert points.y.tolist() == [1.5, 0.4, 0.1]
+    assert curve.y[-1] == pytest.approx(np.exp(-4), rel=1e-6)
+    with pytest.raises(DesireError, match="has no column 'x'"):
+        compare(subject(DECAY, data=(path,)), "x", unwatched)

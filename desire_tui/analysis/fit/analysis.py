@@ -8,17 +8,17 @@ import numpy as np
 
 from desire_tui.analysis.fit.curves import Curves, FailedRunError
 from desire_tui.analysis.fit.estimates import estimates
-from desire_tui.analysis.fit.measurements import data_sets
+from desire_tui.analysis.fit.measurements import data_sets, read_files
 from desire_tui.analysis.fit.report import Fitted, report, sketch
 from desire_tui.analysis.fit.request import read_request
 from desire_tui.analysis.fit.solve import Problem, Solution, StoppedError, solve
+from desire_tui.analysis.progress import unwatched
 from desire_tui.analysis.unknowns import start_values
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import rule_numbered
-from desire_tui.engine.interpreter.data_file import read_data_file
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -38,18 +38,7 @@ def analyse(subject: Subject, request: str, progress: Progress) -> Result:
     parameter has no influence, the run fails where the search begins.
     """
     asked = read_request(request)
-    if not subject.data:
-        _fail("there are no data to fit to", "name a file: --data measured.csv", subject)
-    problems: list[Diagnostic] = []
-    files = []
-    for path in subject.data:
-        try:
-            files.append(read_data_file(path))
-        except DesireError as error:
-            problems += error.diagnostics
-    if problems:
-        raise DesireError(*problems)
-    return fit(subject, asked, files, progress)
+    return fit(subject, asked, read_files(subject, asked), progress)
 
 
 def fit(subject: Subject, asked: Asked, files: Sequence[DataFile], progress: Progress) -> Result:
@@ -58,16 +47,9 @@ def fit(subject: Subject, asked: Asked, files: Sequence[DataFile], progress: Pro
     for one in asked.unknowns:
         asked.request.known(one.name, {**model.parameters, **model.states}, "parameter or state", one.span)
     progress(None, "the run as it stands")
-    fixed = {
-        name: value
-        for name, value in subject.settings.items()
-        if name not in {u.name for u in asked.unknowns}
-    }
-    initial = {name: value for name, value in fixed.items() if name in model.states}
-    plain = model.run(set={k: v for k, v in fixed.items() if k not in initial}, initial=initial or None)
-    span = plain.t0, plain.t0 + plain.tmax
-    rule = rule_numbered(plain.rule)
-    step = plain.dt if rule.kind == "fixed" else 0.0
+    names = {one.name for one in asked.unknowns}
+    fixed = {name: value for name, value in subject.settings.items() if name not in names}
+    span, step = program_run(subject, fixed)
     sets, notes = data_sets(files, asked, span)
     quantities = [pair.quantity for pair in asked.pairs]
     runs = model.sensitive_runs([one.name for one in asked.unknowns], dict.fromkeys(quantities))
@@ -87,6 +69,16 @@ def fit(subject: Subject, asked: Asked, files: Sequence[DataFile], progress: Pro
     found = report(subject, asked, fitted, notes)
     found.is_partial = watch.is_stopped
     return found
+
+
+def program_run(subject: Subject, fixed: Mapping[str, float]) -> tuple[tuple[float, float], float]:
+    """Return from when to when the program's run goes, and its DT where that is constant, else 0."""
+    states = subject.model.states
+    initial = {name: value for name, value in fixed.items() if name in states}
+    settings = {name: value for name, value in fixed.items() if name not in states}
+    plain = subject.model.run(set=settings, initial=initial or None)
+    step = plain.dt if rule_numbered(plain.rule).kind == "fixed" else 0.0
+    return (plain.t0, plain.t0 + plain.tmax), step
 
 
 def _judged(problem: Problem, solution: Solution, start: Floats, asked: Asked) -> Fitted:
@@ -133,6 +125,8 @@ class _Watch:
         self.is_stopped = False
 
     def __call__(self, problem: Problem) -> bool:
+        if self._progress is unwatched:
+            return True
         so_far = sketch(self._subject, problem) if len(problem.best_z) else None
         told = f"sum of squares {problem.best:.6g} after {problem.runs} runs" if so_far else "begins"
         self.is_stopped = not self._progress(None, told, so_far)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.interpreter.data_file import read_data_file
+from desire_tui.engine.session.permissions import Asker, Permissions
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.analysis.fit.request import Asked, Pair
+    from desire_tui.analysis.subject import Subject
     from desire_tui.engine.interpreter.data_file import DataFile
 
     Floats = NDArray[np.float64]
@@ -79,6 +84,37 @@ def data_sets(
                 asked.request.fail(what, "take it out of one of both", span_of)
         found.append(made)
     return found, notes
+
+
+def read_files(subject: Subject, asked: Asked) -> list[DataFile]:
+    """Read the files given with the program and those that the request names, beside the program.
+
+    DesireError 38, 531 … 534: everything wrong with them; 451: a named file that the program may not read;
+    521: there are none.
+    """
+    source = subject.source
+    folder = Path.cwd() if source.path is None else source.path.absolute().parent
+    asker = Asker(Path(os.path.realpath(folder)), source.path)
+    permissions = Permissions(files=subject.allow_write)
+    problems: list[Diagnostic] = []
+    files = []
+    for number, path in enumerate((*subject.data, *map(Path, asked.files))):
+        try:
+            is_named = number >= len(subject.data)
+            files.append(
+                read_data_file(permissions.file(path, "read", asker, lambda _: False) if is_named else path)
+            )
+        except DesireError as error:
+            problems += error.diagnostics
+    if problems:
+        raise DesireError(*problems)
+    if not files:
+        facts = {
+            "what": "there are no measurements to agree with",
+            "remedy": "name a file: from 'measured.csv'",
+        }
+        raise DesireError(Diagnostic("analysis-failed", None, facts, source))
+    return files
 
 
 def _slack(span: tuple[float, float]) -> float:

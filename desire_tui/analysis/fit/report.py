@@ -51,7 +51,7 @@ def sketch(subject: Subject, problem: Problem) -> Result:
         if made is not None:
             charts += [
                 Chart(f"{quantity} and {curves.data.name}", "t", quantity,
-                      [_points(curves, k), Series(quantity, made.t, made.values[made.names.index(quantity)])])
+                      [points(curves, k), Series(quantity, made.t, made.values[made.names.index(quantity)])])
                 for k, quantity in enumerate(curves.quantities)
             ]  # fmt: skip
     return Result(f"Fit of {', '.join(values)}, {subject.name}", dict(values), [table], charts)
@@ -139,7 +139,8 @@ def _criteria(fitted: Fitted) -> dict[str, float]:
     return found
 
 
-def _points(curves: Curves, pair: int) -> Series:
+def points(curves: Curves, pair: int) -> Series:
+    """Return what was measured as points."""
     one = curves.data.measured[pair]
     return Series(f"{curves.quantities[pair]} measured", one.t, one.y, "points")
 
@@ -151,7 +152,7 @@ def _charts(curves: Curves, fitted: Fitted, values: dict[str, float]) -> list[Ch
     for pair, quantity in enumerate(curves.quantities):
         number = made.names.index(quantity)
         y, half = made.values[number], _band(made, number, fitted, values)
-        series = [_points(curves, pair), Series(quantity, made.t, y)]
+        series = [points(curves, pair), Series(quantity, made.t, y)]
         if np.isfinite(half).all():
             series += [
                 Series(f"{LEVEL:.0%} of {quantity}", made.t, y + side * half, "dashes")

@@ -32,20 +32,50 @@ class Pair:
 
 @dataclass(frozen=True)
 class Asked:
-    """All that is asked; `source` is where it stands."""
+    """All that is asked; `request` is where it stands, `files` are those that it names."""
 
     unknowns: list[Unknown]
     pairs: list[Pair]
+    files: list[str]
     loss: str
     runs: int
     request: Request
 
 
 def read_request(text: str) -> Asked:
-    """Read a request. DesireError 520."""
+    """Read what a fit is asked for. DesireError 520."""
     asked = Request(text, EXAMPLE)
     unknowns = read_unknowns(asked, "to")
     asked.expect("to")
+    pairs = _pairs(asked)
+    files: list[str] = []
+    loss, runs = "linear", RUNS
+    while not asked.is_done:
+        word, span = asked.expect("from", "loss", "runs"), asked.span
+        if word == "from":
+            files += _files(asked)
+        elif word == "loss":
+            loss = asked.known(asked.name("a loss"), LOSSES, "loss", span)
+        else:
+            number = asked.number("a whole number")
+            if number < 1 or number != int(number):
+                asked.fail(f"runs {number:g}: no whole number that can be meant", f"runs {RUNS}", span)
+            runs = int(number)
+    return Asked(unknowns, pairs, files, loss, runs, asked)
+
+
+def read_comparison(text: str) -> Asked:
+    """Read `x ~ position, v from 'measured.csv'`, by which nothing is varied. DesireError 520."""
+    asked = Request(text, "measured x ~ position from 'measured.csv'")
+    pairs = _pairs(asked)
+    files: list[str] = []
+    while not asked.is_done:
+        asked.expect("from")
+        files += _files(asked)
+    return Asked([], pairs, files, "linear", 1, asked)
+
+
+def _pairs(asked: Request) -> list[Pair]:
     pairs = []
     while True:
         span = asked.span
@@ -59,15 +89,11 @@ def read_request(text: str) -> Asked:
                 asked.fail("a standard deviation of 0 has no weight", "weights 0.1", place)
         pairs.append(Pair(quantity, column, weights, span))
         if not asked.take(","):
-            break
-    loss, runs = "linear", RUNS
-    while not asked.is_done:
-        word, span = asked.expect("loss", "runs"), asked.span
-        if word == "loss":
-            loss = asked.known(asked.name("a loss"), LOSSES, "loss", span)
-            continue
-        number = asked.number("a whole number")
-        if number < 1 or number != int(number):
-            asked.fail(f"runs {number:g}: no whole number that can be meant", f"runs {RUNS}", span)
-        runs = int(number)
-    return Asked(unknowns, pairs, loss, runs, asked)
+            return pairs
+
+
+def _files(asked: Request) -> list[str]:
+    found = [asked.text("a file's name in quotes")]
+    while asked.take(","):
+        found.append(asked.text("a file's name in quotes"))
+    return found

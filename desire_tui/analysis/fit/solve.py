@@ -163,7 +163,7 @@ def solve(problem: Problem, start: Floats, loss: str) -> Solution:
         found = least_squares(
             problem.residuals, z, problem.jacobian, bounds=(low, high), x_scale="jac",
             loss=loss if turn or rounds == 1 else "soft_l1" if loss != "linear" else "linear",
-            ftol=1e-12, xtol=1e-12, gtol=1e-12, f_scale=1.0, max_nfev=problem.runs_most,
+            ftol=1e-11, xtol=1e-9, gtol=1e-11, f_scale=1.0, max_nfev=problem.runs_most,
         )  # fmt: skip
         z = np.asarray(found.x, dtype=np.float64)
     assert found is not None
