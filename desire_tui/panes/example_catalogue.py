@@ -23,6 +23,7 @@ CHAPTERS = {
     "ch7": "Benchmarks, models with events, physiology, system dynamics",
     "ch8": "Fast plots, statistics, complex numbers, Fourier transforms",
     "appendix": "Integration errors and stiff systems",
+    "stability": "Steady states, phase planes, bifurcations",
     "networks": "Neural networks and fuzzy logic",
 }
 """Folder → what its programs are about, in reading order."""

@@ -13,7 +13,7 @@ EVERY = examples()
 
 def test_chapters_come_in_the_order_of_the_book_and_the_appendix_and_further_subjects_last():
     folders = list(dict.fromkeys(example.folder for example in EVERY))
-    assert folders == [f"ch{number}" for number in range(1, 9)] + ["appendix", "networks"]
+    assert folders == [f"ch{number}" for number in range(1, 9)] + ["appendix", "stability", "networks"]
     assert set(CHAPTERS) == set(folders)
     assert EVERY[0].chapter == "Chapter 1"
     assert EVERY[-1].chapter == "Networks"

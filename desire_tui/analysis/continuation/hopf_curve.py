@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+_SLOW = 1e-3
+"""So much slower than at the first point, the Lyapunov coefficient says nothing any more."""
+
 
 class HopfCurve(TwoParameters):
     """g = 0, J v = -ω w, J w = ω v; unknowns z, v, w (m each), ω in units of its first value, both parts.
@@ -98,7 +101,3 @@ class HopfCurve(TwoParameters):
         m = len(self.system)
         self._q = point.u[m : 3 * m].copy()
         return point
-
-
-_SLOW = 1e-3
-"""So much slower than at the first point, the Lyapunov coefficient says nothing any more."""

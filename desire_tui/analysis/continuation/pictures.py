@@ -10,7 +10,7 @@ from desire_tui.analysis.equilibria.kinds import is_stable
 from desire_tui.engine.graph.chart import Chart, Series
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from desire_tui.analysis.continuation.curve import Point
     from desire_tui.analysis.continuation.equilibrium_curve import Range
     from desire_tui.analysis.equilibria.system import System
+    from desire_tui.engine.graph.chart import Look
 
     Floats = NDArray[np.float64]
 
@@ -27,6 +28,9 @@ _COLORS = {
     "branch point of cycles": 12, "cusp": 14, "Bogdanov-Takens": 10, "generalised Hopf": 11, "zero-Hopf": 9,
 }  # fmt: skip
 _STATES_MOST = 4
+_WHAT = {"fold": "folds", "Hopf": "Hopf points"}
+_LOOKS: tuple[tuple[str, bool, Look], ...] = (("stable", True, "line"), ("unstable", False, "dashes"))
+_GAP = np.array([np.nan])
 
 
 def charts(diagram: Diagram, system: System, over: Sequence[Range], states: Sequence[str]) -> list[Chart]:
@@ -39,11 +43,11 @@ def charts(diagram: Diagram, system: System, over: Sequence[Range], states: Sequ
     cycles = [b for b in diagram.branches if b.kind == "cycle" and b.points]
     if cycles:
         series: list[Series] = []
-        for name, is_wanted, look in (("stable", True, "line"), ("unstable", False, "dashes")):
+        for name, is_wanted, look in _LOOKS:
             x, y = _joined(cycles, over[0], lambda p: (p.facts.period,), is_stable_wanted=is_wanted)
             if len(x):
-                series.append(Series(f"{name} cycles", x, y, look, color=CYCLES))  # type: ignore[arg-type]
-        found.append(Chart("Periods of cycles", over[0].name, "period", series, limits=None))
+                series.append(Series(f"{name} cycles", x, y, look, color=CYCLES))
+        found.append(Chart("Periods of cycles", over[0].name, "period", series))
     return found
 
 
@@ -58,10 +62,10 @@ def _of_state(diagram: Diagram, system: System, over: Range, state: int) -> Char
     series: list[Series] = []
     for kind, what, color, of in (("steady", "", STEADY, steady), ("cycle", " cycles", CYCLES, cycle)):
         branches = [b for b in diagram.branches if b.kind == kind]
-        for name, is_wanted, look in (("stable", True, "line"), ("unstable", False, "dashes")):
+        for name, is_wanted, look in _LOOKS:
             x, y = _joined(branches, over, of, is_stable_wanted=is_wanted)
             if len(x):
-                series.append(Series(f"{name}{what}", x, y, look, color=color))  # type: ignore[arg-type]
+                series.append(Series(f"{name}{what}", x, y, look, color=color))
     kinds = {branch.number: branch.kind for branch in diagram.branches}
     for name in dict.fromkeys(s.kind for s in diagram.specials):
         places = [
@@ -75,10 +79,13 @@ def _of_state(diagram: Diagram, system: System, over: Range, state: int) -> Char
 
 
 def _joined(
-    branches: Sequence[Branch], over: Range, of: object, *, is_stable_wanted: bool
+    branches: Sequence[Branch],
+    over: Range,
+    of: Callable[[Point], tuple[float, ...]],
+    *,
+    is_stable_wanted: bool,
 ) -> tuple[Floats, Floats]:
     """Return the stretches of branches that are stable, or those that are not, parted by nan."""
-    assert callable(of)
     xs: list[Floats] = []
     ys: list[Floats] = []
     for branch in branches:
@@ -91,9 +98,6 @@ def _joined(
     if not xs:
         return np.empty(0), np.empty(0)
     return np.concatenate(xs), np.concatenate(ys)
-
-
-_GAP = np.array([np.nan])
 
 
 def _stretches(branch: Branch, *, is_stable_wanted: bool) -> Iterator[tuple[int, int]]:
@@ -138,6 +142,3 @@ def _plane(diagram: Diagram, over: Sequence[Range]) -> Chart:
     title = f"Folds and Hopf points over {first.name} and {second.name}"
     limits = (first.low, first.high, second.low, second.high)
     return Chart(title, first.name, second.name, series, limits=limits)
-
-
-_WHAT = {"fold": "folds", "Hopf": "Hopf points"}

@@ -27,6 +27,8 @@ _BACK = 0.05
 """The orbit has come back if it passes so near, against its size, the place where it began."""
 _REPEATS, _CLOSED = 0.1, 1e-4
 _ROUNDS = 3
+_STILL = 1e-4
+_REFINED = 8
 _TOLERANCE = 1e-8
 _ACCURATE = 1e-8
 """Of the cycle's polynomials: its period is exact to some units in the last place."""
@@ -131,7 +133,3 @@ def _return(
     if period:
         return period, orbit.sol
     raise _NoCycleError("within the time of a run the orbit does not come back to where it was")
-
-
-_STILL = 1e-4
-_REFINED = 8

@@ -28,6 +28,7 @@ POINTS_MOST = 500
 _FAR = 1e3
 _STEP = 0.05
 _BESIDE = 5e-3
+_FLAT = 1e-6
 
 
 def trace(
@@ -101,9 +102,6 @@ def _walk(
             diagram.is_partial = True
             return "stopped"
     return end
-
-
-_FLAT = 1e-6
 
 
 def _is_far(point: Point) -> bool:
