@@ -48,6 +48,7 @@ class SharedEquations:
         prepared = self._own.instance.prepared
         self.states = tuple(name for name, _ in prepared.states())
         self.start = prepared.state()
+        self.has_events = bool(prepared.segment.events)
 
     def _ready(self, instance: Instance, parameters: Mapping[str, Any]) -> _Ready:
         start = self._begin(instance, parameters)
@@ -100,6 +101,11 @@ class _Function:
     def states(self) -> tuple[str, ...]:
         """Names of the states, in the order of `x`."""
         return self._shared.states
+
+    @property
+    def has_events(self) -> bool:
+        """Whether the model has `event` or `every` blocks besides, which the function knows nothing of."""
+        return self._shared.has_events
 
     @property
     def start(self) -> Floats:

@@ -140,6 +140,13 @@ def test_requests_that_are_wrong(subject, request_, words):
     assert words in told(subject, scalar("-x"), request_)
 
 
+def test_events_are_said_to_be_left_out(subject):
+    text = "x = 1 | TMAX = 2 | DT = 0.01 | NN = 11\ndrun\nDYNAMIC\nd/dt x = 1 - x\ndispt x\nevent x - 0.5\nx = 2\n"
+    found = analyse(subject(text), "", unwatched)
+    assert found.notes[0].startswith("events are left out")
+    assert not analyse(subject(scalar("-x")), "", unwatched).notes[0].startswith("events")
+
+
 def test_it_can_be_stopped(subject):
     found = analyse(subject(scalar("sin(x)")), "all in x = [-90, 90]", lambda part, *_: not part)
     assert found.is_partial

@@ -43,7 +43,8 @@ class Report:
         found = [*self._specials(diagram), self._branches(diagram)]
         points = Table("points", self._points(diagram), is_listed=False)
         drawn = charts(diagram, self._system, self._over, self._states) if draws else []
-        notes = [*(f"conserved: {text}" for text in self._system.law_texts), *diagram.notes]
+        flow = self._system.flow
+        notes = [*flow.notes, *(f"conserved: {text}" for text in self._system.law_texts), *diagram.notes]
         return Result(
             self._title,
             self._values(diagram),

@@ -39,6 +39,10 @@ class Flow:
         """Values of all quantities that may be varied."""
         self.start = self.rhs.start
         """The states that a run begins with."""
+        self.notes: list[str] = []
+        """What is left out of account."""
+        if self.rhs.has_events:
+            self.notes.append("events are left out: what is told is true of the derivatives between them")
         self._refuse_time(subject)
 
     def __len__(self) -> int:

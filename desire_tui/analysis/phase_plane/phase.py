@@ -48,7 +48,7 @@ def analyse(subject: Subject, request: str, progress: Progress) -> Result:
     system = System(flow, travelled.start, travelled.size)
     plane = Plane(system, axes, _limits(asked, travelled, flow, axes), travelled.end, {})
     picture = Picture(plane)
-    notes = [f"conserved: {text}" for text in system.law_texts]
+    notes = [*flow.notes, *(f"conserved: {text}" for text in system.law_texts)]
     if not plane.is_whole:
         _only_a_section(plane, travelled, picture, notes)
     if len(travelled.passed):

@@ -114,7 +114,7 @@ def _result(subject: Subject, system: System, found: Found, travelled: Travelled
     z = system.place(near)
     states = sorted(found.states, key=lambda s: float(np.linalg.norm(s.z - z)))
     told = states[:2] if found.is_family else states
-    notes = [f"conserved: {text}" for text in system.law_texts]
+    notes = [*system.flow.notes, *(f"conserved: {text}" for text in system.law_texts)]
     if system.law_texts:
         notes.append("eigenvalues are those that the conserved sums leave free")
     if found.is_family:
