@@ -67,9 +67,9 @@ async def test_moving_shows_each_programs_picture_and_skips_the_chapters_heading
         await desk.until(lambda: picture(screen).graph is not None)
         await desk.press("up", "up")
         await desk.until(lambda: screen.highlighted.name == "step_response")
-        await desk.press("end", *["pagedown"] * 14)
+        await desk.press("end", *["pagedown"] * 16)
         assert screen.highlighted == examples()[-1]
-        await desk.press(*["pageup"] * 14)
+        await desk.press(*["pageup"] * 16)
         assert screen.highlighted == examples()[0]
 
 
