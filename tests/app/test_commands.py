@@ -16,7 +16,8 @@ ARROWS = ("left", "right", "up", "down", "pageup", "pagedown")
 
 def test_ids_and_words_and_keys_are_unique():
     assert len(BY_ID) == len(COMMANDS)
-    words = [word for command in COMMANDS for word in command.words]
+    # `fit` alone fits the graph, `fit k to x ~ y` a model
+    words = [(word, bool(command.argument)) for command in COMMANDS for word in command.words]
     assert len(words) == len(set(words))
     keys = [key for command in COMMANDS for key in command.keys.split(",") if key]
     assert len(keys) == len(set(keys))

@@ -73,7 +73,7 @@ from tests.interpreter.stand_in import RecordingHost, error_of, run
         ("data 1, 2/0\nread x, y", 5, "0"),
         ("data 1, nosuch\nread x, y", 200, "nosuch"),
         ("irule 6", 86, "6"),
-        ("irule 17", 86, "17"),
+        ("irule 18", 86, "18"),
         ("ARRAY A[2,2]\nMATRIX A = $In(A)", 123, "$In(A)"),
         ("ARRAY A[3,3]\ndata 1,2,3,4,5,6,7,8,9\nread A\nMATRIX A = $In(A)", 123, "$In(A)"),
         ("ARRAY A[2,3]\nMATRIX A = $In(A)", 74, "$In(A)"),

@@ -251,7 +251,7 @@ dispt y1, y2, y3
         ("compare rule 4 rule 5", 404),
         ("compare TMAX 4", 404),
         ("compare rule 6", 86),
-        ("compare rule 17", 86),
+        ("compare rule 18", 86),
         ("compare rule -1", 86),
         ("compare rule 1.5", 86),
         ("compare rule nan", 86),
