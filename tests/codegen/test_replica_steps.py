@@ -24,7 +24,8 @@ REPLICAS = {
     + SPRINGS.replace("0.1*v", "0.1*g"),
     "tables": "Vectr d/dt x = v\nVectr d/dt v = -func1(x; f) - 0.1*func1(t; f)*v\n",
     "assigned twice": "Vector g = x\nVector g = g*v\nVectr d/dt x = v\nVectr d/dt v = -w*x - g\n",
-    "OUT": SPRINGS + "OUT\nVector g = s + c\nk = k*1.01\n",
+    "OUT": "Vector s = sin(x)\nVectr d/dt x = v + g\nVectr d/dt v = -k*s\nOUT\nVector g = 0.1*s + 0.01*gauss(0)\n"
+    "k = k*1.01\nx[3] = 1\n",
 }
 OTHERS = {
     "neighbours": "Vectr d/dt x = v\nVectr d/dt v = x{{1}} - 2*x + x{{-1}}\n",

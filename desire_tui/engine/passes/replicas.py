@@ -32,6 +32,8 @@ class ReplicatedModel(NamedTuple):
     """Of the derivative pass. A Deriv's number is that of a vector of states."""
     states: tuple[int, ...]
     """Vectors of states."""
+    numbers: tuple[int, ...]
+    """Of the first state in each of them."""
     read: frozenset[int]
     """Vectors that are read before they are assigned, states not among them."""
     assigned: frozenset[int]
@@ -62,8 +64,8 @@ def replicated(
     if numbers != set(range(len(states))) or sum(isinstance(s, Deriv) for s in found) != len(states):
         return None
     return ReplicatedModel(
-        replicas, tuple(found), tuple(scan.states), frozenset(scan.read), frozenset(scan.assigned),
-        frozenset(scan.scalars),
+        replicas, tuple(found), tuple(scan.states), tuple(piece.first for piece in states),
+        frozenset(scan.read), frozenset(scan.assigned), frozenset(scan.scalars),
     )  # fmt: skip
 
 

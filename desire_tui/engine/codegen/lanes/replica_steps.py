@@ -21,12 +21,18 @@ from desire_tui.engine.lowered.statements import Set
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.engine.integration.tableaus import Tableau
     from desire_tui.engine.passes.replicas import ReplicatedModel
 
 
 def replica_steps(model: ReplicatedModel, tableau: Tableau) -> Piece:
-    """Return `void NAME(ptr values, double t_base, double k, double dt)`: the step from t_base + k·dt."""
+    """Return `void NAME(ptr values, ptr first, double t_base, double k, double dt)`: step k from t_base.
+
+    `first`: derivatives at the step's start, where they were computed before code behind OUT changed what
+    they depend on; null: they are computed here.
+    """
     return _ReplicaSteps(model, tableau).piece()
 
 
@@ -54,9 +60,9 @@ class _ReplicaSteps:
         text.begin("next")
         index = text.op("load i64, ptr %i")
         text.do(f"%full = icmp sle i64 {index}, {whole - width}")
-        self._move(index, (*self.model.states, *sorted(self.model.read)), store=False)
-        self._step()
-        self._move(index, self.model.states, store=True)
+        self._move((*self.model.states, *sorted(self.model.read)), index, store=False)
+        self._step(index)
+        self._move(self.model.states, index, store=True)
         following = text.op(f"add i64 {index}, {width}")
         text.do(f"store i64 {following}, ptr %i")
         text.branch(text.op(f"icmp slt i64 {following}, {self.model.replicas}"), "next", "done")
@@ -65,18 +71,32 @@ class _ReplicaSteps:
         body = text.body()
         declared = frozenset(text.declarations)
         name = "b" + blake2b("\n".join((body, *sorted(declared))).encode(), digest_size=10).hexdigest()
-        arguments = "ptr noalias %v, double %t_base, double %k, double %dt"
+        arguments = "ptr noalias %v, ptr noalias %first, double %t_base, double %k, double %dt"
         return Piece(name, f"define void @{name}({arguments}) #0 {{\n{body}\n}}", declared)
 
-    def _move(self, index: str, vectors: tuple[int, ...], *, store: bool) -> None:
-        """Read a block of vectors, or write it; the last block may be a part of one."""
-        text, what = self.text, "put" if store else "get"
-        places = [
-            text.op(f"getelementptr double, ptr %v, i64 {text.op(f'add i64 {index}, {slot}')}")
-            for slot in vectors
-        ]
+    def _move(self, vectors: tuple[int, ...], index: str, *, store: bool) -> None:
+        """Read a block of vectors, or write it."""
+        places = [self._place("%v", index, slot) for slot in vectors]
+
+        def move(mask: str | None) -> None:
+            for slot, place in zip(vectors, places, strict=True):
+                if store:
+                    self._put(place, self.cells.load(slot).name, mask)
+                else:
+                    self.cells.store(slot, Number(self._get(place, mask), wide=True))
+
+        self._whole_or_part("put" if store else "get", move)
+
+    def _place(self, base: str, index: str, first: int) -> str:
+        return self.text.op(
+            f"getelementptr double, ptr {base}, i64 {self.text.op(f'add i64 {index}, {first}')}"
+        )
+
+    def _whole_or_part(self, what: str, move: Callable[[str | None], None]) -> None:
+        """Write what moves a block; the last block may be a part of one, and has a mask."""
+        text = self.text
         rest = self.model.replicas % self.runs.width
-        labels = [f"{what}.{part}" for part in ("full", "part", "done")]
+        labels = [f"{what}.{part}" for part in ("whole", "part", "done")]
         if rest:
             text.branch("%full", labels[0], labels[1])
         else:
@@ -85,11 +105,7 @@ class _ReplicaSteps:
             if mask is not None and not rest:
                 continue
             text.begin(label)
-            for slot, place in zip(vectors, places, strict=True):
-                if store:
-                    self._put(place, self.cells.load(slot).name, mask)
-                else:
-                    self.cells.store(slot, Number(self._get(place, mask), wide=True))
+            move(mask)
             text.jump(labels[2])
         text.begin(labels[2])
 
@@ -115,12 +131,29 @@ class _ReplicaSteps:
         self.text.declarations.add(f"declare void @{name}({runs.kind}, ptr, i32, {runs.flags})")
         self.text.do(f"call void @{name}({runs.kind} {value}, ptr {place}, i32 8, {runs.flags} {mask})")
 
-    def _step(self) -> None:
+    def _first_derivatives(self, index: str) -> None:
+        text, numbers = self.text, self.model.numbers
+        text.branch(text.op("icmp eq ptr %first, null"), "compute", "take")
+        text.begin("compute")
+        self._derivatives(1)
+        text.jump("computed")
+        text.begin("take")
+        places = [self._place("%first", index, number) for number in numbers]
+
+        def take(mask: str | None) -> None:
+            for number, place in enumerate(places):
+                self.cells.keep("k1", number, Number(self._get(place, mask), wide=True))
+
+        self._whole_or_part("take", take)
+        text.jump("computed")
+        text.begin("computed")
+
+    def _step(self, index: str) -> None:
         cells, states, tableau = self.cells, self.model.states, self.tableau
         for slot in self.scalars:
             cells.store(slot, Number(f"%g{slot}", wide=False))
         save(cells, states)
-        self._derivatives(1)
+        self._first_derivatives(index)
         for stage in range(1, tableau.stages):
             advance(cells, states, tableau.a[stage], "%dt")
             moved = self.one.mul(self.one.add("%k", self.one.const(float(tableau.c[stage]))), "%dt")

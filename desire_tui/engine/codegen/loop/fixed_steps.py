@@ -55,7 +55,9 @@ class FixedStep:
         text.branch(text.op(f"icmp eq ptr {function}, null"), "step.stages", "step.whole")
         text.begin("step.whole")
         k = text.op(f"sitofp i64 {driver.get('k')} to double")
-        text.do(f"call void {function}(ptr %v, double {driver.get('t_base')}, double {k}, double {dt})")
+        known = text.op(f"select i1 {driver.get('known')}, ptr %k1, ptr null")
+        arguments = f"ptr %v, ptr {known}, double {driver.get('t_base')}, double {k}, double {dt}"
+        text.do(f"call void {function}({arguments})")
         for _ in range(1, self.tableau.stages):
             driver.count("calls")
         text.jump("step.taken")

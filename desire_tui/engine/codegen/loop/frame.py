@@ -15,8 +15,10 @@ if TYPE_CHECKING:
 _VARIABLES = {
     "k": "i64", "steps": "i64", "calls": "i64", "t_base": "double", "dt_base": "double", "t_next": "double",
     "t_here": "double", "h": "double", "phase": "i32", "ended": "i32", "last": "i1", "reached": "i1", "stop":
-    "i1", "lands": "i1", "cut": "i1", "t_stop": "double", "looks": "i1", "boxed": "i1", "clear": "i1",
+    "i1", "lands": "i1", "cut": "i1", "t_stop": "double", "looks": "i1",
+    "known": "i1", "boxed": "i1", "clear": "i1",
 }  # fmt: skip
+"""`known`: the first stage was computed at a communication point, before the code behind OUT."""
 
 _KEPT = {
     "k": "k", "t_base": "t_base", "dt_base": "dt_base", "phase": "phase", "steps": "steps", "calls":

@@ -42,7 +42,7 @@ class Storage(Protocol):
     def whole_step(self) -> str:
         """Return the address of what takes a fixed step as a whole, perhaps null; "": there is no such thing.
 
-        Called with the values, t_base, k and DT.
+        Called with the values, the first stage if it is known, else null, t_base, k and DT.
         """
         ...
 
