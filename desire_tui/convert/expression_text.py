@@ -61,6 +61,8 @@ class _Writer:
                 return f"-{self.at_least(operand, _POWER)}", _SIGNED
             case Binary():
                 return self._binary(expression), _LEVEL[expression.operator]
+            case Call("[]", (array, index)):
+                return f"{self.at_least(array, _ATOM)}[{self.at_least(index, _SUM)}]", _ATOM
             case Call(function, arguments):
                 between = "; " if function == "func1" else ", "  # a table stands behind a semicolon
                 inner = between.join(self.at_least(argument, _SUM) for argument in arguments)

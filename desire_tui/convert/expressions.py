@@ -84,7 +84,10 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """A function of the library or of the model; a table is `func1` of a number and the table's name."""
+    """A function of the library or of the model.
+
+    A table is `func1` of a number and the table's name, an array's element `[]` of its name and a number.
+    """
 
     function: str
     arguments: tuple[Expression, ...]

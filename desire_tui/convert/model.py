@@ -26,6 +26,32 @@ class Quantity:
 
 
 @dataclass
+class Network(Quantity):
+    """An array of sums, each of the same quantities with weights of its own; `value` is their plain sum.
+
+    `kind`: even, periodic, zero (a convolution that goes on so beyond the ends), sparse, mmult. `reach`: how
+    far a convolution reaches to either side, else how many weights a row has. `tables`: the weights, and for
+    `sparse` the places.
+    """
+
+    kind: str = "zero"
+    rows: int = 1
+    reach: int = 0
+    sources: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
+
+
+@dataclass
+class Root:
+    """The start of a state, where an expression is 0: found from its initial value by Newton's method."""
+
+    name: str
+    residual: Expression
+    slope: Expression
+    """Derivative of the residual."""
+
+
+@dataclass
 class State:
     """What a differential equation (or, in a map, a difference equation) computes."""
 
@@ -135,6 +161,7 @@ class Model:
     noises: list[Quantity] = field(default_factory=list)
     """White noise of the spectral density value²."""
     markov: list[MarkovProcess] = field(default_factory=list)
+    roots: list[Root] = field(default_factory=list)
     held: list[Quantity] = field(default_factory=list)
     """What the script sets and only events change."""
     events: list[Event] = field(default_factory=list)

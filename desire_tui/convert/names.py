@@ -29,6 +29,7 @@ class NameTable:
     def __init__(self, names: Iterable[str]) -> None:
         self._taken = set(RESERVED)
         self._given: dict[str, str] = {}
+        self._beside: dict[str, str] = {}
         every = list(dict.fromkeys(names))
         for name in every:
             if name not in RESERVED and _LEGAL.match(name):
@@ -44,6 +45,12 @@ class NameTable:
         if name.startswith("<"):
             return name[1:-1]
         return self._given.get(name, name)
+
+    def beside(self, wanted: str) -> str:
+        """Return the name of something that belongs to a quantity: the same each time it is asked for."""
+        if wanted not in self._beside:
+            self._beside[wanted] = self.fresh(wanted)
+        return self._beside[wanted]
 
     def fresh(self, wanted: str) -> str:
         """Return a name that nothing else has: `wanted`, or that with a number behind it."""

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.expression_text import condition_text, expression_text, number_text
+from desire_tui.convert.expressions import Binary, Name
 from desire_tui.convert.layout import broken, comment_lines, joined
-from desire_tui.convert.model import Quantity, Table
+from desire_tui.convert.model import Network, Quantity, Table
+from desire_tui.convert.network_part import network_script
 from desire_tui.convert.ordering import in_order, needed_by
 
 if TYPE_CHECKING:
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
     from desire_tui.convert.model import Function, Model, Preset
     from desire_tui.convert.names import NameTable
 
+NEWTON_STEPS = 50
 _BEYOND = 1e6
 """How far a table's outer lines are drawn out, in its widths: `func1` is constant beyond its ends."""
 
@@ -33,6 +36,16 @@ def script_lines(model: Model, names: NameTable, next_names: Mapping[str, str]) 
         yield from (f"  {line}" for line in joined(_assignments(preset, names)))
         yield "end"
     yield from _beginnings(model, names)
+    for root in model.roots:
+        step = Binary("-", Name(root.name), Binary("/", root.residual, root.slope))
+        count = names.fresh("i")
+        yield f"for {count} = 1 to {NEWTON_STEPS}"
+        yield from broken(f"  {names(root.name)} = {expression_text(step, names)}")
+        yield "next"
+    tables = {table.name: table for table in model.tables}
+    for variable in model.variables:
+        if isinstance(variable, Network):
+            yield from network_script(variable, tables, names)
     for event in model.events:
         if event.at_start is not None:
             yield f"if {condition_text(event.at_start, names)} then"

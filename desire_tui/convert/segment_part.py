@@ -17,6 +17,8 @@ from desire_tui.convert.expressions import (
     total,
 )
 from desire_tui.convert.layout import broken, comment_lines, joined
+from desire_tui.convert.model import Network
+from desire_tui.convert.network_part import network_segment
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -40,7 +42,10 @@ def segment_lines(model: Model, names: NameTable, next_names: Mapping[str, str],
         yield f"{names(noise.name)} = white({expression_text(noise.value, names)})"
     for variable in model.variables:
         yield from comment_lines(variable.comment)
-        yield from _assignment(variable, names)
+        if isinstance(variable, Network):
+            yield from network_segment(variable, names)
+        else:
+            yield from _assignment(variable, names)
     for state in model.states:
         yield from comment_lines(state.comment)
         target = next_names.get(state.name) or f"d/dt {names(state.name)}"

@@ -39,13 +39,13 @@ async def test_it_opens_as_text_or_not_at_all(program, tmp_path):
 
 
 async def test_what_is_missing_or_unreadable_is_said(program, tmp_path):
-    (tmp_path / "half.ode").write_text("x'=-x\nspecial k=conv(even,5,1,w,x)\n")
+    (tmp_path / "half.ode").write_text("x'=-x\nspecial k=fconv(even,5,1,w,x,x,f)\n")
     (tmp_path / "no.xml").write_text("<sbml>")
     async with desktop(program("y = 1\n")) as desk:
         await asked(desk, tmp_path / "half.ode")
         await desk.press("c")
         await desk.until(lambda: desk.app.errors_reported == 1)
-        assert "-- ! line 2: 'special k=conv(even,5,1,w,x)' is not converted" in desk.app.editor.front.text
+        assert "-- ! line 2: 'special k=fconv(even,5,1,w,x,x,f)' is not converted" in desk.app.editor.front.text
         await asked(desk, tmp_path / "no.xml")
         await desk.press("c")
         await desk.until(lambda: desk.app.errors_reported == 2)

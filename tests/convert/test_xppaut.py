@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
+from scipy.optimize import brentq
 
 import desire_tui
 from desire_tui.convert.conversion import Conversion, convert
@@ -262,3 +263,22 @@ def test_a_transient_is_not_shown():
     assert len(result.runs) == 2
     assert result.runs[-1].t[0] == pytest.approx(1)
     assert result.runs[-1]["x"] == pytest.approx(np.exp(-result.runs[-1].t), rel=1e-6)
+
+
+def test_an_algebraic_equation_against_its_roots():
+    def unknown(x: float) -> float:
+        return brentq(lambda y: y + y**3 + x, -10, 10, xtol=1e-14)
+
+    right = solve_ivp(lambda _, x: [unknown(x[0])], (0, 5), [3.0], rtol=1e-10, atol=1e-12).y[0, -1]
+    assert final("algebraic", "x", "y") == pytest.approx([right, unknown(right)], rel=1e-6)
+
+
+def test_sums_over_arrays_are_xppauts():
+    """The figures are what XPPAUT 6.11 printed."""
+    printed = {
+        "e0": 1804, "e1": 16852, "e2": 10021, "e3": 5170, "r0": 3784, "r1": 17842, "r2": 8437, "r3": 4378,
+        "o0": 1684, "o1": 16842, "o2": 8421, "o3": 4210, "s0": 201, "s1": 34, "s2": 560, "m0": 321, "m1": 654,
+        "x": 1804,
+    }  # fmt: skip
+    run = desire_tui.load(converted("networks").text).run(record=tuple(printed), check=True)
+    assert {name: run[name][-1] for name in printed} == pytest.approx(printed)

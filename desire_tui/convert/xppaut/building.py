@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.convert.expressions import ZERO, Call, Expression, Name, with_parts
+from desire_tui.convert.expressions import ZERO, Call, Expression, Name, Number, with_parts
 from desire_tui.convert.xppaut.constants import constant
 from desire_tui.convert.xppaut.declarations import pairs
 from desire_tui.convert.xppaut.expression_parser import parsed
 from desire_tui.convert.xppaut.options import Options
 from desire_tui.convert.xppaut.sums import Places, written_out
-from desire_tui.convert.xppaut.vocabulary import BUILT_IN, FUNCTIONS, NotConvertibleError
+from desire_tui.convert.xppaut.vocabulary import BUILT_IN, FUNCTIONS, LINEAR, NotConvertibleError
 
 if TYPE_CHECKING:
     from desire_tui.convert.model import Model
@@ -55,6 +55,7 @@ class Building:
 
     def _declare(self) -> None:
         states = [one.name for one in self.of("rate", "next")]
+        states += [name for one in self.of("solve") for name, _ in (pairs(one.right) or ())[:1]]
         parameters: list[str] = []
         constants: dict[str, float] = {}
         for one in self.of("param", "number"):
@@ -72,6 +73,7 @@ class Building:
             ([one.name for one in self.of("derived")], "quantity"),
             ([one.name for one in self.of("function")], "function"),
             ([word for one in self.of("table") for word in one.right.split()[:1]], "table"),
+            ([found[1] for one in self.of("special") if (found := LINEAR.match(one.right))], "network"),
         ):
             for name in group:
                 self.spelling.setdefault(name.lower(), name)
@@ -126,6 +128,8 @@ class Building:
             case Call(function, arguments):
                 inner = tuple(self._known(argument, line, dummies) for argument in arguments)
                 role = self.roles.get(function)
+                if role == "network":
+                    return self._element(function, inner, line)
                 if role == "table":
                     return Call("func1", (inner[0], Name(self.spelling[function])))
                 if role != "function" and function not in FUNCTIONS:
@@ -135,6 +139,15 @@ class Building:
                 return Call(self.spelling.get(function, function), inner)
             case _:
                 return with_parts(expression, lambda part: self._known(part, line, dummies))
+
+    def _element(self, network: str, place: tuple[Expression, ...], line: Line) -> Expression:
+        """Return an element of a network's sums; XPPAUT counts from 0, Desire from 1."""
+        try:
+            index = constant(place[0], self.places.constants)
+        except NotConvertibleError:
+            self.refuse(line, f"which element of '{network}' is meant must be a constant")
+            return ZERO
+        return Call("[]", (Name(self.spelling[network]), Number(float(int(index) + 1))))
 
     def _delay(self, arguments: tuple[Expression, ...], line: Line, dummies: tuple[str, ...]) -> Expression:
         """Return a delayed state: before the start it is what `x(0)=` says, else 0, not its initial value."""

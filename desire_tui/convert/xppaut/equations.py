@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from desire_tui.convert.expressions import ZERO, Name
 from desire_tui.convert.model import Quantity, State
 from desire_tui.convert.ordering import CircularError, in_order, needed_by
+from desire_tui.convert.xppaut.algebraic import algebraic
+from desire_tui.convert.xppaut.networks import networks
 
 if TYPE_CHECKING:
     from desire_tui.convert.xppaut.building import Building
@@ -17,6 +19,7 @@ def equations(building: Building) -> None:
     """Add states, variables and what is shown to the model."""
     _states(building)
     _variables(building)
+    algebraic(building)
     _shown(building)
     _drawn(building)
 
@@ -53,16 +56,19 @@ def _variables(building: Building) -> None:
             continue
         found[name] = Quantity(name, building.formula(one.right, one.line), one.line.comment)
         lines[name] = one.line
+    for network in networks(building):
+        found[network.name] = network
     functions = {function.name: function for function in building.model.functions}
     needs = {name: needed_by(one.value, functions) & found.keys() - {name} for name, one in found.items()}
     try:
         order = in_order(needs)
     except CircularError as circle:
-        building.refuse(lines[circle.names[0]], f"these wait for each other: {circle}")
+        line = next(lines[name] for name in circle.names if name in lines)
+        building.refuse(line, f"these wait for each other: {circle}")
         order = list(found)
     above: set[str] = set()
     for name in found:
-        for late in sorted(needs[name] - above):
+        for late in sorted(needs[name] - above if name in lines else ()):
             building.note(
                 lines[name], late, "it stands below its use; XPPAUT takes its value of the step before, "
                 "here it is computed above",

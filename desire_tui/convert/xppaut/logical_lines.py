@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic
 
 _RANGE = re.compile(r"\[\s*(-?\d+)\s*\.\.\s*(-?\d+)\s*\]")
-_INDEX = re.compile(r"\[\s*j\s*(?:([-+*])\s*(\d+)\s*)?(?:\]|\Z)", re.IGNORECASE)
-"""`[j]`, `[j+1]`; XPPAUT forgives a bracket that is not closed at the end of a line."""
+_INDEX = re.compile(r"\[\s*j\s*(?:([-+*])\s*(\d+)\s*)?\]", re.IGNORECASE)
+"""`[j]`, `[j+1]`."""
 _PLACE = re.compile(r"\[\s*(\d+)\s*\]")
 """`x[3]` is x3 wherever it stands."""
 _BLOCK = re.compile(r"%\s*\[\s*(-?\d+)\s*\.\.\s*(-?\d+)\s*\]\s*\Z")
@@ -44,6 +44,8 @@ class Line:
     source: Source
     span: Span
     comment: str = ""
+    written_out: bool = False
+    """It is one of the lines that a line with a range stands for."""
 
     def problem(self, key: Literal["convert-part", "convert-note"], what: str, reason: str) -> Diagnostic:
         """Return a problem at this place."""
@@ -148,7 +150,9 @@ def _elements(lines: list[Line], problems: list[Diagnostic]) -> Iterator[Line]:
             continue
         for count, number in enumerate(bounds):
             text = _PLACE.sub(r"\1", _RANGE.sub(str(number), line.text))
-            yield _at(replace(line, text=text, comment=line.comment if count == 0 else ""), number)
+            yield _at(
+                replace(line, text=text, comment=line.comment if count == 0 else "", written_out=True), number
+            )
 
 
 def _range(first: str, last: str) -> range:

@@ -68,7 +68,8 @@ def _starts(building: Building) -> None:
     for one in building.declarations:
         if one.kind == "initial":
             value = building.formula(one.right, one.line)
-            building.histories[one.name.lower()] = value
+            if not one.line.written_out:  # of a range XPPAUT takes the initial values only
+                building.histories[one.name.lower()] = value
             building.starts[one.name.lower()] = (_at_start(value, building.options), one.line)
         elif one.kind == "init":
             for name, text, _ in _listed(one, building):

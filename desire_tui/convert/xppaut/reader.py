@@ -24,7 +24,7 @@ _REFUSED = {
     "volt": "Volterra integral equations are not solved here",
     "algebraic": "algebraic equations are not solved here",
     "solve": "algebraic equations are not solved here",
-    "special": "sums over arrays by network functions have no counterpart here",
+    "special": "this network function has no counterpart here",
     "export": "functions of a library are not called here",
     "options": "options in a file of their own are not read; copy them into the file behind @",
     "unknown": "it is no declaration of XPPAUT's",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.expressions import Binary, Call, Expression, Not, Number, Relation
@@ -22,6 +23,8 @@ BUILT_IN = frozenset({
     "of", "t", "pi", "besselj", "bessely", "besseli", "erf", "erfc", "lgamma", "poisson", "hom_bcs", "int",
 })  # fmt: skip
 """XPPAUT's own words in expressions."""
+LINEAR = re.compile(r"([a-z_]\w*)\s*=\s*(conv|sparse|mmult)\s*\(([^()]*)\)\s*\Z", re.IGNORECASE | re.ASCII)
+"""`special` lines whose function is linear: a name, the function, its arguments."""
 MISSING = {
     "besselj": "Desire has no Bessel functions", "bessely": "Desire has no Bessel functions",
     "besseli": "Desire has no Bessel functions", "erf": "Desire has no error function",
