@@ -49,7 +49,7 @@ def derivative(expression: Expression, name: str) -> Expression:
             return plus(times(derivative(left, name), right), times(left, derivative(right, name)))
         case Binary("/", left, right):
             return _of_quotient(left, right, name)
-        case Binary("^", left, right):
+        case Binary(_, left, right):
             return _of_power(left, right, name)
         case Call(function, (argument,)) if function in _OUTER:
             inner = derivative(argument, name)
