@@ -45,7 +45,9 @@ async def test_what_is_missing_or_unreadable_is_said(program, tmp_path):
         await asked(desk, tmp_path / "half.ode")
         await desk.press("c")
         await desk.until(lambda: desk.app.errors_reported == 1)
-        assert "-- ! line 2: 'special k=fconv(even,5,1,w,x,x,f)' is not converted" in desk.app.editor.front.text
+        assert (
+            "-- ! line 2: 'special k=fconv(even,5,1,w,x,x,f)' is not converted" in desk.app.editor.front.text
+        )
         await asked(desk, tmp_path / "no.xml")
         await desk.press("c")
         await desk.until(lambda: desk.app.errors_reported == 2)
