@@ -6,11 +6,13 @@ import asyncio
 import logging
 import os
 import sys
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 
 from desire_tui.engine.session.static_check import StaticChecker
@@ -106,7 +108,8 @@ class DesireServer(LanguageServer):
             shown = types.ShowDocumentParams(
                 uri=Path(answer["pictures"][-1]).as_uri(), external=False, take_focus=False
             )
-            await self.window_show_document_async(shown)
+            with suppress(JsonRpcException):  # Neovim 0.7 says that it can, and cannot
+                await self.window_show_document_async(shown)
         return answer
 
 

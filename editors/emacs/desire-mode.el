@@ -9,6 +9,12 @@
 
 ;;; Code:
 
+;; eglot has no public names for a buffer's server and address
+(declare-function eglot--current-server-or-lose "eglot")
+(declare-function eglot--signal-textDocument/didChange "eglot")
+(declare-function eglot--TextDocumentIdentifier "eglot")
+(declare-function jsonrpc-async-request "jsonrpc")
+
 (defvar desire-mode-syntax-table
   (let ((table (make-syntax-table)))
     (modify-syntax-entry ?- ". 12" table)
@@ -40,11 +46,13 @@
 (defun desire-run ()
   "Run the program in this buffer as it stands; its graph opens in another window."
   (interactive)
-  (let ((answer (jsonrpc-request (eglot--current-server-or-lose) :workspace/executeCommand
-                                 (list :command "desire.run"
-                                       :arguments (vector (plist-get (eglot--TextDocumentIdentifier) :uri))))))
-    (seq-do #'find-file-other-window (plist-get answer :pictures))
-    answer))
+  (eglot--signal-textDocument/didChange)
+  (jsonrpc-async-request
+   (eglot--current-server-or-lose) :workspace/executeCommand
+   (list :command "desire.run" :arguments (vector (plist-get (eglot--TextDocumentIdentifier) :uri)))
+   :timeout nil
+   :success-fn (lambda (answer) (seq-do #'find-file-other-window (plist-get answer :pictures)))
+   :error-fn (lambda (reason) (message "desire: %s" (plist-get reason :message)))))
 
 (with-eval-after-load 'eglot
   (add-to-list 'eglot-server-programs '(desire-mode . ("desire" "lsp")))

@@ -22,6 +22,8 @@ class Client:
         self.heard: dict[str, queue.Queue] = {}
         self._lock = threading.Lock()
         self.capabilities = {}
+        self.agreement = {"result": {"success": True}}
+        """The answer to what the server asks."""
         threading.Thread(target=self._listen, daemon=True).start()
 
     def _listen(self):
@@ -35,8 +37,8 @@ class Client:
                 self._answers.put(message)
                 continue
             self._of(message["method"]).put(message["params"])
-            if "id" in message:  # a request of the server: agreed
-                self._send({"id": message["id"], "result": {"success": True}})
+            if "id" in message:
+                self._send({"id": message["id"], **self.agreement})
         self._answers.put({"id": None, "error": "the server has ended"})
 
     def _of(self, method):

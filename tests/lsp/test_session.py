@@ -102,6 +102,16 @@ def test_a_whole_session(session, tmp_path):
     assert "after the last run" in session.at("hover", uri, 7, 7)["contents"]["value"]
 
 
+def test_a_client_that_cannot_show_a_picture_after_all_has_its_answer(session):
+    """Neovim 0.7 says that it shows documents, and answers that it does not know the method."""
+    session.agreement = {"error": {"code": -32601, "message": "MethodNotFound"}}
+    session.open("untitled:plot", MENDED)
+    answer = session.request("workspace/executeCommand", command="desire.run", arguments=["untitled:plot"])
+    session.agreement = {"result": {"success": True}}
+    assert (answer["status"], len(answer["pictures"])) == ("done", 1)
+    session.told("window/showMessage")
+
+
 def test_a_program_that_fails_is_told_with_its_line(session, tmp_path):
     uri = (tmp_path / "bad.src").as_uri()
     session.open(uri, "write 'a'\nx = 1/0\n")
