@@ -54,4 +54,10 @@ FORMATS = (
         "An FMU (FMI 3.0), compiled here by cc: co-simulation and model exchange",
         "desire_tui.export.fmu.content",
     ),
+    ExportFormat(
+        "latex",
+        ".tex",
+        "The equations for a paper, with tables of parameters and initial values",
+        "desire_tui.export.latex.content",
+    ),
 )

@@ -1,0 +1,1 @@
+"""A program's equations as LaTeX, for a paper: AMS mathematics that LaTeX and KaTeX both know."""
