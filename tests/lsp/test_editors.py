@@ -18,8 +18,13 @@ GRAMMAR = json.loads((EDITORS / "vscode" / "syntaxes" / "desire.tmLanguage.json"
 def test_the_settings_start_the_server():
     assert "lsp" in main.commands
     package = json.loads((EDITORS / "vscode" / "package.json").read_text(encoding="utf-8"))
-    assert package["contributes"]["configuration"]["properties"]["desire.command"]["default"] == ["desire", "lsp"]
-    assert '{ "desire", "lsp" }' in (EDITORS / "neovim" / "ftplugin" / "desire.lua").read_text(encoding="utf-8")
+    assert package["contributes"]["configuration"]["properties"]["desire.command"]["default"] == [
+        "desire",
+        "lsp",
+    ]
+    assert '{ "desire", "lsp" }' in (EDITORS / "neovim" / "ftplugin" / "desire.lua").read_text(
+        encoding="utf-8"
+    )
     assert '"desire" "lsp"' in (EDITORS / "emacs" / "desire-mode.el").read_text(encoding="utf-8")
     helix = (EDITORS / "helix" / "languages.toml").read_text(encoding="utf-8")
     assert 'command = "desire"\nargs = ["lsp"]' in helix
