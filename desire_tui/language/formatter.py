@@ -65,8 +65,14 @@ class LaidOut(NamedTuple):
 def formatted(text: str) -> str:
     """Return a program in the usual layout. Never raises; a text in that layout is returned as it is."""
     row_end = "\r\n" if "\r\n" in text else "\n"
-    kept = (part.text for part in layout(text) if part.text is not None)
-    return "".join(line + row_end for part in kept for line in part.split("\n"))
+    kept = [part.text for part in layout(text) if part.text is not None]
+    whole = "".join(line + row_end for part in kept for line in part.split("\n"))
+    return whole if ends_whole(text) else whole.removesuffix(row_end)
+
+
+def ends_whole(text: str) -> bool:
+    """Whether a row end may follow a text: behind a last `_` it would join the next row."""
+    return text.endswith("\n") or not text.rstrip(BLANKS).endswith("_")
 
 
 def layout(text: str) -> list[LaidOut]:
@@ -161,7 +167,7 @@ def _laid_out(here: _Line) -> _Row:
     """Return a line in the usual layout."""
     text, level, is_readable = here
     bare = text.rstrip(BLANKS)
-    if is_header(text) or _JOINT.search(text):
+    if is_header(text) or _JOINT.search(text) or bare.endswith("_"):
         return _Row(text if "\n" in text else bare)  # `_` joins what stands at the rows' ends and beginnings
     skipped = numbered(text)
     number, line = text[:skipped].strip(BLANKS), text[skipped:]
@@ -171,9 +177,10 @@ def _laid_out(here: _Line) -> _Row:
     code = _code(line, scanned)
     if not _says_the_same(scanned, code):
         code = line[: _code_end(scanned)].strip(BLANKS)
-    margin = _margin(line) if level is None else " " * (WIDTH * level)
+    own = _margin(line)[1 if number else 0 :]  # behind a number one blank is no margin
+    margin = own if level is None else " " * (WIDTH * level)
     head = f"{number} " if number else ""
-    whole = head + margin + _shifted(code, len(margin) - len(_margin(line)))
+    whole = head + margin + _shifted(code, len(margin) - len(own))
     if not scanned.comments or scanned.comments[-1][0] < _code_end(scanned):
         return _Row(whole)
     start, end = scanned.comments[-1]

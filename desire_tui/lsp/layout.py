@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from lsprotocol import types
 
 from desire_tui.engine.source import Span
-from desire_tui.language.formatter import layout
+from desire_tui.language.formatter import ends_whole, layout
 from desire_tui.language.outline import folds, outline
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def formatting(snapshot: Snapshot, rows: types.Range | None = None) -> list[type
         elif part.text != "\n".join(lines[top:behind]):
             end = starts[behind - 1] + len(lines[behind - 1])
             edits.append(types.TextEdit(snapshot.places.range(Span(starts[top], end)), part.text))
-    if rows is None and lines[-1].strip():
+    if rows is None and lines[-1].strip() and ends_whole(text):
         last_place = snapshot.places.position(len(text))
         edits.append(types.TextEdit(types.Range(last_place, last_place), "\r\n" if "\r\n" in text else "\n"))
     return edits

@@ -97,6 +97,10 @@ def test_the_usual_layout():
         ("event - 1\n", "event - 1\n"),
         ("y = A[i + -1]\n", "y = A[i + -1]\n"),
         ("y = A[i +-1]\n", "y = A[i+-1]\n"),
+        ("3 x\n", "3 x\n"),
+        ("sh _", "sh _"),
+        ("x=1 _", "x=1 _"),
+        ("x[i + -1] = y[i+1] + z[ - k]\n", "x[i + -1] = y[i+1] + z[-k]\n"),
     ],
 )  # fmt: skip
 def test_a_form(before, after):
