@@ -10,6 +10,7 @@ from desire_tui.desktop.banded_compositor import BandedCompositor
 
 if TYPE_CHECKING:
     from textual import events
+    from textual.geometry import Size
     from textual.widget import Widget
 
 
@@ -57,6 +58,13 @@ class DeferredScreen(Screen[None]):
             self._update_timer.pause()
         else:
             super()._on_timer_update()
+
+    def _screen_resized(self, size: Size) -> None:
+        """Follow the terminal's size; held, lay nothing out again for the size that the screen has already."""
+        if self.is_held and self.size == size:
+            self._layout_required = True
+        else:
+            super()._screen_resized(size)
 
     def _on_screen_resume(self, event: events.ScreenResume) -> None:
         """Begin, or come back from a dialog: in the beginning all styles are new as they are."""

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 from rich.style import Style
+from textual.screen import Screen
 
 from desire_tui.engine.outputs.braille_canvas import Canvas
 from desire_tui.engine.outputs.text_frame import TextFrame
@@ -143,3 +144,20 @@ async def test_what_is_sent_at_once_leaves_nothing_else_out(program):
         screen._dirty_widgets.add(console)
         screen.send_only(*desk.app.graph.children)
         assert console in screen._dirty_widgets
+
+
+async def test_before_the_first_picture_all_is_laid_out_for_the_size_and_once_when_it_stands(
+    program, monkeypatch
+):
+    laid_out: list[bool] = []
+    lay_out = Screen._refresh_layout
+
+    def noted(screen: Screen[None], *arguments: object, **options: object) -> None:
+        if screen.is_held:
+            laid_out.append(True)
+        lay_out(screen, *arguments, **options)
+
+    monkeypatch.setattr(Screen, "_refresh_layout", noted)
+    async with desktop(program(OSCILLATOR)) as desk:
+        assert len(laid_out) == 2
+        assert desk.app.editor.front.size.width > 0
