@@ -60,7 +60,7 @@ class DeferredScreen(Screen[None]):
             super()._on_timer_update()
 
     def _screen_resized(self, size: Size) -> None:
-        """Follow the terminal's size; held, lay nothing out again for the size that the screen has already."""
+        """Follow the terminal's size; held, lay nothing out again for the size it has already."""
         if self.is_held and self.size == size:
             self._layout_required = True
         else:
