@@ -15,6 +15,7 @@ and the threads that compile it, is one `compiler_state`. The rooms, from text t
               `array_storage`    all others: tables of pieces, one loop for all models of a rule
     `lanes`   many runs in lock step, a lane of vector code for each: the passes and the loop once more
     `stiff`   rules 9 … 16: CVODE's callbacks and interval loop as native functions
+    `taylor`  rule 17: recurrences of Taylor coefficients, driven by `stiff`
     `equations` right-hand side and Jacobian as C functions of t and x, for other people's solvers
     `moments` models with events or delays: `runtime.moments` in the place of a step
     `plain_python` compiles readable Python to IR: `integration.bdf`, most of `stiff`, the learning rules
