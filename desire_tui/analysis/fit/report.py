@@ -146,27 +146,23 @@ def points(curves: Curves, pair: int) -> Series:
 
 
 def _charts(curves: Curves, fitted: Fitted, values: dict[str, float]) -> list[Chart]:
-    """Return curves with points and bands, and residuals over t."""
+    """Return residuals over t, and curves with points and bands: the last is what the desktop shows."""
     made = curves.drawn(values, _SAMPLES_LEAST)
-    charts = []
-    for pair, quantity in enumerate(curves.quantities):
+    rest, charts = [], []
+    for pair, (one, predicted) in enumerate(
+        zip(curves.data.measured, curves.at_measurements(values), strict=True)
+    ):
+        quantity = curves.quantities[pair]
+        sigma = fitted.problem.sigma[pair] if one.sigma is None else one.sigma
+        rest.append(Series(quantity, one.t, (one.y - predicted.values) / sigma, "points"))
         number = made.names.index(quantity)
         y, half = made.values[number], _band(made, number, fitted, values)
         series = [points(curves, pair), Series(quantity, made.t, y)]
         if np.isfinite(half).all():
-            series += [
-                Series(f"{LEVEL:.0%} of {quantity}", made.t, y + side * half, "dashes")
-                for side in (-1.0, 1.0)
-            ]
+            name = f"{LEVEL:.0%} of {quantity}"
+            series += [Series(name, made.t, y + side * half, "dashes") for side in (-1.0, 1.0)]
         charts.append(Chart(f"{quantity} and {curves.data.name}", "t", quantity, series))
-    rest = []
-    for pair, (one, predicted) in enumerate(
-        zip(curves.data.measured, curves.at_measurements(values), strict=True)
-    ):
-        sigma = fitted.problem.sigma[pair] if one.sigma is None else one.sigma
-        rest.append(Series(curves.quantities[pair], one.t, (one.y - predicted.values) / sigma, "points"))
-    charts.append(Chart(f"Residuals of {curves.data.name}", "t", "standard deviations", rest))
-    return charts
+    return [Chart(f"Residuals of {curves.data.name}", "t", "standard deviations", rest), *charts]
 
 
 def _band(made: SensitiveRun, number: int, fitted: Fitted, values: dict[str, float]) -> Floats:
