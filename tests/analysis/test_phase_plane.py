@@ -98,6 +98,9 @@ def test_it_follows_parameters_and_begins_orbits(subject):
     before = len(chart.series)
     begun = found.live.started(1.2, 0.1)
     assert len(begun.series) == before + 1
+    fresh = analyse(subject(COMPETITION), f"{SQUARE} without basins", unwatched)
+    kept = {s.name for s in fresh.live.started(0.5, 0.9).series}
+    assert {"run", "stable manifold"} <= kept, "an orbit at the same parameters leaves what is there"
     orbit = next(s for s in begun.series if len(s.x) and s.x[0] == pytest.approx(1.2))
     on_way = np.isfinite(orbit.x)
     assert (orbit.x[on_way][-1], orbit.y[on_way][-1]) == pytest.approx((2 / 3, 2 / 3), abs=0.05)

@@ -11,8 +11,9 @@ from desire_tui.analysis.phase_plane.picture import Picture
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from numpy.typing import NDArray
+
     from desire_tui.analysis.equilibria.search import Steady
-    from desire_tui.analysis.phase_plane.plane import Plane
     from desire_tui.engine.graph.chart import Chart
 
 
@@ -22,10 +23,11 @@ class LivePlane:
     To be called from one thread at a time.
     """
 
-    def __init__(self, plane: Plane, rests: Sequence[Steady] | None) -> None:
-        """`rests` are steady states that are drawn as they are; None: they are found in the plane."""
-        self._plane, self._rests = plane, rests
-        self._picture: Picture | None = None
+    def __init__(self, picture: Picture) -> None:
+        """Begin with a picture, to which orbits are added until parameters change."""
+        self._plane, self._picture = picture.plane, picture
+        self._rests: Sequence[Steady] | None = None if picture.plane.is_whole else picture.rests
+        """Steady states that are drawn as they are; None: they are found in the plane."""
         self._starts: list[tuple[float, float]] = []
 
     def moved(self, values: Mapping[str, float]) -> Chart:
@@ -35,16 +37,14 @@ class LivePlane:
         if self._rests is not None:
             picture.take_rests(self._rests)
         if self._starts:
-            picture.add_orbits(self._places())
+            picture.add_orbits(self._places(self._starts))
         return picture.chart()
 
     def started(self, x: float, y: float) -> Chart:
         """Return the chart with one more orbit, which begins at values of the two states."""
         self._starts.append((x, y))
-        picture = self._picture or Picture(self._plane)
-        return self.moved(picture.plane.p)
+        self._picture.add_orbits(self._places([(x, y)]))
+        return self._picture.chart()
 
-    def _places(self) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-        plane = self._plane
-        found = (np.array(self._starts).T - plane.corner) / plane.extent
-        return np.asarray(found).reshape(2, -1)
+    def _places(self, starts: Sequence[tuple[float, float]]) -> NDArray[np.float64]:
+        return np.asarray((np.array(starts).T - self._plane.corner) / self._plane.extent)

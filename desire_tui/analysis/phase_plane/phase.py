@@ -69,7 +69,7 @@ def analyse(subject: Subject, request: str, progress: Progress) -> Result:
         notes.append(f"the run ended early: {travelled.problem}")
     result = _result(subject, picture, notes)
     result.is_partial = is_partial
-    result.live = LivePlane(plane, picture.rests if not plane.is_whole else None)
+    result.live = LivePlane(picture)
     return result
 
 
