@@ -116,6 +116,11 @@ def test_what_cannot_be_converted_is_named_with_its_line_and_the_reason(line, re
     assert errors[0][2].endswith(f"is not converted: {reason}")
 
 
+def test_a_network_whose_table_is_not_converted():
+    errors = said("x'=k(0)\ntable w none.tab\nspecial k=conv(even,1,0,w,x)\n")
+    assert [(code, line) for code, line, _ in errors] == [(560, 2), (560, 3)]
+
+
 def test_quantities_that_wait_for_each_other():
     assert "these wait for each other: a → b → a" in said("x'=a\na=b\nb=a\n")[0][2]
     with pytest.raises(DesireError) as error:

@@ -47,6 +47,8 @@ def _network(name: str, function: str, words: list[str], one: Declaration, build
     for table in tables:
         if building.roles.get(table) != "table":
             raise NotConvertibleError(f"'{table}' is no table")
+        if building.spelling[table] not in {made.name for made in building.model.tables}:
+            raise NotConvertibleError(f"its table '{table}' is not converted")
     sources = tuple(building.spelling[building.places.shifted(words[-1], k)] for k in range(columns))
     kinds = {"e": "even", "p": "periodic", "0": "zero"} if function == "conv" else {kind[:1]: kind}
     if kind[:1] not in kinds:
