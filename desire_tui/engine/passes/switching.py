@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action, SimpleAction, Where
 
 _SWITCHES = JUMPS | KINKS
-_WORDS = (*sorted(JUMPS | KINKS), "func1", "term", "if", "<", ">")
+_WORDS = (*sorted(JUMPS | KINKS), "func1", "term", "if", "<", ">", "event")
 """A program whose text holds none of these switches nowhere: long ones need not be searched further."""
 
 
@@ -42,7 +42,7 @@ def switching(segment: Segment, allocate: Callable[[int], int]) -> tuple[Segment
     `allocate(count)` gives the first of `count` slots.
     """
     text = segment.source.text
-    if not any(word in text for word in _WORDS) or not _may_switch(segment):
+    if not any(word in text for word in _WORDS) or not (segment.events or _may_switch(segment)):
         return segment, None
     finder = _Finder(segment)
     room = finder.room()
@@ -85,7 +85,11 @@ class _Finder:
             self.states.add(given.slot, given.count)
 
     def room(self) -> int:
-        """Count the modes, and collect the clocks."""
+        """Count the modes, and collect the clocks, events whose expression depends on t alone among them."""
+        for event in self.segment.events:
+            if event.condition is not None and self.dependences.of(event.condition) is Dependence.TIME:
+                kink = Op("lim", (event.condition,))  # a jump only where the block makes one
+                self.clocks.append((kink, event.where))
         return self._room(self.segment.body, in_step=False)
 
     def _room(self, actions: Iterable[Action], *, in_step: bool) -> int:

@@ -95,7 +95,7 @@ class StiffReferenceModel(ReferenceModel):
         self._acts = acts_at_steps(segment)
         self._callbacks = PythonCallbacks(self)
         way = self._plan(rule)
-        natives = replace(self._callbacks.natives, own=is_own(rule, self.order, way))
+        natives = replace(self._callbacks.natives, own=self._is_own(rule, way))
         self.system = self._callbacks.system = StiffSystem(
             rule, way, values.address, self.ranges, ModelFunctions(), natives, layout=self._series
         )  # fmt: skip
@@ -106,6 +106,10 @@ class StiffReferenceModel(ReferenceModel):
             assert program is not None
             self._at_start = self._others.compile(program.values_pass)
             self.system.solver.connect(self._callbacks.expand)
+
+    def _is_own(self, rule: int, way: SolverPlan) -> bool:
+        """Whether our own BDF makes the steps."""
+        return is_own(rule, self.order, way)
 
     def _plan(self, rule: int) -> SolverPlan:
         segment = self._segment
