@@ -56,7 +56,7 @@ class StiffMomentModel(StiffReferenceModel):
             self.switches.remember(stepper.moments)
 
     def _is_own(self, rule: int, way: SolverPlan) -> bool:
-        """Only where there is no CVODE: as Python text our BDF makes the same steps in three times the time."""
+        """Only where there is no CVODE: as Python our BDF makes the same steps in three times the time."""
         return not is_there() and super()._is_own(rule, way)
 
     def advance(self, memory: RunMemory) -> Ended:
