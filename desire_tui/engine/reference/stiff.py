@@ -26,6 +26,7 @@ from desire_tui.engine.integration.problem import (
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.sliding import end_slide, follow_slide
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
+from desire_tui.engine.integration.switching import watch as watching
 from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.integration.tableaus import EULER
@@ -57,6 +58,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.taylor.memory import Taylor
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.passes.series.nodes import SeriesProgram
+    from desire_tui.engine.reference.switches import Watching
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -66,7 +68,7 @@ if TYPE_CHECKING:
 class StiffReferenceModel(ReferenceModel):
     """A segment under a multistep rule. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
 
-    def __init__(self, segment: Segment, rule: int, values: Values) -> None:
+    def __init__(self, segment: Segment, rule: int, values: Values, watch: Watching = watching) -> None:
         if rule_numbered(rule).corrector == "jacobian" and segment.jacobian is not None:
             checked_array(segment, values)
         self._given = segment.jacobian and (segment.jacobian.slot, segment.order)
@@ -79,7 +81,7 @@ class StiffReferenceModel(ReferenceModel):
             self._series = ReferenceSeries(program, values.data)
         else:
             segment, found = switching(segment, values.room)
-        switches = None if found is None else Switches(found, segment, values, self._state_at)
+        switches = None if found is None else Switches(found, segment, values, self._state_at, watch)
         super().__init__(segment, EULER, values, numbers, vital, switches)
         inputs = changed_inputs(segment)
         self._inputs = np.array(inputs, dtype=np.int64)

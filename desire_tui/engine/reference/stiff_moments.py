@@ -13,6 +13,7 @@ from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.integration.problem import STUCK_AT_EDGE_FLAG, STUCK_FLAG, STUCK_MOST
 from desire_tui.engine.integration.sundials.library import is_there, libraries
 from desire_tui.engine.integration.sundials.signatures import TSTOP_RETURN
+from desire_tui.engine.integration.switching import watch as watching
 from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.integration.taylor.solver import TaylorSolver
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.plan import SolverPlan
     from desire_tui.engine.integration.sundials.solver import Solver
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.reference.switches import Watching
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -47,8 +49,8 @@ _SAME = 1e-10
 class StiffMomentModel(StiffReferenceModel):
     """A segment with events or delays under a multistep rule."""
 
-    def __init__(self, segment: Segment, rule: int, values: Values) -> None:
-        super().__init__(segment, rule, values)
+    def __init__(self, segment: Segment, rule: int, values: Values, watch: Watching = watching) -> None:
+        super().__init__(segment, rule, values, watch)
         self._stepper = stepper = Stepper(self._segment, EULER, values)
         self.statements.histories.append(stepper.moments)
         connect(stepper, self._segment, self._others, self._stage)
