@@ -243,3 +243,13 @@ def test_bodies_attract_each_other(backend):
     text = f"{script}\nTMAX = 1 | DT = 0.01 | NN = 2\ndrun\nDYNAMIC\n{body}\ndispt x0, y0, x3\n"
     found = made(text, 0.0, backend).rows[-1, 1:]
     assert found == pytest.approx([np.cos(speed), np.sin(speed), np.cos(speed + tau * 3 / n)], abs=1e-14)
+
+
+@both
+def test_derivatives_in_both_branches(backend):
+    """The branches' derivatives are handed on by a number of their own, which each pass sets."""
+    text = (
+        "x = 0 | TMAX = 3 | DT = 0.1 | NN = 2\ndrun\nDYNAMIC\n"
+        "if 1.25 - t\nd/dt x = 1\nelse\nd/dt x = 2*t\nend if\ndispt x\n"
+    )
+    assert made(text, 1e-12, backend).rows[-1, 1] == pytest.approx(1.25 + 9 - 1.25**2, rel=1e-12)

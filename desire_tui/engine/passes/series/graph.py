@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Vec
 from desire_tui.engine.lowered.statements import DotTerm, Set, SetDot, SetVec
 from desire_tui.engine.passes.series.nodes import Constant, Series
+from desire_tui.engine.passes.slot_set import SlotSet
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
@@ -16,6 +17,15 @@ if TYPE_CHECKING:
     from desire_tui.engine.passes.series.nodes import Kind, Operand
 
 _NO_SLOT = -1
+
+
+class NoSeriesError(Exception):
+    """A statement has no Taylor series: `where` it is, `what` in it has none (a key of wording)."""
+
+    def __init__(self, where: Where, what: str) -> None:
+        super().__init__(what)
+        self.where = where
+        self.what = what
 
 
 class Graph:
@@ -31,8 +41,18 @@ class Graph:
         self.nodes: list[Series] = []
         self.values_pass: list[Action] = []
         self.where = where
+        self.remembered = SlotSet()
+        """What some pass may read before it sets it: whoever reads it so has no series."""
 
     # ------------------------------------------------------------------ constants
+
+    def outside(self, slot: int, count: int | None) -> Constant:
+        """Return what the pass has not set. NoSeriesError: it is what the pass before left there."""
+        if self.remembered.overlaps(slot, count or 1):
+            raise NoSeriesError(self.where, "remembers")
+        if count is None:
+            return self.constant(("load", slot), Load(slot), None)
+        return self.constant(("array", slot, count), Vec(slot, count), count)
 
     def number(self, value: float) -> Constant:
         """Return a number."""

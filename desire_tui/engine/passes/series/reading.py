@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered.expressions import Load, Vec
-
 if TYPE_CHECKING:
     from desire_tui.engine.passes.series.graph import Graph
     from desire_tui.engine.passes.series.nodes import Operand
@@ -52,14 +50,14 @@ class Slots:
         for first, operand, count in reversed(self._arrays):
             if first <= slot < first + count:
                 return operand, 0 if operand.count is None else slot - first
-        return self._graph.constant(("load", slot), Load(slot), None), 0
+        return self._graph.outside(slot, None), 0
 
     def array(self, slot: int, count: int) -> Operand:
         """Return what stands in a stretch of slots."""
         touching = [a for a in self._arrays if a[0] < slot + count and slot < a[0] + a[2]]
         inner = self._numbers and any(i in self._numbers for i in range(slot, slot + count))
         if not touching and not inner:
-            return self._graph.constant(("array", slot, count), Vec(slot, count), count)
+            return self._graph.outside(slot, count)
         first, operand, length = touching[-1] if touching else (0, None, 0)
         if operand is not None and (first, length) == (slot, count) and not inner:
             return operand

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NoReturn, assert_never
 
 from desire_tui.engine.cancellation import cancellation_point
-from desire_tui.engine.lowered.effects import count_draws, expressions, reads_replaced, role
+from desire_tui.engine.lowered.effects import count_draws, expressions, reads_replaced, role, writes
 from desire_tui.engine.lowered.expressions import (
     Const,
     Load,
@@ -29,7 +29,7 @@ from desire_tui.engine.lowered.statements import (
 )
 from desire_tui.engine.lowered.walk import simple_actions
 from desire_tui.engine.passes.series import functions
-from desire_tui.engine.passes.series.graph import Graph, widest
+from desire_tui.engine.passes.series.graph import Graph, NoSeriesError, widest
 from desire_tui.engine.passes.series.grouping import grouped
 from desire_tui.engine.passes.series.nodes import Constant, SeriesProgram, StatePiece
 from desire_tui.engine.passes.series.reading import Slots
@@ -42,18 +42,9 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.lowered.statements import Action, Assignment, Where
+    from desire_tui.engine.lowered.statements import Action, Assignment
     from desire_tui.engine.lowered.switching import Switching
     from desire_tui.engine.passes.series.nodes import Operand, Series
-
-
-class NoSeriesError(Exception):
-    """A statement has no Taylor series: `where` it is, `what` in it has none (a key of wording)."""
-
-    def __init__(self, where: Where, what: str) -> None:
-        super().__init__(what)
-        self.where = where
-        self.what = what
 
 
 _TWO = {
@@ -81,6 +72,10 @@ class _Translator:
         self._actions = derivative_slice(segment)
         self._where = segment.states[0].where
         self._graph = Graph(allocate, self._where)
+        for action in simple_actions(self._actions):
+            if role(action) == "effect":
+                for slot, count in writes(action):
+                    self._graph.remembered.add(slot, count)
         self._slots = Slots(self._graph)
         self._made: dict[tuple[object, ...], Operand] = {}
         self._known: dict[int, tuple[Value, Operand]] = {}
@@ -169,8 +164,6 @@ class _Translator:
             case Set() | SetVec() | SetMat() | SetDot():
                 if count_draws(*expressions(action)):
                     self._refuse("noise")
-                if role(action) != "definition":
-                    self._refuse("remembers")
                 if reads_replaced(action):
                     self._refuse("in-place")
                 self._assign(action)
