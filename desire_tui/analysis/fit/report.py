@@ -159,8 +159,11 @@ def _charts(curves: Curves, fitted: Fitted, values: dict[str, float]) -> list[Ch
         y, half = made.values[number], _band(made, number, fitted, values)
         series = [points(curves, pair), Series(quantity, made.t, y)]
         if np.isfinite(half).all():
-            name = f"{LEVEL:.0%} of {quantity}"
-            series += [Series(name, made.t, y + side * half, "dashes") for side in (-1.0, 1.0)]
+            gap = [np.nan]
+            both = np.concatenate([y - half, gap, y + half])
+            series.append(
+                Series(f"{LEVEL:.0%} of {quantity}", np.concatenate([made.t, gap, made.t]), both, "dashes")
+            )
         charts.append(Chart(f"{quantity} and {curves.data.name}", "t", quantity, series))
     return [Chart(f"Residuals of {curves.data.name}", "t", "standard deviations", rest), *charts]
 
