@@ -86,3 +86,17 @@ def test_ten_thousand_edits_at_once_cost_no_more_than_one_each():
     document.change(edits)
     assert document.snapshot.source.text == "".join(f"d/dt x{i} = -rate*x{i}\n" for i in range(count))
     assert document.snapshot.places.range(Span(0, 4)).end == types.Position(0, 4)
+
+
+def test_problems_of_a_text_that_was_edited_since_are_not_told(monkeypatch):
+    from desire_tui.lsp.server import DesireServer
+
+    server, told = DesireServer(), []
+    monkeypatch.setattr(server, "text_document_publish_diagnostics", told.append)
+    document = server.documents["untitled:a"] = Document("untitled:a", "x = 1\n", "utf-16", 1)
+    document.change([types.TextDocumentContentChangeWholeDocument("y = 2\n")], 2)
+    server._publish(document.number, 0, ())
+    server._publish(document.number + 1, 1, ())
+    assert told == []
+    server._publish(document.number, 1, ())
+    assert [one.version for one in told] == [2]
