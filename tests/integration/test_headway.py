@@ -17,7 +17,8 @@ END = 100.0
 def looked_at(times, rule=9, rejected=0.0):
     """What is found of a run that has come to these times, a span of steps between."""
     run, found = Headway(rule), None
-    for number, t in enumerate(times):
+    assert not run.is_due(SPAN_STEPS - 1)
+    for number, t in enumerate(times, 1):
         steps = number * SPAN_STEPS
         assert run.is_due(steps)
         found = found or run.look(steps, int(rejected * steps), t, END - t, np.array([1.0, t, -t]))

@@ -1,6 +1,6 @@
 """Whether a run gets anywhere: looked at whenever native code comes back, by steps and t, never by a clock.
 
-A run that would go on for days is ended with what can be said of it. There are two signs, each over four
+A run that would go on for days is ended with what can be said of it; short ones are not looked at. There are two signs, each over four
 spans of half a million steps or more: at the pace of the last span, which is no better than that of the
 first, what is left of the run would take 10¹² steps; or steps become shorter from span to span, so that t
 comes to an end of its own long before the run's (the spans' lengths as a geometric series).
@@ -54,7 +54,7 @@ class Headway:
 
     def is_due(self, steps: int) -> bool:
         """Whether so many steps have been made since the last look that `look` has something to see."""
-        return not self._marks or steps - self._marks[-1].steps >= SPAN_STEPS
+        return steps - (self._marks[-1].steps if self._marks else 0) >= SPAN_STEPS
 
     def look(
         self, steps: int, rejected: int, t: float, left: float, states: NDArray[np.float64]
