@@ -1,9 +1,9 @@
 """Whether a run gets anywhere: looked at whenever native code comes back, by steps and t, never by a clock.
 
-A run that would go on for days is ended with what can be said of it; short ones are not looked at. There are two signs, each over four
-spans of half a million steps or more: at the pace of the last span, which is no better than that of the
-first, what is left of the run would take 10¹² steps; or steps become shorter from span to span, so that t
-comes to an end of its own long before the run's (the spans' lengths as a geometric series).
+A run that would go on for days is ended with what can be said of it; short ones are not looked at. There are
+two signs, each over four spans of half a million steps or more: at the pace of the last span, which is no
+better than that of the first, what is left of the run would take 10¹² steps; or steps become shorter from
+span to span, so that t comes to an end of its own long before the run's (the spans as a geometric series).
 """
 
 from __future__ import annotations
