@@ -9,10 +9,11 @@ from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.ir.text import IrText, literal
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
+from desire_tui.engine.codegen.taylor.arrays import scattered
 from desire_tui.engine.codegen.taylor.frame import Frame
 from desire_tui.engine.codegen.taylor.scalar import ScalarRecurrences
 from desire_tui.engine.codegen.taylor.sums import Sums
-from desire_tui.engine.codegen.taylor.vector import VectorRecurrences, scattered
+from desire_tui.engine.codegen.taylor.vector import VectorRecurrences
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@
     `graph`       makes them, each once
     `functions`   the library's functions as such nodes
     `reading`     which series stands in a slot where a statement reads it
-    `translation` statements and expressions to nodes
+    `expressions` expressions to nodes
+    `translation` statements to nodes
     `grouping`    numbers' series that are alike, put together as arrays
     `pieces`      kinks and tables as choices between smooth pieces, so that switches are located
 
