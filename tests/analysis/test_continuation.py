@@ -186,6 +186,20 @@ def test_van_der_pol_has_its_published_period():
     assert other == pytest.approx(8.59695e-4, rel=1e-5)
 
 
+def test_a_centre_ends_its_cycles(subject):
+    """x'' = mu (1 - x^2) x' - x: at mu = 0 every circle is an orbit, the branch of cycles stands upright."""
+    text = """mu = 1 | x = 2 | y = 0 | TMAX = 30 | DT = 0.01 | NN = 1001
+drun
+DYNAMIC
+d/dt x = y
+d/dt y = mu*(1 - x*x)*y - x
+dispxy x, y
+"""
+    found = analyse(subject(text), "mu in [-1, 3]", unwatched)
+    assert any("it is a centre" in note for note in found.notes)
+    assert found.tables[1].columns["ends"][1] == "begins, runs off"
+
+
 @pytest.mark.parametrize(("s", "stable"), [(-1.0, True), (1.0, False)])
 def test_cycles_of_the_normal_form_are_circles(s, stable):
     """Radius √(mu/-s), period 2π/w, multiplier exp(-2 mu T)."""

@@ -28,6 +28,8 @@ _LONG, _LONGEST = 15.0, 500.0
 """Periods so many times that at the start are homoclinic: if the parameter stands still, or in any case."""
 _STANDS = 1e-8
 _SMALL = 0.01
+_LARGE = 100.0
+"""A cycle so many times larger than what the run shows of the states is of no interest."""
 _ON_CIRCLE = 1e-4
 _BORN_AT = 0.02
 
@@ -97,7 +99,11 @@ class CyclesTracer:
         was_large = hopf is None
         end: End = ""
         for step in walk(
-            curve, first, points_most=POINTS_MOST, is_far=lambda p: _is_homoclinic(p, period), step_most=_STEP
+            curve,
+            first,
+            points_most=POINTS_MOST,
+            step_most=_STEP,
+            is_far=lambda p: amplitude(p) > _LARGE or _is_homoclinic(p, period),
         ):
             for name, place in step.zeros:
                 if not _is_event(name, place.facts.multipliers):
@@ -120,6 +126,13 @@ class CyclesTracer:
             if not end and not self._go_on(f"cycles of {branch.origin}, {curve.over.name} = {value:.5g}"):
                 self._diagram.is_partial = True
                 return "stopped"
+        if end == "far" and amplitude(branch.points[-1]) > _LARGE:
+            value = curve.over.value(float(branch.points[-1].u[-1]))
+            self._diagram.notes.append(
+                f"the cycles of {branch.origin} grow without bound near {curve.over.name} = {value:.8g}; where "
+                "all have the same parameter, it is a centre: every orbit there is a cycle"
+            )
+            return "far"
         if end == "far":
             value = curve.over.value(float(branch.points[-1].u[-1]))
             self._diagram.notes.append(
