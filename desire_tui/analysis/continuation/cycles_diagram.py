@@ -129,8 +129,8 @@ class CyclesTracer:
         if end == "far" and amplitude(branch.points[-1]) > _LARGE:
             value = curve.over.value(float(branch.points[-1].u[-1]))
             self._diagram.notes.append(
-                f"the cycles of {branch.origin} grow without bound near {curve.over.name} = {value:.8g}; where "
-                "all have the same parameter, it is a centre: every orbit there is a cycle"
+                f"the cycles of {branch.origin} grow without bound near {curve.over.name} = {value:.8g}; "
+                "where all have the same parameter, it is a centre: every orbit there is a cycle"
             )
             return "far"
         if end == "far":
