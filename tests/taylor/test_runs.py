@@ -253,3 +253,13 @@ def test_derivatives_in_both_branches(backend):
         "if 1.25 - t\nd/dt x = 1\nelse\nd/dt x = 2*t\nend if\ndispt x\n"
     )
     assert made(text, 1e-12, backend).rows[-1, 1] == pytest.approx(1.25 + 9 - 1.25**2, rel=1e-12)
+
+
+@both
+def test_a_short_visit_sets_off_an_event(backend):
+    """cos t is above 0.999 for 0.09 around each whole turn: in the middle of a step of 0.9."""
+    text = (
+        "x = 1 | v = 0 | n = 0 | TMAX = 20 | DT = 0.01 | NN = 2\ndrun\nDYNAMIC\n"
+        "d/dt x = v\nd/dt v = -x\ndispt x\nevent x - 0.999\nn = n + 1\n"
+    )
+    assert made(text, 0.0, backend).scalar("n") == 3

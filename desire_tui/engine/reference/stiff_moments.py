@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 
 _PLACES = 4
 """A step is looked at in so many places, its end included; histories have as many knots in it."""
+_PLACES_OF_SERIES = 64
+"""The same for events under rule 17, whose steps are many times as long."""
 _SAME = 1e-10
 """Part of COMINT by which two moments are the same."""
 
@@ -89,7 +91,7 @@ class StiffMomentModel(StiffReferenceModel):
                 return ended
             located = self._locate(t0)
             if self.switches is not None and cells[T] - t0 > slack:
-                if self.switches.look_back(t0, cells[T]) > 0:
+                if self.switches.look_back(t0, cells[T], self._taylor()) > 0:
                     located = True
                     if m.condition_count:
                         any_rises(m)
@@ -185,8 +187,9 @@ class StiffMomentModel(StiffReferenceModel):
         if any(m.in_doubt[i] for i in range(m.count)):
             self._decide(t0, t1)
         left, right = t0, t1
-        for k in range(1, _PLACES + 1):
-            right = t1 if k == _PLACES else t0 + (t1 - t0) * k / _PLACES
+        places = _PLACES_OF_SERIES if isinstance(self.system.solver, TaylorSolver) else _PLACES
+        for k in range(1, places + 1):
+            right = t1 if k == places else t0 + (t1 - t0) * k / places
             self._place(right, self._between(right))
             if any_rises(m):
                 break
