@@ -38,7 +38,7 @@ class Analysis:
 _OVER = "QUANTITY over NAME [= START] [in [LOW, HIGH]] [log], … [by local|global|cma] [runs N]"
 ANALYSES = (
     Analysis(
-        "fit", "Fit", "Parameters and initial values that make curves agree with measurements",
+        "fit", "Fit to data", "Parameters and initial values that make curves agree with measurements",
         "NAME [= START] [in [LOW, HIGH]] [log], … to QUANTITY [~ COLUMN] [weights SIGMA], … [from 'FILE']",
         "k, x in [0, 10] to y ~ position from 'measured.csv'", "desire_tui.analysis.fit.analysis",
     ),
