@@ -91,6 +91,20 @@ def test_what_counts_is_for_co_simulation_alone(exported):
     assert found["m"].tolist() == [0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5]
 
 
+def test_a_stiff_model_is_exchanged_whatever_its_rule(exported):
+    """d/dt y = -1000 (y - cos t) - sin t keeps to cos t; the program's rule 14 is not in C."""
+    path = exported("""y = 1 | TMAX = 3 | DT = 0.001 | NN = 31 | irule 14 | ERMAX = 1e-6
+drun
+DYNAMIC
+d/dt y = -1000*(y - cos(t)) - sin(t)
+dispt y
+""")
+    assert validate_fmu(path) == []
+    assert fmpy.read_model_description(path).coSimulation is None
+    found = fmpy.simulate_fmu(path, stop_time=3.0, relative_tolerance=1e-8)
+    assert found["y"] == pytest.approx(np.cos(found["time"]), abs=1e-5)
+
+
 def test_source_and_description_are_in_it(exported):
     with ZipFile(exported(SPRING.format(rule=3))) as archive:
         names = archive.namelist()

@@ -6,6 +6,7 @@ import platform
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from hashlib import blake2b
 from importlib.resources import files
 from io import BytesIO
@@ -17,15 +18,18 @@ from zipfile import ZIP_DEFLATED, ZipFile
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, closest
 from desire_tui.export.c.model_file import ModelFile
 from desire_tui.export.fmu.description import Description
-from desire_tui.export.fmu.hooks import hooks
+from desire_tui.export.fmu.hooks import hooks, is_continuous
 from desire_tui.export.run import exported_run
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from desire_tui.export.formats import Export
+    from desire_tui.export.run import ExportedRun
 
 _FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden")
+_ANY_RULE = 3
+"""Stands in the source where nothing steps by it."""
 _NOT_C = re.compile(r"\W", re.ASCII)
 _MACHINES = {"AMD64": "x86_64", "arm64": "aarch64"}
 _BUILD = """<?xml version="1.0" encoding="UTF-8"?>
@@ -47,7 +51,7 @@ def content(export: Export) -> bytes:
     """
     run = exported_run(export)
     _check_inputs(export, run.parameters)
-    file = ModelFile(run)
+    file, steps = _file(run)
     text = file.text()
     token = blake2b(text.encode(), digest_size=16).hexdigest()
     stem = Path(export.source.file_name).stem
@@ -56,7 +60,7 @@ def content(export: Export) -> bytes:
         identifier = f"model_{identifier}"
     model = f"{text}\n{hooks(file, token)}"
     glue = (files(__package__) / "glue.c").read_text("utf-8")
-    description = Description(file, identifier, token, export.inputs).xml()
+    description = Description(file, identifier, token, export.inputs, steps=steps).xml()
     archive = BytesIO()
     with ZipFile(archive, "w", ZIP_DEFLATED) as packed:
         packed.writestr("modelDescription.xml", description)
@@ -65,6 +69,20 @@ def content(export: Export) -> bytes:
         packed.writestr("sources/glue.c", glue)
         packed.writestr("sources/buildDescription.xml", _BUILD.format(identifier=identifier))
     return archive.getvalue()
+
+
+def _file(run: ExportedRun) -> tuple[ModelFile, bool]:
+    """Return the C file's parts, and whether it steps by the program's own rule.
+
+    A rule that C does not have here (9 to 17, a switch that is located) leaves model exchange, which needs
+    none. DesireError 530.
+    """
+    try:
+        return ModelFile(run), True
+    except DesireError:
+        if not is_continuous(run.segment):
+            raise
+        return ModelFile(replace(run, plan=replace(run.plan, rule=_ANY_RULE))), False
 
 
 def _check_inputs(export: Export, known: Mapping[str, float]) -> None:

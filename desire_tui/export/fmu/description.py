@@ -20,9 +20,15 @@ DERIVATIVES = 1_000_000_000
 
 
 class Description:
-    """The file's variables, in the order in which importers show them. Inputs have been checked."""
+    """The file's variables, in the order in which importers show them. Inputs have been checked.
 
-    def __init__(self, file: ModelFile, identifier: str, token: str, inputs: Sequence[str]) -> None:
+    `steps`: it steps by the program's rule, and so offers co-simulation.
+    """
+
+    def __init__(
+        self, file: ModelFile, identifier: str, token: str, inputs: Sequence[str], *, steps: bool
+    ) -> None:
+        self._steps = steps
         self._file, self._identifier, self._token, self._inputs = file, identifier, token, inputs
         self._variables = ET.Element("ModelVariables")
         self._structure = ET.Element("ModelStructure")
@@ -39,7 +45,8 @@ class Description:
         once = {"modelIdentifier": self._identifier, "canBeInstantiatedOnlyOncePerProcess": "true"}
         if is_continuous(file.run.segment):
             ET.SubElement(root, "ModelExchange", once)
-        ET.SubElement(root, "CoSimulation", {**once, "canHandleVariableCommunicationStepSize": "true"})
+        if self._steps:
+            ET.SubElement(root, "CoSimulation", {**once, "canHandleVariableCommunicationStepSize": "true"})
         ET.SubElement(root, "DefaultExperiment", {
             "startTime": repr(plan.t0), "stopTime": repr(plan.t0 + plan.t_max), "stepSize": repr(plan.comint),
         })  # fmt: skip
