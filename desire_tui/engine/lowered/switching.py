@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action, Where
 
 
-JUMPS = frozenset(("swtch", "sgn", "comp", "deadc", "rect", "round", "trnc"))
+JUMPS = frozenset(("swtch", "sgn", "comp", "deadc", "rect", "round", "trnc", "floor"))
 KINKS = frozenset(("abs", "lim", "sat", "SAT", "deadz", "tri", "max", "min"))
 """Operations whose values, whose slopes jump."""
 _BOUNDED = JUMPS | KINKS | frozenset((
@@ -38,11 +38,13 @@ class Threshold(IntEnum):
     """Half-way between whole numbers."""
     WHOLE = 3
     """At whole numbers but 0."""
+    EVERY_WHOLE = 4
+    """At whole numbers."""
 
 
 THRESHOLDS = {
     "swtch": Threshold.ZERO, "sgn": Threshold.ZERO, "deadc": Threshold.UNIT, "rect": Threshold.UNIT,
-    "round": Threshold.HALF, "trnc": Threshold.WHOLE,
+    "round": Threshold.HALF, "trnc": Threshold.WHOLE, "floor": Threshold.EVERY_WHOLE,
 }  # fmt: skip
 """Of the operations that modes are computed by."""
 

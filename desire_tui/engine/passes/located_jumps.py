@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action, SimpleAction, Where
     from desire_tui.engine.passes.tangents import Tangents
 
-_JUMPS = JUMPS | {"floor"}
 _ONCE = Const(1e300)
 _EDGE = Const(1e-12)
 _HALF, _MINUS = Const(0.5), Const(-1.0)
@@ -173,7 +172,7 @@ class _Finder:
         if not isinstance(value, Op):
             return value
         args = tuple(self._value(argument, where, under=under) for argument in value.args)
-        if value.name not in _JUMPS or not self._moves(value.args[0]):
+        if value.name not in JUMPS or not self._moves(value.args[0]):
             same = all(new is old for new, old in zip(args, value.args, strict=True))
             return value if same else Op(value.name, args)
         if under or not is_scalar(value.args[0]):

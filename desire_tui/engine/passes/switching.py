@@ -32,7 +32,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action, SimpleAction, Where
 
 _SWITCHES = JUMPS | KINKS
-_WORDS = (*sorted(JUMPS | KINKS), "func1", "term", "if", "<", ">", "event")
+_COMPOSED = ("ceil", "heav", "mod")
+"""Functions that `lowering.operators` makes of jumps."""
+_WORDS = (*sorted(JUMPS | KINKS), *_COMPOSED, "func1", "term", "if", "<", ">", "event")
 """A program whose text holds none of these switches nowhere: long ones need not be searched further."""
 
 

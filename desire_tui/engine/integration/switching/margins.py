@@ -69,6 +69,8 @@ def distance(threshold: int, x: float) -> float:
         return abs(abs(x) - 1.0)
     if threshold == Threshold.HALF:
         return abs(x - floor(x) - 0.5)
+    if threshold == Threshold.EVERY_WHOLE:
+        return min(x - floor(x), floor(x) + 1.0 - x)
     below = floor(abs(x))
     above = below + 1.0 - abs(x)
     return above if below == 0.0 else min(above, abs(x) - below)

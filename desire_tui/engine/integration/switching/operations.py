@@ -46,6 +46,7 @@ BY_NAME = {
     "neg": Operation.NEG, "sin": Operation.SIN, "cos": Operation.COS, "exp": Operation.EXP,
     "ln": Operation.LN, "sqrt": Operation.SQRT, "atan": Operation.ATAN, "tanh": Operation.TANH,
     "swtch": Operation.SWTCH, "sgn": Operation.SGN, "round": Operation.ROUND, "trnc": Operation.TRNC,
+    "floor": Operation.FLOOR,
     "deadc": Operation.DEADC, "rect": Operation.RECT, "lim": Operation.LIM, "abs": Operation.ABS,
     "sat": Operation.SAT, "SAT": Operation.SAT_ABOVE, "deadz": Operation.DEADZ, "max": Operation.MAX,
     "min": Operation.MIN,

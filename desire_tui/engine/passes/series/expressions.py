@@ -33,7 +33,7 @@ _TWO = {
     "add": functions.add, "sub": functions.sub, "mul": functions.mul, "div": functions.div,
     "pow": functions.power, "atan2": functions.angle,
 }  # fmt: skip
-_HELD = frozenset(("swtch", "sgn", "deadc", "rect", "round", "trnc"))
+_HELD = frozenset(("swtch", "sgn", "deadc", "rect", "round", "trnc", "floor"))
 """What stays as it is until the next switch, where a step ends."""
 
 
