@@ -145,8 +145,8 @@ COMMANDS = (
     # ---------------------------------------------------------------------------------------- after the curve
     *(Command(f"analysis.{one.name}", one.title, one.summary, words=(one.name,), argument=one.example)
       for one in ANALYSES),
-    Command("analysis.over", "Continue over a slider",
-            "Follow steady states and cycles over the range of the slider in focus: c there"),
+    Command("analysis.over", "Continue over its range",
+            "Follow steady states and cycles over the range of the parameter in focus: c there"),
     Command("analysis.orbit", "Start an orbit", "In the phase plane shown, from a place; a click does it too",
             words=("orbit",), argument="0.5, 1"),
     Command("analysis.stop", "Stop the analysis", "End the analysis that goes on; what it found stays"),
