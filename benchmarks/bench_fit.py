@@ -19,7 +19,7 @@ from desire_tui.analysis.fit.analysis import fit
 from desire_tui.analysis.fit.request import read_request
 from desire_tui.analysis.progress import unwatched
 from desire_tui.analysis.subject import Subject
-from desire_tui.engine.interpreter.data_file import DataFile
+from desire_tui.engine.data_files.data_file import DataFile
 from desire_tui.engine.source import Source
 
 GOAL = 50.0

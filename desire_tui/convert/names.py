@@ -5,17 +5,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.library import LIBRARY
-from desire_tui.engine.syntax.words import KEYWORDS, SOFT_WORDS
-from desire_tui.engine.values import SYSTEM_VARIABLES
+from desire_tui.engine.syntax.reserved import RESERVED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from desire_tui.convert.model import Model
 
-RESERVED = frozenset({*KEYWORDS, *LIBRARY, *SYSTEM_VARIABLES}.union(*SOFT_WORDS.values()))
-"""Words that mean something in a Desire program."""
 _LEGAL = re.compile(r"[A-Za-z](?:\w*[A-Za-z0-9])?\Z", re.ASCII)
 
 

@@ -65,6 +65,8 @@ class Quantity:
     shape: tuple[int, ...] = ()
     kind: Kind = Kind.REAL
     is_state: bool = False
+    of_file: bool = False
+    """Whether it is a table that `data 'file'` made: it may do so again, with more rows or fewer."""
 
     @property
     def size(self) -> int:
@@ -109,6 +111,8 @@ class Values:
         """In a study: what SEED makes of its state, so that each run draws numbers of its own."""
         self.names: dict[str, Quantity] = {}
         self.generation = 0
+        self.replacements = 0
+        """How often an array gave way to one of another size: code that knows slots is made anew."""
         self._scalars = 0
         self._arrays = SCALAR_SLOTS
         self._begin()
@@ -175,6 +179,17 @@ class Values:
             raise DesireError(Diagnostic("out-of-memory", facts={"elements": made.slots}))
         self._arrays = -(-(made.slot + made.slots) // _ALIGN) * _ALIGN
         self.names[name] = made
+        return made
+
+    def table(self, name: str, count: int) -> Quantity:
+        """Make the vector that `data 'file'` fills, in place of an earlier one of another size."""
+        known = self.names.get(name)
+        if known is not None and known.of_file and known.shape == (count,):
+            return known
+        if known is not None:
+            self.replacements += 1
+        made = self.array(name, (count,))
+        made.of_file = True
         return made
 
     def room(self, count: int) -> int:

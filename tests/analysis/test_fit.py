@@ -12,8 +12,8 @@ from desire_tui.analysis.fit.comparison import analyse as compare
 from desire_tui.analysis.fit.curves import cubic_weights
 from desire_tui.analysis.fit.request import read_request
 from desire_tui.analysis.progress import unwatched
+from desire_tui.engine.data_files.data_file import DataFile
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.interpreter.data_file import DataFile
 
 DECAY = """k = 1 | x = 1 | c = 0 | unused = 3 | irule 3
 TMAX = 5 | DT = 0.01 | NN = 11

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from desire_tui.engine.data_files.data_file import read_data_file
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.interpreter.data_file import read_data_file
 
 
 @pytest.fixture

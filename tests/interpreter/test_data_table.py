@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from desire_tui.engine.interpreter.data_table import begins_with_number, column_names
+from desire_tui.engine.data_files.data_table import begins_with_number, column_names
 
 
 def test_a_line_of_quotes_begins_with_no_number():

@@ -25,7 +25,18 @@ from desire_tui.engine.nodes.expressions import (
     Transposed,
     Truth,
 )
-from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
+from desire_tui.engine.nodes.files import (
+    Connect,
+    Data,
+    Disconnect,
+    Dump,
+    Input,
+    LoadData,
+    Note,
+    Read,
+    Restore,
+    Write,
+)
 from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.nodes.segment import (
     Delay,
@@ -52,7 +63,7 @@ if TYPE_CHECKING:
 SCRIPT = (
     "x = e", "A[i] = e", "if … then … proceed", "else", "and", "or", "not",
     "for … next", "for … step", "while", "until", "exit", "label", "go to NAME", "go to number",
-    "PROCEDURE", "call", "SUBMODEL", "FUNCTION", "data", "read", "restore", "restore place",
+    "PROCEDURE", "call", "SUBMODEL", "FUNCTION", "data", "data 'f'", "read", "restore", "restore place",
     "ARRAY", "ARRAY a + b", "ARRAY W = v", "STATE", "INTEGER", "COMPLEX", "[a, b]", "(a > b)",
     "input", "input #n", "write", "write a, b", "write a; b", "write a;", "write $", "write %", "write %%",
     "write #n", "write ##n", "connect input", "connect output", "disconnect", "dump #n", "time", "note",
@@ -75,7 +86,7 @@ FUNCTIONS = tuple(f"{name}()" for name in LIBRARY)
 
 _ONE = {
     Until: "until", While: "while", Label: "label", Procedure: "PROCEDURE", CallProcedure: "call",
-    Submodel: "SUBMODEL", Function: "FUNCTION", Data: "data", Read: "read", Disconnect: "disconnect",
+    Submodel: "SUBMODEL", Function: "FUNCTION", Data: "data", LoadData: "data 'f'", Read: "read", Disconnect: "disconnect",
     Note: "note", Seed: "SEED", Show: "SHOW", ShowArea: "SHOW alone", Pair: "[a, b]", Truth: "(a > b)", Store: "store", Get: "get",
     TrackHold: "trkhld", Invoke: "invoke", Term: "term", Sample: "SAMPLE", Event: "event", Every: "every", Fast: "fast",
     RowOf: "P#", Shifted: "x{k}",

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from desire_tui.analysis.progress import Progress
     from desire_tui.analysis.result import Result
     from desire_tui.analysis.subject import Subject
-    from desire_tui.engine.interpreter.data_file import DataFile
+    from desire_tui.engine.data_files.data_file import DataFile
 
     Floats = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_files.data_file import read_data_file
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.interpreter.data_file import read_data_file
 from desire_tui.engine.session.permissions import Asker, Permissions
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from desire_tui.analysis.fit.request import Asked, Pair
     from desire_tui.analysis.subject import Subject
-    from desire_tui.engine.interpreter.data_file import DataFile
+    from desire_tui.engine.data_files.data_file import DataFile
 
     Floats = NDArray[np.float64]
 

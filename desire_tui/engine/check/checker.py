@@ -43,6 +43,7 @@ def _all_problems(program: Program) -> list[Diagnostic]:
         found = find_structure(program)
         problems += [*found.problems, *misplaced(program, found)]
         survey = DeclaredNames(program, found)
+        problems += survey.names_taken
         functions = functions_of(found)
         for text in program.segments:
             at = text.at

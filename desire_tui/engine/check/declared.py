@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
+from desire_tui.engine.check.data_columns import data_columns
 from desire_tui.engine.lowering.constant_values import evaluate
 from desire_tui.engine.lowering.scope import UNKNOWN, StaticScope
 from desire_tui.engine.nodes.assignments import Assign
@@ -25,6 +26,7 @@ from desire_tui.engine.whole_numbers import whole
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from desire_tui.engine.diagnostics import Diagnostic
     from desire_tui.engine.nodes.declarations import Declared, DeclaredGroup
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.nodes.program import Placed, Program, SegmentText
@@ -61,6 +63,11 @@ class DeclaredNames:
         if jumps:
             self._before.clear()
         self._by_segments = _assigned_in_segments(program, structure)
+        self._columns = data_columns(program)
+        unknown = self._columns.perhaps.difference(self.everything, structure.functions, structure.submodels)
+        for name in sorted(self._columns.names.union(unknown).difference(self._seen.quantities)):
+            self._seen.quantities[name] = Quantity(name, self._next, (UNKNOWN,))
+            self._next += 1
 
     @property
     def array_names(self) -> frozenset[str]:
@@ -71,6 +78,11 @@ class DeclaredNames:
     def quantities(self) -> Mapping[str, Quantity]:
         """What is declared, by its name; a size that only a run knows is `UNKNOWN`."""
         return self._seen.quantities
+
+    @property
+    def names_taken(self) -> list[Diagnostic]:
+        """Errors 73 for columns of data files that are called like something else."""
+        return self._columns.taken
 
     @property
     def constants(self) -> Mapping[str, float]:

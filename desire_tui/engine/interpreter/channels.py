@@ -8,8 +8,8 @@ from itertools import islice
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Literal
 
+from desire_tui.engine.data_files.data_table import DataTable, begins_with_number, column_names, separator_of
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.interpreter.data_table import DataTable, begins_with_number, column_names, separator_of
 from desire_tui.engine.program_files import open_for_program
 
 if TYPE_CHECKING:

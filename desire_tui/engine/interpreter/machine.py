@@ -73,6 +73,7 @@ class ScriptMachine:
         self.values = values
         self.host = host
         self.channels = channels
+        self.program = program
         self.structure = structure
         self.origins = Origins()
         self.build = PythonCompiler(values, self.origins)

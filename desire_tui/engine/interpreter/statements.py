@@ -14,6 +14,7 @@ from desire_tui.engine.interpreter import (
     writing,
 )
 from desire_tui.engine.interpreter.assignment import assign
+from desire_tui.engine.interpreter.data_tables import load_data
 from desire_tui.engine.interpreter.declarations import declare
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.fourier import fft
@@ -31,6 +32,7 @@ from desire_tui.engine.nodes.files import (
     Disconnect,
     Dump,
     Input,
+    LoadData,
     Note,
     Read,
     Restore,
@@ -91,6 +93,8 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
             return procedures.call(context, node)
         case Declare():
             return declare(context, node)
+        case LoadData():
+            return load_data(context, node)
         case Read():
             return data_and_input.read(context, node)
         case Restore():

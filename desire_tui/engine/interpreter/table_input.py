@@ -11,7 +11,7 @@ from desire_tui.engine.values import Quantity
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from desire_tui.engine.interpreter.data_table import DataTable
+    from desire_tui.engine.data_files.data_table import DataTable
     from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.expressions import Target
     from desire_tui.engine.nodes.files import Input

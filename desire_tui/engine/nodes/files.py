@@ -20,6 +20,15 @@ class Data(Node):
 
 
 @node
+class LoadData(Node):
+    """`data 'measured.csv'` [X]: each column of a file becomes a table for `func1`, by its name."""
+
+    file: str
+    start: int = 0
+    end: int = 0
+
+
+@node
 class Read(Node):
     """`read a, B, c[2]`."""
 

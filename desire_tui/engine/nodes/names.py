@@ -11,7 +11,18 @@ from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Call, Element, Name
 from desire_tui.engine.nodes.faulty import Faulty
-from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
+from desire_tui.engine.nodes.files import (
+    Connect,
+    Data,
+    Disconnect,
+    Dump,
+    Input,
+    LoadData,
+    Note,
+    Read,
+    Restore,
+    Write,
+)
 from desire_tui.engine.nodes.segment import (
     Delay,
     Derivative,
@@ -31,6 +42,7 @@ from desire_tui.engine.nodes.segment import (
 
 if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr, Target
+    from desire_tui.engine.nodes.program import Program
     from desire_tui.engine.nodes.statements import Statement
 
 
@@ -94,7 +106,19 @@ def assigned(node: Statement) -> Assigned:
             return _NOTHING
         case Data() | Restore() | Write() | Note() | Dump() | Connect() | Disconnect() | FileCommand():
             return _NOTHING
+        case LoadData():
+            return _NOTHING  # which tables it makes, the file says
     assert_never(node)
+
+
+def segment_targets(program: Program) -> set[str]:
+    """Return the scalars and elements that statements of DYNAMIC segments give values."""
+    return {
+        target.name
+        for segment in program.segments
+        for placed in segment.body
+        for target in assigned(placed.node).targets
+    }
 
 
 def declared(node: Declare) -> tuple[str, ...]:

@@ -12,7 +12,18 @@ from desire_tui.engine.nodes.control import CallProcedure, For, GoTo, If, Label,
 from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, GraphText, Plot, Request, Show, ShowArea
 from desire_tui.engine.nodes.faulty import Faulty
-from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
+from desire_tui.engine.nodes.files import (
+    Connect,
+    Data,
+    Disconnect,
+    Dump,
+    Input,
+    LoadData,
+    Note,
+    Read,
+    Restore,
+    Write,
+)
 from desire_tui.engine.nodes.segment import SegmentOnly
 
 SharedStatement = Assign | Bare | Dot | Faulty | MatrixAssign | VectorAssign | If | Simple | Show | ShowArea
@@ -21,7 +32,7 @@ SharedStatement = Assign | Bare | Dot | Faulty | MatrixAssign | VectorAssign | I
 ScriptOnlyStatement = (
     For | While | Until | Label | GoTo | Procedure | CallProcedure
     | Declare | Function | Submodel
-    | Data | Read | Restore | Input | Write | Connect | Disconnect | Dump | Note
+    | Data | LoadData | Read | Restore | Input | Write | Connect | Disconnect | Dump | Note
     | FileCommand | Irule | Seed | Drun | Fft | Display | GraphText | Plot
 )  # fmt: skip
 """Statements and commands that no segment may hold."""

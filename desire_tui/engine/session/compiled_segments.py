@@ -56,7 +56,7 @@ class CompiledSegments:
         self._kept: dict[tuple[str | None, int], Segment] = {}
         self._backward: dict[int, tuple[Segment, Segment]] = {}
         self._expressions: KeptExpressions | None = None
-        self._generation = -1
+        self._names_of: tuple[int, int] = (-1, 0)
         self._program: Program | None = None
         self._histories: dict[str | None, tuple[Segment, tuple[int, ...], int]] = {}
 
@@ -82,9 +82,10 @@ class CompiledSegments:
 
         `anew`: subscripts and the like are computed again; nothing is compiled where they are what they were.
         """
-        if self._generation != self._values.generation or program is not self._program:
+        names = self._values.generation, self._values.replacements
+        if names != self._names_of or program is not self._program:
             self.forget()
-            self._generation, self._program = self._values.generation, program
+            self._names_of, self._program = names, program
         known = self._kept.get((label, rule))
         if known is None or (anew and not self._holds(known)):
             if program.segment(label) is None:

@@ -15,7 +15,18 @@ from desire_tui.engine.nodes.declarations import Declare, Function, Submodel
 from desire_tui.engine.nodes.display import Display, GraphText, Plot, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Call, Element
 from desire_tui.engine.nodes.faulty import Faulty
-from desire_tui.engine.nodes.files import Connect, Data, Disconnect, Dump, Input, Note, Read, Restore, Write
+from desire_tui.engine.nodes.files import (
+    Connect,
+    Data,
+    Disconnect,
+    Dump,
+    Input,
+    LoadData,
+    Note,
+    Read,
+    Restore,
+    Write,
+)
 from desire_tui.engine.nodes.names import dummies
 from desire_tui.engine.nodes.statements import SegmentOnlyStatement
 from desire_tui.engine.structure.outline import ProcedureText, Structure, SubmodelText
@@ -144,6 +155,8 @@ class BlockSurvey:
             case GoTo() | CallProcedure() | Drun() | Restore():
                 return None  # where they lead is checked when all is known
             case Read() | Input() | Write() | Connect() | Disconnect() | Dump() | Note() | FileCommand():
+                return None
+            case LoadData():
                 return None
             case Irule() | Seed() | Fft() | Display() | GraphText() | Plot() | Show() | ShowArea():
                 return None

@@ -15,6 +15,7 @@ from desire_tui.engine.nodes.files import (
     Disconnect,
     Dump,
     Input,
+    LoadData,
     Note,
     Read,
     Restore,
@@ -83,6 +84,8 @@ def format_statement(node: Statement) -> str:
             return _declare(node)
         case Data():
             return f"data {listed(node.items)}"
+        case LoadData(file):
+            return f"data {quoted(file)}"
         case Read():
             return f"read {listed(node.targets)}"
         case Restore():

@@ -203,6 +203,15 @@ MESSAGES: dict[str, Wording] = {
         "line {line} of '{file}' has no number in column '{column}': '{entry}'",
         "correct the line, or begin it with # to leave it out",
     ),
+    "data-name-taken": Wording(
+        73,
+        "the column {column} of {file} becomes the table {name}, but {name} is {what} already",
+        "rename one of them: the column in the file's first line, or what the program calls so",
+    ),
+    "measurements-missing": Wording(
+        38, "there is no file '{file}'", "its path begins at the program's folder; write its ending, too"
+    ),
+    "data-note": Wording(535, "{what}", warning=True),
     "cannot-read": Wording(18, "cannot read '{file}': {reason}", "check the file"),
     "cannot-write": Wording(106, "cannot write '{file}': {reason}", "is the disk full?"),
     "bad-entry": Wording(

@@ -16,6 +16,7 @@ from desire_tui.engine.nodes.files import (
     Disconnect,
     Dump,
     Input,
+    LoadData,
     Note,
     Read,
     Restore,
@@ -117,6 +118,9 @@ class ScriptProductions:
 
     def data(self, kids: Kids, first: int, last: int) -> Statement:
         return Data(tuple(map(plain, nodes_in(kids))), first, last)
+
+    def load_data(self, kids: Kids, first: int, last: int) -> Statement:
+        return LoadData(kids[1], first, last)
 
     def read(self, kids: Kids, first: int, last: int) -> Statement:
         return Read(nodes_in(kids), first, last)

@@ -110,7 +110,12 @@ def cells_of(line: str, separator: str | None) -> list[str]:
 
 def plain_name(name: str) -> str:
     """Return what a column's name is as one of the language: `Temp. (°C)` is `Temp`, `x pos` is `x_pos`."""
-    return _NOT_IN_NAMES.sub("_", _UNIT.sub("", name)).strip("_")
+    return _NOT_IN_NAMES.sub("_", without_unit(name)).strip("_")
+
+
+def without_unit(name: str) -> str:
+    """Return a column's name without the unit that stands behind it."""
+    return _UNIT.sub("", name)
 
 
 def _folded(name: str) -> str:

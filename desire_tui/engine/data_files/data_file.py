@@ -8,23 +8,26 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from io import BytesIO
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic, closest
-from desire_tui.engine.files import read_source
-from desire_tui.engine.interpreter.data_table import (
+from desire_tui.engine.data_files.data_table import (
     cells_of,
     column_names,
     number_in,
     plain_name,
     separator_of,
+    without_unit,
 )
+from desire_tui.engine.diagnostics import DesireError, Diagnostic, closest
+from desire_tui.engine.files import PROGRAM_BYTES_MAX, decoded, read_source
+from desire_tui.engine.program_files import open_for_program
 from desire_tui.engine.source import Source, Span
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -34,7 +37,7 @@ if TYPE_CHECKING:
 _MISSING = frozenset(("", "na", "n/a", "nan", "null", "none", "-", "--", ".", "?", "#n/a"))
 _SETTING = re.compile(r"#\s*([A-Za-z][\w$]*(?:\[[\d,\s]+\])?)\s*=\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*$")
 _UNIT = re.compile(r"[(\[].*[)\]]|[^\d\s]*")
-_EXCEL = (".xlsx", ".xls", ".xlsm", ".ods")
+EXCEL_ENDINGS = (".xlsx", ".xls", ".xlsm", ".ods")
 _PROBLEMS_MOST = 20
 
 
@@ -53,9 +56,7 @@ class DataFile:
     @property
     def time(self) -> str:
         """The column that holds the time: `t`, `time`, else the first."""
-        return next(
-            (name for name in self.columns if name.casefold() in {"t", "time"}), next(iter(self.columns))
-        )
+        return time_column(self.columns)
 
     def find(self, name: str) -> str | None:
         """Return a column's name, found without regard to capitals too."""
@@ -67,11 +68,45 @@ class DataFile:
         return closest(name, self.columns)
 
 
+def time_column(names: Iterable[str]) -> str:
+    """Return which of a file's columns holds the time: `t`, `time`, else the first."""
+    given = list(names)
+    return next((name for name in given if name.casefold() in {"t", "time"}), given[0])
+
+
+def first_line_names(head: str) -> tuple[list[str], list[str]] | None:
+    """Return the names in the line of names as they are and without units; None: it holds none."""
+    given = column_names(head, None)
+    if given is None:
+        return None
+    return given, [plain_name(name) or f"column{place}" for place, name in enumerate(given, 1)]
+
+
 def read_data_file(path: Path) -> DataFile:
     """Read a file. DesireError 38: it cannot be read; 531 … 533: everything that is wrong in it."""
-    if path.suffix.lower() in _EXCEL:
-        return _Reader(Source(_text_of_excel(path), str(path))).read()
+    if path.suffix.lower() in EXCEL_ENDINGS:
+        return _Reader(Source(_text_of_excel(path, path), str(path))).read()
     return _Reader(read_source(path)).read()
+
+
+def read_program_data(path: Path) -> DataFile:
+    """Read a file that a program names, by its resolved path, which it was permitted to read.
+
+    DesireError 38: there is none, or it is no text; 18: it cannot be read, 531 … 534 as `read_data_file`.
+    """
+    try:
+        with open_for_program(path, "rb") as file:
+            data: bytes = file.read(PROGRAM_BYTES_MAX + 1)
+    except FileNotFoundError:
+        raise DesireError(Diagnostic("measurements-missing", facts={"file": path})) from None
+    except (OSError, ValueError) as problem:
+        facts = {"file": path, "reason": getattr(problem, "strerror", None) or problem}
+        raise DesireError(Diagnostic("cannot-read", facts=facts)) from None
+    if len(data) > PROGRAM_BYTES_MAX:
+        raise DesireError(Diagnostic("cannot-read", facts={"file": path, "reason": "it is too long"}))
+    if path.suffix.lower() in EXCEL_ENDINGS:
+        return _Reader(Source(_text_of_excel(path, BytesIO(data)), str(path))).read()
+    return _Reader(Source(decoded(data, str(path)), str(path), path)).read()
 
 
 class _Reader:
@@ -86,17 +121,19 @@ class _Reader:
             self._problem("data-empty", Span(0, 0), {"what": "it is empty"})
             raise DesireError(*self._problems)
         start, head = lines[0]
-        given = column_names(head, None)
+        found = first_line_names(head)
         separator = separator_of(head)
-        if given is None:
+        if found is None:
             what = "its first line holds no names of columns"
             self._problem("data-empty", Span(start, start + len(head)), {"what": what})
             raise DesireError(*self._problems)
-        names = [plain_name(name) or f"column{place}" for place, name in enumerate(given, 1)]
+        given, names = found
         notes = []
-        if any(plain_name(name) != name for name in given):
-            units = [f"{name} is {short}" for name, short in zip(given, names, strict=True) if name != short]
-            notes.append(f"{self._source.file_name}: {', '.join(units)}: units are not converted")
+        others = [(name, short) for name, short in zip(given, names, strict=True) if name not in {"", short}]
+        if others:
+            said = f"{self._source.file_name}: {', '.join(f'{name} is {short}' for name, short in others)}"
+            units = any(without_unit(name) != name for name, _ in others)
+            notes.append(f"{said}: units are not converted" if units else said)
         rows = lines[1:]
         if rows and self._holds_units(rows[0][1], separator):
             notes.append(f"{self._source.file_name}: the line of units '{rows[0][1].strip()}' is left out")
@@ -165,12 +202,12 @@ class _Reader:
         self._problems.append(Diagnostic(key, span, given, self._source))
 
 
-def _text_of_excel(path: Path) -> str:
+def _text_of_excel(path: Path, file: Path | BytesIO) -> str:
     """Return an Excel file's first sheet as text with tabs. DesireError 534: pandas is missing; 38."""
     try:
         import pandas as pd
 
-        sheet = pd.read_excel(path, header=None, dtype=object)
+        sheet = pd.read_excel(file, header=None, dtype=object)
     except ImportError as reason:
         facts = {"file": path.name, "library": reason.name or "pandas"}
         raise DesireError(Diagnostic("data-library", None, facts)) from None

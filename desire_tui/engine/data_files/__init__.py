@@ -1,0 +1,1 @@
+"""Files of measurements: their forms, their columns, what these are called in a program."""
