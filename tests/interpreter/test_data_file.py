@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from desire_tui.engine.data_files.data_file import read_data_file
+from desire_tui.engine.data_files.data_file import read_data_file, read_program_data
 from desire_tui.engine.diagnostics import DesireError
 
 
@@ -114,3 +114,29 @@ def test_excel_without_its_library(tmp_path, monkeypatch):
     with pytest.raises(DesireError) as error:
         read_data_file(tmp_path / "measured.xlsx")
     assert error.value.diagnostics[0].message == "measured.xlsx needs the library pandas"
+
+
+def test_a_note_speaks_of_units_only_where_there_are_some(file):
+    assert read_data_file(file("t;blood glucose\n0;1\n")).notes == (
+        "measured.csv: blood glucose is blood_glucose",
+    )
+    assert read_data_file(file("t;x\n0;1\n")).notes == ()
+
+
+def test_files_that_a_program_names(file, tmp_path):
+    path = file("t;x\n0;1,5\n")
+    assert read_program_data(path).columns["x"].tolist() == [1.5]
+    (tmp_path / "link.csv").symlink_to(path)
+    for name, key in (
+        ("nothing.csv", "measurements-missing"), ("link.csv", "cannot-read"), (".", "cannot-read"),
+    ):  # fmt: skip
+        with pytest.raises(DesireError) as error:
+            read_program_data(tmp_path / name)
+        assert [d.key for d in error.value.diagnostics] == [key]
+
+
+def test_an_excel_file_that_a_program_names(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    path = tmp_path / "measured.xlsx"
+    pandas.DataFrame({"t": [0.0, 1.0], "x": [1.5, 2.5]}).to_excel(path, index=False)
+    assert read_program_data(path).columns["x"].tolist() == [1.5, 2.5]
