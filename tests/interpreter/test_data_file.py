@@ -136,7 +136,8 @@ def test_files_that_a_program_names(file, tmp_path):
 
 
 def test_an_excel_file_that_a_program_names(tmp_path):
-    pandas = pytest.importorskip("pandas")
+    import pandas as pd
+
     path = tmp_path / "measured.xlsx"
-    pandas.DataFrame({"t": [0.0, 1.0], "x": [1.5, 2.5]}).to_excel(path, index=False)
+    pd.DataFrame({"t": [0.0, 1.0], "x": [1.5, 2.5]}).to_excel(path, index=False)
     assert read_program_data(path).columns["x"].tolist() == [1.5, 2.5]
