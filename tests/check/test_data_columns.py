@@ -40,8 +40,21 @@ def test_nothing_is_said_of_a_file_that_cannot_be_looked_at(messages, tmp_path):
     everything = f"write position, Hohe[1], func1(1; Hohe)\n{SEGMENT}"
     (tmp_path / "numbers.csv").write_text("0;1\n1;2\n")
     (tmp_path / "book.xlsx").write_bytes(b"PK\0\0")
+    (tmp_path / ".hidden.csv").write_text("t,secret\n0,1\n")
+    (tmp_path / "outside.csv").symlink_to("/etc/hostname")
     (tmp_path / "binary.csv").write_bytes(bytes(100))
-    for name in ("nothing.csv", "numbers.csv", "book.xlsx", "binary.csv", "../m.csv", "", ".", "\0"):
+    for name in (
+        "nothing.csv",
+        "numbers.csv",
+        "book.xlsx",
+        "binary.csv",
+        "../m.csv",
+        ".hidden.csv",
+        "outside.csv",
+        "",
+        ".",
+        "\0",
+    ):
         assert messages(f"data '{name}'\n{everything}") == [], name
     assert messages(f"data 'nothing.csv'\n{everything}".replace("Hohe[1]", "typo + 1")) == [(200, 2, "typo")]
     assert len(messages(everything)) == 3

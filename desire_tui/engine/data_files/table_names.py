@@ -43,8 +43,8 @@ def _name(column: str) -> str:
 def tables_beside(source: Source, file: str) -> dict[str, str] | None:
     """Return the table's name of each column of a file that a program names; None: that cannot be told.
 
-    It cannot be told where the program has no folder, or the file is not below it, is none of text, or does
-    not begin as one of measurements.
+    It cannot be told where the program has no folder, or the file is not below it or hidden (nobody is asked
+    for permission here), is none of text, or does not begin as one of measurements.
     """
     if source.path is None:
         return None
@@ -52,6 +52,8 @@ def tables_beside(source: Source, file: str) -> dict[str, str] | None:
         folder = os.path.realpath(source.path.expanduser().absolute().parent)
         path = Path(os.path.realpath(Path(folder) / file.strip()))
         if not path.is_relative_to(folder) or path.suffix.lower() in EXCEL_ENDINGS:
+            return None
+        if any(part.startswith(".") for part in path.relative_to(folder).parts):
             return None
         status = path.stat()
     except (OSError, ValueError, RuntimeError):
