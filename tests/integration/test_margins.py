@@ -14,6 +14,7 @@ _SIDES = {
     Threshold.UNIT: lambda x: (x > 1) - (x < -1),
     Threshold.HALF: lambda x: floor(abs(x) + 0.5) * (1 if x > 0 else -1),
     Threshold.WHOLE: trunc,
+    Threshold.EVERY_WHOLE: floor,
 }
 
 
