@@ -28,6 +28,8 @@ class RunActions(Controller):
 
     _copied = ""
     """What Ctrl+C copied last during a run: pressed again, it pauses."""
+    _is_trace_asked = False
+    """Whether F12 was pressed and has not been carried out yet; a start ends what waits, but not that."""
 
     def start(self, argument: str = "") -> None:
         """`zz`: accept the front tab and run it; a run that goes on is ended first."""
@@ -43,6 +45,7 @@ class RunActions(Controller):
         app.frame_pacing.hold()
 
         def run() -> None:
+            self._trace_if_asked()
             app.send_breakpoints()  # not before: the program that just ends has others
             self._watched(source.file_name, lambda: app.session.erun(source))
 
@@ -92,7 +95,12 @@ class RunActions(Controller):
         self.end_now()
         app.frame_pacing.hold()
         name = app.editor.active.buffer.name
-        app.engine.submit(lambda: self._watched(Path(name).name, app.session.run))
+
+        def run() -> None:
+            self._trace_if_asked()
+            self._watched(Path(name).name, app.session.run)
+
+        app.engine.submit(run)
 
     def _watched(self, name: str, run: Callable[[], object]) -> None:
         """Run a program; where it fails before it has a graph, or a run, graph pane and status bar say so."""
@@ -186,10 +194,17 @@ class RunActions(Controller):
         """Single-step: the script of the front tab stops before its next statement."""
         del argument
         app = self.app
-        app.engine.submit(lambda: app.session.execute("trace"))
+        self._is_trace_asked = True
+        app.engine.submit(self._trace_if_asked)
         app.notify(
             "Trace: the script stops before each statement. F10 the next · Shift+F10 ends it.", timeout=4
         )
+
+    def _trace_if_asked(self) -> None:
+        """Switch tracing, on the engine's thread, unless that was done."""
+        if self._is_trace_asked:
+            self.app.session.execute("trace")
+            self._is_trace_asked = False
 
     def breakpoint(self, argument: str = "") -> None:
         """Set or remove a breakpoint on the cursor's row, or on the numbered one."""
