@@ -53,12 +53,15 @@ class AnalysisActions(Controller):
         """Return the front tab's program with the values of its sliders, and where the states are."""
         from desire_tui.analysis.subject import Subject
         from desire_tui.engine.session.state_labels import state_labels
+        from desire_tui.engine.values import T
 
         app = self.app
         area = app.editor.front
         sliders = app.live_mode.sliders.of(area.buffer.number)
         values = app.session.values
         here = {name: float(values.data[slot]) for slot, name in state_labels(values).items()}
+        if here:
+            here["t"] = values.cells[T]
         return Subject(
             source_of(area),
             settings={slider.quantity: slider.value for slider in sliders if slider.value != slider.start},

@@ -93,6 +93,14 @@ class Request:
         self._at += 1
         return found
 
+    def whole(self, least: int, example: str) -> int:
+        """Read a whole number that is not less than `least`."""
+        span = self.span
+        found = self.number("a whole number")
+        if not (found >= least and found == int(found)):
+            self.fail(f"{found:g} is no whole number from {least} on", example, span)
+        return int(found)
+
     def interval(self) -> tuple[float, float]:
         """Read `[from, to]`, the first less than the second."""
         begin = self.span

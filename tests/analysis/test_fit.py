@@ -272,7 +272,7 @@ def test_the_band_holds_the_curve(subject):
         ("kk to x", "'kk' is no parameter or state"),
         ("k to x ~ height", "made.csv has no column 'height'"),
         ("k to x ~ y loss l3", "'l3' is no loss"),
-        ("k to x ~ y runs 0.5", "runs 0.5: no whole number that can be meant"),
+        ("k to x ~ y runs 0.5", "0.5 is no whole number from 1 on"),
         ("k to x ~ y weights 0", "a standard deviation of 0 has no weight"),
         ("k to x ~ y weights zero", "made.csv has weights in zero that are not above 0"),
         ("k to q ~ y", "'q' is to be recorded, but the program does not have it"),

@@ -96,10 +96,28 @@ def test_poles_along_a_run():
         ("T -> q", "'q' is to be recorded, but the program does not have it"),
         ("at t = 100", "t = 100 is outside the run, 0 to 60"),
         ("from here", "there is no 'here' without a desktop"),
-        ("along 1", "poles along a run need 2 places or more"),
+        ("along 1", "1 is no whole number from 2 on"),
     ],
 )
 def test_mistakes(request_, message):
     with pytest.raises(DesireError) as error:
         desire_tui.linearise(PENDULUM, request_)
     assert error.value.diagnostics[0].message == message
+
+
+def test_a_time_between_samples_is_gone_to(subject):
+    """The free pendulum without damping: its energy at t = 0.37 is that at the start, to the rule's error."""
+    text = PENDULUM.replace("c = 0.4", "c = 0").replace("NN = 601", "NN = 7")
+    found = BY_NAME["linearise"].run(subject(text), "at t = 0.37", unwatched)
+    a, w = found["x"]
+    assert found["t"] == pytest.approx(0.37, abs=0.01)
+    assert 0.5 * w * w - 9.81 / 0.7 * np.cos(a) == pytest.approx(-9.81 / 0.7 * np.cos(0.3), abs=1e-4)
+
+
+def test_here_needs_the_programs_own_states(subject):
+    linearise = BY_NAME["linearise"].run
+    with pytest.raises(DesireError, match="w has no value now"):
+        linearise(subject(PENDULUM, here={"a": 0.1, "t": 2.0}), "from here", unwatched)
+    assert (
+        linearise(subject(PENDULUM, here={"a": 0.1, "w": 0.0, "t": 2.0}), "from here", unwatched)["t"] == 2.0
+    )

@@ -114,7 +114,7 @@ def test_it_is_stopped_and_tells_what_it_has(subject):
         ("J over a in [0, 1] log", "a logarithmic scale has no 0"),
         ("J over a by golbal", "'golbal' is no way to search"),
         ("J over a by global", "a global search needs bounds of a"),
-        ("J over a runs 1.5", "runs 1.5: no whole number that can be meant"),
+        ("J over a runs 1.5", "1.5 is no whole number from 1 on"),
         ("x@0:1:0.5 over a", "'x@0:1:0.5' is not one number of a run"),
         ("x over a", "x does not change with a where the search begins"),
         ("J over q", "'q' is set from outside, but the program has no 'q'"),

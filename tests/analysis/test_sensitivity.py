@@ -124,7 +124,7 @@ def test_it_can_be_stopped(subject):
         ("global k in [0, 1] of x", "one quantity alone decides everything: name two or more"),
         ("global k in [0, 1], c in [1, 0] of x", "the interval from 1 to 0 holds nothing"),
         ("global k in [0, 1], c in [0, 1] of x@0:1:0.1", "'x@0:1:0.1' is not one number of a run"),
-        ("global k in [0, 1], c in [0, 1] of x runs 3", "runs 3: a whole number from 32 on is meant"),
+        ("global k in [0, 1], c in [0, 1] of x runs 3", "3 is no whole number from 32 on"),
         (
             "global k in [0, 1], c in [0, 1] of x@0 runs 64",
             "x@0 is 2 in all runs: nothing has an influence",

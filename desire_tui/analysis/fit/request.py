@@ -57,10 +57,7 @@ def read_request(text: str) -> Asked:
         elif word == "loss":
             loss = asked.known(asked.name("a loss"), LOSSES, "loss", span)
         else:
-            number = asked.number("a whole number")
-            if number < 1 or number != int(number):
-                asked.fail(f"runs {number:g}: no whole number that can be meant", f"runs {RUNS}", span)
-            runs = int(number)
+            runs = asked.whole(1, f"runs {RUNS}")
     return Asked(unknowns, pairs, files, loss, runs, asked)
 
 

@@ -19,6 +19,8 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.chart import Chart, Series
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from desire_tui.analysis.progress import Progress
@@ -90,15 +92,15 @@ def _read(subject: Subject, request: str) -> _Asked:
     while not asked.is_done:
         word = asked.expect("at", "along", "from")
         if word == "along":
-            span = asked.span
-            along = int(asked.number("a number of places"))
-            if along < 2:
-                asked.fail("poles along a run need 2 places or more", "along 20", span)
+            along = asked.whole(2, "along 20")
         elif word == "from":
             asked.expect("here")
             at = "here"
             if subject.here is None:
                 asked.fail("there is no 'here' without a desktop", "at end", None)
+            missing = [name for name in model.states if name not in subject.here]
+            if missing:
+                asked.fail(f"{', '.join(missing)} has no value now", "run the program first: F5", None)
         elif asked.take("t"):
             asked.expect("=")
             at = asked.number("a time")
@@ -107,12 +109,12 @@ def _read(subject: Subject, request: str) -> _Asked:
     return _Asked(inputs, outputs, at, along)
 
 
-def _names(asked: Request, known: object, what: str) -> list[str]:
+def _names(asked: Request, known: Mapping[str, float] | None, what: str) -> list[str]:
     found = []
     while True:
         span = asked.span
         name = asked.name("a quantity's name")
-        if isinstance(known, dict):
+        if known is not None:
             asked.known(name, known, what, span)
         found.append(name)
         if not asked.take(","):
@@ -123,7 +125,8 @@ def _place(subject: Subject, asked: _Asked) -> Place:
     model, settings = subject.model, subject.settings
     if asked.at == "here":
         assert subject.here is not None
-        return Place(0.0, np.array([subject.here[name] for name in model.states]), "where the states are now")
+        x = np.array([subject.here[name] for name in model.states])
+        return Place(subject.here.get("t", 0.0), x, "where the states are now")
     states = tuple(model.states)
     run = model.run(set=settings, record=states)
     if run.error is not None:
@@ -135,8 +138,10 @@ def _place(subject: Subject, asked: _Asked) -> Place:
             facts = {"what": f"t = {asked.at:g} is outside the run, {run.t[0]:g} to {run.t[-1]:g}",
                      "remedy": f"at t = {run.t[-1]:g}"}  # fmt: skip
             raise DesireError(Diagnostic("analysis-failed", None, facts, subject.source))
-        x = np.array([np.interp(asked.at, run.t, run[name]) for name in states])
-        return Place(asked.at, x, f"t = {asked.at:g}")
+        if asked.at > run.t[0]:  # samples beside it would have to be joined by straight lines
+            to_there = (float(run.t[0]), asked.at)
+            run = model.run(set={**settings, "NN": 2.0}, t=to_there, record=states, check=True)
+        return Place(float(run.t[-1]), np.asarray(run.state), f"t = {run.t[-1]:g}")
     end = Place(float(run.t[-1]), np.asarray(run.state), f"t = {run.t[-1]:g}, where the run ends")
     return _steady(subject, end) if asked.at == "steady" else end
 

@@ -62,10 +62,10 @@ def _read(request: str) -> _Asked:
         if word == "by":
             way = asked.known(asked.name("a way to search"), WAYS, "way to search", span)
             continue
-        number = asked.number("a whole number")
-        if number < (1 if word == "runs" else 0) or number != int(number):
-            asked.fail(f"{word} {number:g}: no whole number that can be meant", f"{word} 1000", span)
-        runs, seed = (int(number), seed) if word == "runs" else (runs, int(number))
+        if word == "runs":
+            runs = asked.whole(1, "runs 1000")
+        else:
+            seed = asked.whole(0, "seed 1")
     free = next((one for one in unknowns if not one.is_bounded), None)
     if way == "global" and free is not None:
         asked.fail(f"a global search needs bounds of {free.name}", f"{free.name} in [0, 5]", free.span)

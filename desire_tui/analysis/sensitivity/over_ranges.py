@@ -107,12 +107,10 @@ def _read(asked: Request) -> _Asked:
         if word in _METHODS:
             method = word
             continue
-        span = asked.span
-        number = asked.number("a whole number")
-        least = 4 * _GROUPS_LEAST if word == "runs" else 0
-        if number < least or number != int(number):
-            asked.fail(f"{word} {number:g}: a whole number from {least} on is meant", f"{word} {RUNS}", span)
-        runs, seed = (int(number), seed) if word == "runs" else (runs, int(number))
+        if word == "runs":
+            runs = asked.whole(4 * _GROUPS_LEAST, f"runs {RUNS}")
+        else:
+            seed = asked.whole(0, "seed 1")
     return _Asked(unknowns, items, method, runs, seed)
 
 

@@ -34,7 +34,7 @@ def histogram(subject: Subject, request: str, progress: Progress) -> Result:
         if asked.expect("bins", "from") == "from":
             start = asked.number("a time")
         else:
-            bins = read.whole(asked, 1, "bins 40")
+            bins = asked.whole(1, "bins 40")
     progress(None, "run")
     _, samples = read.columns(subject, names, start)
     charts, values, rows = [], {}, []

@@ -29,15 +29,6 @@ def names(asked: Request) -> list[str]:
     return found
 
 
-def whole(asked: Request, least: int, example: str) -> int:
-    """Read a whole number that is not too small."""
-    span = asked.span
-    number = asked.number("a whole number")
-    if number != int(number) or number < least:
-        asked.fail(f"{number:g} is no whole number from {least} on", example, span)
-    return int(number)
-
-
 def columns(subject: Subject, wanted: Sequence[str], start: float | None) -> tuple[Floats, list[Floats]]:
     """Return times and samples of quantities from a time on. DesireError 521: there are too few."""
     run = sampled(subject, wanted)

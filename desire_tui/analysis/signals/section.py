@@ -106,7 +106,7 @@ def _read(subject: Subject, request: str) -> _Asked:
             case "from":
                 start = asked.number("a time")
             case _:
-                points = min(read.whole(asked, 1, "points 1000"), _PASSAGES_MOST)
+                points = min(asked.whole(1, "points 1000"), _PASSAGES_MOST)
     return _Asked(state, level, direction, shown, start, points)
 
 

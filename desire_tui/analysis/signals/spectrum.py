@@ -58,7 +58,7 @@ def _read(request: str) -> tuple[list[str], int | None, float | None]:
         if asked.expect("window", "from") == "from":
             start = asked.number("a time")
         else:
-            window = read.whole(asked, 8, "window 256")
+            window = asked.whole(8, "window 256")
     return names, window, start
 
 

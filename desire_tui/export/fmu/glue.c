@@ -26,7 +26,7 @@ typedef void (*fmi3LogMessage)(void *, fmi3Status, const char *, const char *);
 #define COUNT (sizeof v / sizeof v[0])
 
 static double first[COUNT];
-static int has_first, is_instance, is_stale, is_initializing;
+static int has_first, is_instance, is_stale;
 static fmi3LogMessage log_message;
 static void *environment;
 
@@ -120,14 +120,13 @@ EXPORT fmi3Status fmi3EnterInitializationMode(
 {
     (void)c, (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
     q_t = start;
-    is_initializing = is_stale = 1;
+    is_stale = 1;
     return fmi3OK;
 }
 
 EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance c)
 {
     (void)c;
-    is_initializing = 0;
     begin_point();
     is_stale = 0;
     return fmi3OK;
