@@ -8,11 +8,10 @@ import sys
 from desire_tui.systems import reason_against
 
 COMMANDS = frozenset({
-    "sensitivity", "fit", "measured",
-    "run", "check", "help", "examples", "config", "completion", "serve", "study", "served", "ide", "export",
-    "average", "histogram", "linearise", "lyapunov", "maximise", "minimise", "section", "spectrum",
-    "fmt", "lsp", "convert",
-    "steady", "continue", "phase",
+    "average", "check", "completion", "config", "continue", "convert", "examples", "export", "fit",
+    "fmt", "help", "histogram", "ide", "linearise", "lsp", "lyapunov", "maximise", "measured",
+    "minimise", "phase", "run", "section", "sensitivity", "serve", "served", "spectrum", "steady",
+    "study",
 })  # fmt: skip
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 
