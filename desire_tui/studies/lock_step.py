@@ -58,11 +58,13 @@ class LockStep:
         seeds = np.zeros(runs, dtype=np.uint64) if random is None else random
         try:
             starts, plan, failed = self._starts(settings)
+            self.runs_most = self._model.width * max(
+                1, min(64, _NUMBERS_MOST // (plan.rows_most * self._row))
+            )
+            made = self._model.run(plan, starts, seeds)
         except DesireError:
             nothing = np.zeros((1, 1, runs))
             return LaneRows(nothing, np.ones(runs, dtype=np.int64), np.ones(runs, dtype=np.bool_))
-        self.runs_most = self._model.width * max(1, min(64, _NUMBERS_MOST // (plan.rows_most * self._row)))
-        made = self._model.run(plan, starts, seeds)
         return made._replace(flagged=made.flagged | failed)
 
     def _starts(self, settings: Floats) -> tuple[Floats, RunPlan, NDArray[np.bool_]]:

@@ -88,6 +88,12 @@ MODELS = {
     + SPRING
     + "delay q = D(x, 0.2)\nterm t - 0.3*k - 0.2345\nstore X = q\nz = x + q\n",
     "histories that all share": "ARRAY D[9] | q = 0\ndrun\nDYNAMIC\ndelay q = D(sin(t), 0.2)\nd/dt x = -k*x + q\n",
+    "clocks": "u = 0 | n = 0 | m = 0 | irule 3\ndrun\nDYNAMIC\nd/dt x = v\nd/dt v = u - k*x\ny = x + u\n"
+    "every 0.137, 0.05\nu = -2*y*k | n = n + 1 | if x > 0 | v = 0.9*v | end if\nevery 0.3 | m = m + ran()\nOUT\nz = u + m\n",
+    "clocks on the grid": "u = 0 | n = 0 | p = 0\ndrun\nDYNAMIC\n" + SPRING + "every 0.05\nu = x - u\nn = n + 1\n"
+    "every 0.1, 0.05\np = n + u\nend event\nterm t - 0.3*k - 0.2345\nOUT\nq = u + p\n",
+    "clocks and vectors": VECTORS + "Vectr d/dt y = w - k*y\n" + SPRING + "every 0.12\nVector w = y\na = y[1]\nb = w[5] + x\n",
+    "clocks without states": "q = 0.3 | n = 0\ndrun\nDYNAMIC\nq = k*q*(1 - q)\nevery 0.25, 0.2\nn = n + q\nOUT\nx = q + t\n",
     "difference equations": "q = 0.3 | n = 0\ndrun\nDYNAMIC\nq = k*q*(1 - q)\nn = n + ran()\nterm n - 4*k\nOUT\nx = q + t\n",
     "vectors": VECTORS
     + "Vector s = sin(w)*exp(-y) + k\nVectr d/dt y = s - r*y{1} + y{-1}\n"
@@ -164,10 +170,11 @@ def test_functions_of_the_vector_library_are_near():
         ("ARRAY W[2,2], a[2]\ndrun\nDYNAMIC\nMATRIX W = a*a\n" + SPRING, ("k",), "SetMat statements"),
         ("ARRAY f[4] | f[1] = k | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("k",), "script has to run"),
         ("ARRAY f[4] | f[2] = 9\ndrun\nDYNAMIC\n" + SPRING + "y = func1(x; f)\n", ("f[3]",), "tables vary"),
-        ("drun\nDYNAMIC\n" + SPRING + "y = delay(x, 0.1)\n", ("k",), "events, delays"),
+        ("drun\nDYNAMIC\n" + SPRING + "y = delay(x, 0.1)\n", ("k",), "delays or recovered"),
         ("ARRAY D[9] | q = 0\ndrun\nDYNAMIC\n" + SPRING + "delay q = D(x, 0.1*k)\n", ("k",), "times of delays differ"),
         ("ARRAY D[9] | q = 0\ndrun\nDYNAMIC\n" + SPRING + "if x > 0 | delay q = D(x, 0.1) | end if\n", ("k",), "under a condition"),
         ("ARRAY D[9] | q = 0\ndrun\nDYNAMIC\n" + SPRING + "delay q = D(x, 0.1)\ny = D[2]\n", ("k",), "used in another way"),
+        ("drun\nDYNAMIC\n" + SPRING + "w = 0.1*k\nevery 0.2, w\nv = 0\n", ("k",), "times of 'every' differ"),
         ("m = 2 | s = 0\ndrun\nDYNAMIC\n" + SPRING + "SAMPLE m\ns = t\n", ("m",), "the script has to run"),
     ],
 )  # fmt: skip

@@ -46,13 +46,14 @@ def hindrance(segment: Segment, varied: Iterable[int]) -> str | None:
     `varied` are the slots whose values differ at the start.
     """
     differs = set(varied)
-    if segment.events or segment.delays or segment.recover:
-        return "events, delays or recovered values"
+    if segment.delays or segment.recover or any(event.condition is not None for event in segment.events):
+        return "events with conditions, delays or recovered values"
     if any(slot < SYSTEM_SLOTS for slot in differs):
         return "times or settings of the run vary"
     written, tables, scalars = set[int](), set[int](), set[int]()
     kept = histories(segment.body)
-    for action in walk_actions(segment.body):
+    blocks = (action for event in segment.events for action in event.body)
+    for action in walk_actions((*segment.body, *blocks)):
         if not isinstance(action, _PLAIN_STATEMENTS):
             return f"{type(action).__name__} statements"
         for slot, _ in writes(action):

@@ -20,6 +20,7 @@ from desire_tui.engine.lowered.expressions import (
     Table2,
     Vec,
 )
+from desire_tui.engine.lowered.segment import Event
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec
 from desire_tui.engine.lowered.walk import walk_values, with_bodies
 from desire_tui.engine.random_sequence import DRAWS
@@ -54,9 +55,10 @@ def scalar_elements(segment: Segment, most: int) -> WrittenOut:
     """Return a segment written out. TooManyError: it would hold more than `most` operations."""
     writer = _Writer(most)
     body = tuple(writer.actions(segment.body))
+    events = tuple(writer.event(event) for event in segment.events)
     if not writer.written:
         return WrittenOut(segment, frozenset())
-    return WrittenOut(replace(segment, body=body), frozenset(writer.over_elements))
+    return WrittenOut(replace(segment, body=body, events=events), frozenset(writer.over_elements))
 
 
 def element_of(value: Value, at: int) -> Value | None:
@@ -95,6 +97,11 @@ class _Writer:
                         yield Deriv(action.state + at, value, action.where)
                 case _:
                     yield action
+
+    def event(self, event: Event) -> Event:
+        """Return an event with its block written out."""
+        body = tuple(self.actions(event.body))
+        return Event(body, event.where, event.condition, event.period, event.start)
 
     def _vector(self, action: SetVec) -> Iterator[Action]:
         self.written = True

@@ -37,6 +37,14 @@ def event_times(segment: Segment, values: Values) -> list[tuple[float, float]]:
     return found
 
 
+def clock_slots(segment: Segment) -> set[int]:
+    """Return the slots of all numbers that the times of clocks are computed from."""
+    sets = [action for action in segment.body if isinstance(action, Set)]
+    times = [time for event in segment.events for time in (event.period, event.start) if time is not None]
+    values = [value for time in times for value in (time, *(made.value for made in needed(time, sets)))]
+    return {node.slot for node in walk_values(*values) if isinstance(node, Load)}
+
+
 def delay_times(segment: Segment, values: Values) -> list[float]:
     """Return the time of each `delay(x, tau)`, 0 for one that may vary. DesireError: it is negative."""
     if not segment.delays:

@@ -14,6 +14,7 @@ class LaneMemory(ctypes.Structure):
         ("random", ctypes.c_uint64),  # int64 (groups, width): where the random numbers begin
         ("rows", ctypes.c_uint64),  # (samples, 1 + columns, runs): t, then the columns
         ("arrays", ctypes.c_uint64),  # (groups, elements of all histories, width)
+        ("clocks", ctypes.c_uint64),  # (clocks, 4): period, start, ticks so far, next time
         ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
         ("counts", ctypes.c_uint64),  # int64 (groups, width): samples
         ("flagged", ctypes.c_uint64),  # int64 (groups, width): not 0: to be made again alone

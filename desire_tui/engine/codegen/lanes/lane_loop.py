@@ -13,13 +13,14 @@ state, a fault) is flagged: whoever called makes that run again alone, for its m
 from __future__ import annotations
 
 from hashlib import blake2b
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.ir.symbols import sine_and_cosine
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.ir.work_memory import Fields
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
+from desire_tui.engine.codegen.lanes.lane_clocks import ClockedSteps, LaneClocks
 from desire_tui.engine.codegen.lanes.lane_frame import LaneMemory, lane_frame
 from desire_tui.engine.codegen.lanes.lane_histories import LaneHistories
 from desire_tui.engine.codegen.lanes.lane_points import LanePoints
@@ -32,6 +33,7 @@ from desire_tui.engine.lowered.effects import expressions
 from desire_tui.engine.lowered.expressions import Op
 from desire_tui.engine.lowered.walk import walk_actions, walk_values
 from desire_tui.engine.passes.final_sample import holds_term
+from desire_tui.engine.runtime.moments.steps import SLACK
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:
@@ -41,45 +43,61 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
 
 
-class LaneLoop:
-    """Writes the function `i32 NAME(ptr LaneMemory)`; `tableau` None: rule 0, no steps.
+class LaneParts(NamedTuple):
+    """What a loop is written from."""
 
-    `given` are the slots with a start for each run.
+    passes: Mapping[str, tuple[Action, ...]]
+    tableau: Tableau | None
+    """None: rule 0, no steps."""
+    states: Sequence[int]
+    columns: Sequence[int]
+    vital: Sequence[int]
+    given: Sequence[int]
+    """Slots with a start for each run."""
+    differing: frozenset[int]
+    faults: frozenset[int]
+    arrays: Mapping[int, int]
+    """Lengths of stored histories by their first slots."""
+    counters: int
+    over_elements: frozenset[int]
+    clocks: int
+    """How many `every` there are, and the first of the slots that say which is due."""
+    due: int
+
+
+class LaneLoop:
+    """Writes the function `i32 NAME(ptr LaneMemory)`.
+
+    `width` runs go side by side, vectors of `piece` doubles are what functions of the library are called with.
     """
 
-    def __init__(
-        self,
-        passes: Mapping[str, tuple[Action, ...]],
-        tableau: Tableau | None,
-        states: Sequence[int],
-        columns: Sequence[int],
-        vital: Sequence[int],
-        given: Sequence[int],
-        differing: frozenset[int],
-        faults: frozenset[int],
-        arrays: Mapping[int, int],
-        counters: int,
-        over_elements: frozenset[int],
-        width: int,
-        piece: int,
-    ) -> None:
+    def __init__(self, parts: LaneParts, width: int, piece: int) -> None:
         self.text = IrText()
+        passes, tableau, states = parts.passes, parts.tableau, parts.states
         together = sine_and_cosine() is not None and _takes_both(passes["derivative"])
         self.runs = Replicas(self.text, width, piece, together=together)
         usage = survey(passes.values())
         stages = tableau.stages if tableau is not None else 0
-        slots = usage.read | usage.written | {T, DT, *states, *columns, *vital}
-        self.cells = LaneCells(self.text, self.runs, slots, differing, states, stages)
+        slots = usage.read | usage.written | {T, DT, *states, *parts.columns, *parts.vital}
+        self.cells = LaneCells(self.text, self.runs, slots, parts.differing, states, stages)
         self.memory = Fields(self.text, LaneMemory, "%a")
-        self.histories = LaneHistories(self.runs, self.cells, self.memory, arrays, counters)
-        self.statements = LaneStatements(self.runs, self.cells, faults, self.histories, over_elements)
+        self.histories = LaneHistories(self.runs, self.cells, self.memory, parts.arrays, parts.counters)
+        self.statements = LaneStatements(
+            self.runs, self.cells, parts.faults, self.histories, parts.over_elements
+        )
         may_end = holds_term(passes["step"]) or holds_term(passes["full"])
         self.loop = LaneVariables(
             self.runs, self.cells, self.memory, self.statements, passes, may_end=may_end
         )
-        self.points = LanePoints(self.loop, columns, vital, steps=tableau is not None)
-        self.steps = LaneSteps(self.loop, self.points, tableau, states) if tableau is not None else None
-        self.given = given
+        self.points = LanePoints(self.loop, parts.columns, parts.vital, steps=tableau is not None)
+        self.clocks = LaneClocks(self.loop, parts.clocks, parts.due) if parts.clocks else None
+        self.steps = None if tableau is None else self._steps(tableau, states)
+        self.given = parts.given
+
+    def _steps(self, tableau: Tableau, states: Sequence[int]) -> LaneSteps:
+        if self.clocks is None:
+            return LaneSteps(self.loop, self.points, tableau, states)
+        return ClockedSteps(self.loop, self.points, tableau, states, self.clocks)
 
     def piece(self) -> Piece:
         """Return the code, named by its content."""
@@ -105,6 +123,8 @@ class LaneLoop:
         self.loop.begin()
         self.cells.fetch(self.given)
         self.histories.begin()
+        if self.clocks is not None:
+            self.clocks.begin()
         self.loop.next_point()
         self.text.jump("point")
         self.points.write()
@@ -117,6 +137,9 @@ class LaneLoop:
     def _next_without_rule(self) -> None:
         self.text.begin("step")
         self.cells.store(T, Number(self.loop.get("double", "t_next"), wide=False))
+        if self.clocks is not None:
+            one = self.loop.one
+            self.clocks.arrive(one.mul(one.const(SLACK), self.memory.load("comint")))
         stop = self.text.op(f"icmp ne i64 {self.memory.load('stop', volatile=True)}, 0")
         self.text.branch(stop, "exit", "point")
 

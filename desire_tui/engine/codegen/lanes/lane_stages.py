@@ -21,14 +21,18 @@ def save(cells: LaneCells, states: Sequence[int]) -> None:
         cells.keep("x0", number, cells.load(slot))
 
 
-def advance(cells: LaneCells, states: Sequence[int], row: Row, dt: str) -> None:
-    """States ← saved states + dt·Σ row·k."""
+def advance(
+    cells: LaneCells, states: Sequence[int], row: Row, dt: str, *, from_zero: bool = False
+) -> None:
+    """States ← saved states + dt·Σ row·k; `from_zero`: of -0 alone the sum is 0, as in `runtime.moments`."""
     runs, one = cells.runs, Lanes(cells.text)
     factor = scaled(one, row, dt)
     for number, slot in enumerate(states):
         wide = slot in cells.differing
         lanes = runs if wide else one
         total = weighted(lanes, row, lambda stage, n=number: cells.kept(f"k{stage}", n).name)  # type: ignore[misc]  # n=: bound now
+        if from_zero:
+            total = lanes.add(lanes.const(0.0), total)
         by = runs.splat(factor) if wide else factor
         moved = lanes.add(cells.kept("x0", number).name, lanes.mul(by, total))
         cells.store(slot, Number(moved, wide))

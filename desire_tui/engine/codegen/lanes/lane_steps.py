@@ -63,13 +63,18 @@ class LaneSteps:
             self.loop.run_pass("derivative", stage + 1)
         advance(cells, self.states, tableau.b, dt)
         cells.store(T, Number(self._counted_time(1.0, dt), wide=False))
+        self._arrive(dt, _CHECK_EVERY)
+
+    def _arrive(self, dt: str, check_every: int) -> None:
+        """Write the end of a step."""
+        text = self.text
         for name in ("k", "steps"):
             self.loop.put("i64", name, text.op(f"add i64 {self.loop.get('i64', name)}, 1"))
         slack = self.one.mul(self.one.const(TOLERANCE), dt)
         reached = self.one.compare(
             "oge", self.loop.t(), self.one.sub(self.loop.get("double", "t_next"), slack)
         )
-        since = text.op(f"and i64 {self.loop.get('i64', 'steps')}, {_CHECK_EVERY - 1}")
+        since = text.op(f"and i64 {self.loop.get('i64', 'steps')}, {check_every - 1}")
         due = text.op(f"icmp eq i64 {since}, 0")
         self.loop.put("i1", "reached", reached)
         text.branch(text.op(f"or i1 {due}, {reached}"), "attend", "again")

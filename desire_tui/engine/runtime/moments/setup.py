@@ -33,6 +33,11 @@ _SAME = 1e-9
 """Part of a period by which a run's start is one of its times."""
 
 
+def first_tick(period: float, start: float, t: float) -> float:
+    """Return the number of a clock's first time at `t` or later."""
+    return max(0.0, float(ceil((t - start) / period - _SAME)))
+
+
 class Past(Protocol):
     """What runs that continue one another hand on."""
 
@@ -207,7 +212,7 @@ class Stepper:
         for number, (period, start) in enumerate(times):
             self._period[number], self._start[number] = period, start
             if period > 0.0:
-                ticks = max(0.0, float(ceil((memory.t_start - start) / period - _SAME)))
+                ticks = first_tick(period, start, memory.t_start)
                 if memory.joined and abs(start + ticks * period - memory.t_start) <= _SAME * period:
                     ticks += 1.0  # that of the joint had its turn in the run before
                 m.ticks[number], m.next[number] = ticks, start + ticks * period

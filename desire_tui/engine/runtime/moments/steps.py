@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 SPLITS_MOST = 1000
 """A step is split into so many parts at most: more events come too fast."""
-_SLACK = 1e-9
+SLACK = 1e-9
 """Part of a step by which two ends are the same moment."""
 
 
@@ -47,7 +47,7 @@ def wait(m: Moments, memory: RunMemory, t_next: float) -> Int32:
     m.values[T] = t_next
     if m.condition_count != 0:
         any_rises(m)
-    return Ended.ZENO if arrive(m, _SLACK * memory.comint) > 1 else Ended.RUNNING
+    return Ended.ZENO if arrive(m, SLACK * memory.comint) > 1 else Ended.RUNNING
 
 
 def fixed_step(m: Moments, memory: RunMemory) -> Int32:
@@ -62,12 +62,12 @@ def fixed_step(m: Moments, memory: RunMemory) -> Int32:
     dt: float = memory.dt_base
     end: float = memory.t_base + (memory.k + 1) * dt
     whole = 1
-    m.near = _SLACK * dt
+    m.near = SLACK * dt
     while True:
         record(m)
         stop = end
         soon = next_time(m)
-        if soon < end - _SLACK * dt:
+        if soon < end - SLACK * dt:
             stop = max(soon, here)
             whole = 0
         save(m)
@@ -75,7 +75,7 @@ def fixed_step(m: Moments, memory: RunMemory) -> Int32:
         m.values[T] = stop
         if m.condition_count != 0 and rises_in_step(m, here, stop) != 0:
             stop = locate(m, here, stop)
-        came = arrive(m, _SLACK * dt)
+        came = arrive(m, SLACK * dt)
         if came > 1:
             return Ended.ZENO
         if stop >= end:
@@ -99,14 +99,14 @@ def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
     here: float = m.values[T]
     target = t_next
     soon = next_time(m)
-    if soon < t_next - _SLACK * (t_next - here):
+    if soon < t_next - SLACK * (t_next - here):
         target = max(soon, here)
     if m.watch != 0:
         target = m.limit(m.watch, here, target)
         m.t_stop = target
     left = target - here
-    lands = m.values[DT] >= left * (1.0 - _SLACK)
-    cut = m.values[DT] > left * (1.0 + _SLACK)
+    lands = m.values[DT] >= left * (1.0 - SLACK)
+    cut = m.values[DT] > left * (1.0 + SLACK)
     dt: float = m.values[DT]
     if lands:
         dt = left
@@ -114,7 +114,7 @@ def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
         dt = m.tau_least
         lands = False
         cut = True
-    m.near = _SLACK * dt
+    m.near = SLACK * dt
     record(m)
     save(m)
     difference = 0.0
@@ -148,7 +148,7 @@ def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
         m.look(m.watch, here, m.values[T])
     if m.condition_count != 0 and rises_in_step(m, here, m.values[T]) != 0:
         locate(m, here, m.values[T])
-    return Ended.ZENO if arrive(m, _SLACK * dt) > 1 else Ended.RUNNING
+    return Ended.ZENO if arrive(m, SLACK * dt) > 1 else Ended.RUNNING
 
 
 def test(m: Moments, memory: RunMemory, dt: float) -> float:
