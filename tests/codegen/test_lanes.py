@@ -90,9 +90,14 @@ MODELS = {
     "histories that all share": "ARRAY D[9] | q = 0\ndrun\nDYNAMIC\ndelay q = D(sin(t), 0.2)\nd/dt x = -k*x + q\n",
     "clocks": "u = 0 | n = 0 | m = 0 | irule 3\ndrun\nDYNAMIC\nd/dt x = v\nd/dt v = u - k*x\ny = x + u\n"
     "every 0.137, 0.05\nu = -2*y*k | n = n + 1 | if x > 0 | v = 0.9*v | end if\nevery 0.3 | m = m + ran()\nOUT\nz = u + m\n",
-    "clocks on the grid": "u = 0 | n = 0 | p = 0\ndrun\nDYNAMIC\n" + SPRING + "every 0.05\nu = x - u\nn = n + 1\n"
+    "clocks on the grid": "u = 0 | n = 0 | p = 0\ndrun\nDYNAMIC\n"
+    + SPRING
+    + "every 0.05\nu = x - u\nn = n + 1\n"
     "every 0.1, 0.05\np = n + u\nend event\nterm t - 0.3*k - 0.2345\nOUT\nq = u + p\n",
-    "clocks and vectors": VECTORS + "Vectr d/dt y = w - k*y\n" + SPRING + "every 0.12\nVector w = y\na = y[1]\nb = w[5] + x\n",
+    "clocks and vectors": VECTORS
+    + "Vectr d/dt y = w - k*y\n"
+    + SPRING
+    + "every 0.12\nVector w = y\na = y[1]\nb = w[5] + x\n",
     "clocks without states": "q = 0.3 | n = 0\ndrun\nDYNAMIC\nq = k*q*(1 - q)\nevery 0.25, 0.2\nn = n + q\nOUT\nx = q + t\n",
     "difference equations": "q = 0.3 | n = 0\ndrun\nDYNAMIC\nq = k*q*(1 - q)\nn = n + ran()\nterm n - 4*k\nOUT\nx = q + t\n",
     "vectors": VECTORS

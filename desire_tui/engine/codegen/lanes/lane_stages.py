@@ -21,9 +21,7 @@ def save(cells: LaneCells, states: Sequence[int]) -> None:
         cells.keep("x0", number, cells.load(slot))
 
 
-def advance(
-    cells: LaneCells, states: Sequence[int], row: Row, dt: str, *, from_zero: bool = False
-) -> None:
+def advance(cells: LaneCells, states: Sequence[int], row: Row, dt: str, *, from_zero: bool = False) -> None:
     """States ← saved states + dt·Σ row·k; `from_zero`: of -0 alone the sum is 0, as in `runtime.moments`."""
     runs, one = cells.runs, Lanes(cells.text)
     factor = scaled(one, row, dt)
