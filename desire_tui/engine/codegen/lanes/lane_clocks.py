@@ -1,4 +1,4 @@
-"""`every T, t0` for runs in lock step: the times are those of all runs, so all split a step at the same places.
+"""`every T, t0` for runs in lock step: all have the same times, and split a step at the same places.
 
 What `runtime.moments.steps` does for one run, written for many.
 """

@@ -68,7 +68,7 @@ class LaneParts(NamedTuple):
 class LaneLoop:
     """Writes the function `i32 NAME(ptr LaneMemory)`.
 
-    `width` runs go side by side, vectors of `piece` doubles are what functions of the library are called with.
+    `width` runs go side by side; functions of the library are called with vectors of `piece` doubles.
     """
 
     def __init__(self, parts: LaneParts, width: int, piece: int) -> None:
