@@ -113,6 +113,18 @@ class CodeTable:
         """Whether the script halts before the statement at an address."""
         return self._halts_at(*self.locate(address))
 
+    def halts_within(self, first: int, last: int) -> bool:
+        """Whether the script halts anywhere between two addresses of the same code."""
+        if not self._halts:
+            return False
+        code, place = self.locate(first)
+        return any(self._halts_at(code, place + number) for number in range(last - first + 1))
+
+    def is_made(self, address: int) -> bool:
+        """Whether the statement at an address was reached before."""
+        operation = self.operations[address]
+        return not (isinstance(operation, partial) and operation.func == self._first)
+
     def _halts_at(self, code: ScriptCode, place: int) -> bool:
         return place in self._halts and not code.is_command
 

@@ -44,9 +44,13 @@ class PythonCompiler:
         return name
 
     def function(
-        self, body: list[ast.stmt], placed: Placed, source: Source | None, parameters: tuple[str, ...] = ()
+        self,
+        body: list[ast.stmt],
+        placed: Placed | list[Placed],
+        source: Source | None,
+        parameters: tuple[str, ...] = (),
     ) -> Callable[..., Any]:
-        """Compile statements to a function."""
+        """Compile code to a function. Of several statements, code in line n + 2 was made from number n."""
         module = py.function("s", parameters, body)
         code = compile(module, self.origins.file_name(placed, source), "exec")
         exec(code, self.names)  # noqa: S102 - our own code, made from a parsed expression

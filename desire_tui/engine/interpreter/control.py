@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import floor
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.interpreter.run_count import ROUNDING
+from desire_tui.engine.interpreter.hot_loops import warm
+from desire_tui.engine.interpreter.run_count import loop_count
 from desire_tui.engine.nodes.control import For, GoTo, If, Until, While
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.values import Kind
@@ -41,7 +41,7 @@ def until(context: StatementContext, node: Until) -> Operation:
         context.translator.condition(node.condition), py.return_value(py.number(context.next))
     )
     check = py.expression_statement(py.call("check"))
-    return context.function([leave, check, py.return_value(py.number(again))])
+    return warm(context, context.function([leave, check, py.return_value(py.number(again))]), again)
 
 
 def _behind(context: StatementContext) -> int:
@@ -55,7 +55,7 @@ def _choose(context: StatementContext, condition: ast.expr, yes: int, no: int) -
 
 def end_while(context: StatementContext) -> Operation:
     """`end while`."""
-    return _jump_back(context, context.partner)
+    return warm(context, _jump_back(context, context.partner), context.partner)
 
 
 def _jump_back(context: StatementContext, address: int) -> Operation:
@@ -97,7 +97,7 @@ def for_loop(context: StatementContext, node: For) -> Operation:
         s = by() if by is not None else 1.0
         if s == 0.0:
             raise ScriptFault("step-is-zero", node.by)
-        count = floor((b - a) / s + ROUNDING) + 1
+        count = loop_count(a, b, s)
         slot = slot_of()
         loop[:] = 0, count, a, s, slot
         cells[slot] = to_integer(a) if kind is Kind.INTEGER else a
@@ -135,7 +135,7 @@ def next_pass(context: StatementContext) -> Operation:
         cells[int(loop[4])] = to_integer(value) if whole else value
         return body
 
-    return operation
+    return warm(context, operation, body)
 
 
 def leave_block(context: StatementContext) -> Operation:

@@ -7,7 +7,8 @@ while nothing fails.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from itertools import islice
+from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.library import LIBRARY
@@ -41,12 +42,12 @@ class Origins:
     """Which statement each piece of generated code was made from."""
 
     def __init__(self) -> None:
-        self._statements: list[Placed] = []
+        self._statements: list[list[Placed]] = []
         self._sources: list[Source | None] = []
 
-    def file_name(self, placed: Placed, source: Source | None) -> str:
-        """Return the file name under which code made from `placed` is compiled."""
-        self._statements.append(placed)
+    def file_name(self, placed: Placed | list[Placed], source: Source | None) -> str:
+        """Return the file name under which code made from a statement, or several, is compiled."""
+        self._statements.append(placed if isinstance(placed, list) else [placed])
         self._sources.append(source)
         return f"{MARK}{len(self._statements) - 1}>"
 
@@ -57,10 +58,14 @@ class Origins:
         """Forget code that is gone, such as an entry that was evaluated once."""
         del self._statements[number:], self._sources[number:]
 
-    def statement(self, code: CodeType) -> tuple[Placed, Source | None]:
-        """Return the statement (and its source) that a code object was made from."""
+    def statement(self, code: CodeType, line: int) -> tuple[Placed, Source | None]:
+        """Return the statement (and its source) that a line of a code object was made from."""
         number = int(code.co_filename[len(MARK) : -1])
-        return self._statements[number], self._sources[number]
+        return self._statements[number][max(line - 2, 0)], self._sources[number]
+
+    def is_loop(self, code: CodeType) -> bool:
+        """Whether a code object was made from several statements."""
+        return len(self._statements[int(code.co_filename[len(MARK) : -1])]) > 1
 
 
 Way = tuple["Placed", "Source | None"]
@@ -78,11 +83,13 @@ def explain(
     if isinstance(error, DesireError):
         return error.placed(placed.span(), source)
     node: Node | None = None
+    frames = _generated_frames(error.__traceback__)
+    if frames and origins.is_loop(frames[0].code):  # the operation was a whole loop
+        placed, source = origins.statement(frames[0].code, frames[0].line)
     reached = placed, source
-    found = _deepest(error.__traceback__)
-    if found is not None:
-        code, start, end = found
-        placed, source = origins.statement(code)
+    if frames:
+        code, line, start, end = frames[-1]
+        placed, source = origins.statement(code, line)
         node = _node_at(placed.node, start, end)
     if isinstance(error, ScriptFault):
         if error.placed is not None:
@@ -118,21 +125,25 @@ def _key_of(error: Exception, node: Node | None) -> tuple[str, dict[str, object]
     raise error  # a programmer's mistake: never dress it up as the user's
 
 
-def _deepest(traceback: TracebackType | None) -> tuple[CodeType, int, int] | None:
-    """Find the innermost generated frame; return its code and the offsets of the failing node."""
-    found = None
+class _Frame(NamedTuple):
+    """Where a piece of generated code failed: its line there, and the offsets of the failing node."""
+
+    code: CodeType
+    line: int
+    start: int
+    end: int
+
+
+def _generated_frames(traceback: TracebackType | None) -> list[_Frame]:
+    """Return the frames of generated code, the innermost last."""
+    found = []
     while traceback is not None:
         code = traceback.tb_frame.f_code
         if code.co_filename.startswith(MARK):
-            found = code, traceback.tb_lasti
+            line, _, start, end = next(islice(code.co_positions(), traceback.tb_lasti // 2, None), (0,) * 4)
+            found.append(_Frame(code, line or 0, start or 0, end or 0))
         traceback = traceback.tb_next
-    if found is None:
-        return None
-    code, last = found
-    for index, (_, _, start, end) in enumerate(code.co_positions()):
-        if index == last // 2:
-            return code, start or 0, end or 0
-    return code, 0, 0
+    return found
 
 
 def _node_at(root: Node, start: int, end: int) -> Node | None:

@@ -206,6 +206,11 @@ class ScriptMachine:
         if self.host.interrupted():
             raise Interrupted
 
+    def must_leave(self, first: int, last: int) -> bool:
+        """Let the user in; return whether statements of these addresses have to be carried out one by one."""
+        self.check()
+        return self.stepping or self.code_table.halts_within(first, last)
+
     def call(self, name: str, back: int) -> None:
         """Note a PROCEDURE that is entered; error 52 if it is being executed already."""
         for _, active in self.returns:

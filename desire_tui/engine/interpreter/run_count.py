@@ -23,16 +23,19 @@ if TYPE_CHECKING:
     from desire_tui.engine.interpreter.code_table import ScriptCode, StatementList
     from desire_tui.engine.nodes.expressions import Expr
 
-ROUNDING = 1e-9
+_ROUNDING = 1e-9
 """Added to the number of steps, so that `0 to 1 step 0.1` makes eleven passes."""
-
-
 _ANY = "*"
 """Stands for names that are not looked at closely."""
 
 
 class _Unknown(Exception):  # noqa: N818 - control flow
     """The number of runs is not known."""
+
+
+def loop_count(first: float, last: float, step: float) -> int:
+    """Return how many passes a `for` makes; none where it is not positive."""
+    return floor((last - first) / step + _ROUNDING) + 1
 
 
 def runs_ahead(frames: Sequence[tuple[ScriptCode, int]]) -> int | None:
@@ -138,7 +141,7 @@ class _Survey:
             raise _Unknown
         first, last = _known(node.first), _known(node.last)
         step = _known(node.by) if node.by is not None else 1.0
-        return max(floor((last - first) / step + ROUNDING) + 1, 0) if step else 0
+        return max(loop_count(first, last, step), 0) if step else 0
 
     def _runs_of(self, name: str) -> int:
         procedure = self.structure.procedures.get(name)
