@@ -20,7 +20,12 @@ def _structure(old: str, new: str) -> Mutant:
 
 
 SCRIPTS = (
-    _interpreter("floor((b - a) / s + ROUNDING) + 1", "floor((b - a) / s) + 1", "tests/interpreter/test_edges.py"),
+    _interpreter("floor((last - first) / step + _ROUNDING) + 1", "floor((last - first) / step) + 1", "tests/interpreter/test_edges.py"),
+    _interpreter("if k_{n} >= m_{n}: pass", "if k_{n} > m_{n}: pass", "tests/interpreter/test_hot_loops.py"),
+    _interpreter("if isinstance(node.ctx, ast.Store):", "if slot == 0:", "tests/interpreter/test_hot_loops.py"),
+    _interpreter("return [*self._saved(), py.return_value", "return [py.return_value", "tests/interpreter/test_hot_loops.py"),
+    _interpreter("asked[:0] = py.parsed", "asked[:0] = [] and py.parsed", "tests/interpreter/test_hot_loops.py"),
+    _interpreter("if any(isinstance(dummy, Reference)", "if all(isinstance(dummy, Reference)", "tests/interpreter/test_hot_loops.py"),
     _interpreter("value = loop[2] + k * loop[3]", "value = cells[int(loop[4])] + loop[3]", "tests/interpreter/test_edges.py"),
     _interpreter("if not 1 <= node.value <= size:", "if not 1 <= node.value < size + 1:", "tests/interpreter/test_script_errors.py"),
     _interpreter("if whole >= -0x8000", "if whole > -0x8000", "tests/interpreter/test_edges.py"),
