@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 NOT_CHARTED: dict[PlotOutcome, str] = {
     "unknown": "'{name}' has no value: nothing to plot.",
+    "array": "'{name}' is an array: plot it alone, or one of its elements: {name}[1]",
     "no run": "No run has recorded '{name}' yet: press F5.",
     "constant": "'{name}' is not changed by the run: its value is among the quantities (Alt+Q).",
     "changed": "The last run did not record '{name}' and cannot be repeated: add it to dispt, then press F5.",
@@ -215,7 +216,7 @@ class GraphActions(Controller):
         app.file_written(path)
 
     def chart(self, argument: str = "") -> None:
-        """Plot a quantity: the named one, the one chosen among the quantities, or the editor's word."""
+        """Plot quantities: those named, the one chosen among the quantities, or the editor's word."""
         app = self.app
         chosen = app.quantities.chosen if app.quantities.has_focus_within else None
         name = argument or (chosen.name if chosen is not None else app.editor.front.word_at_cursor())
@@ -226,11 +227,11 @@ class GraphActions(Controller):
             app.notify(f"'{name}' is plotted when the run is over.", markup=False, timeout=2)
 
         def plot() -> None:
-            became = app.session.plot_quantity(name)
+            became, what = app.session.plot_quantities(name)
             if became == "shown":
                 app.on_screen(app.show_run)
             else:
-                app.on_screen(app.notify, NOT_CHARTED[became].format(name=name), markup=False, timeout=4)
+                app.on_screen(app.notify, NOT_CHARTED[became].format(name=what), markup=False, timeout=4)
 
         app.engine.submit(plot)
 

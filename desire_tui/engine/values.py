@@ -110,6 +110,8 @@ class Values:
         self.seeding: Callable[[int], int] | None = None
         """In a study: what SEED makes of its state, so that each run draws numbers of its own."""
         self.names: dict[str, Quantity] = {}
+        self.times_of_files: dict[str, str] = {}
+        """The columns of times that `data 'file'` met, for messages, and the files' names."""
         self.generation = 0
         self.replacements = 0
         """How often an array gave way to one of another size: code that knows slots is made anew."""
@@ -136,6 +138,7 @@ class Values:
 
     def _begin(self) -> None:
         self.names.clear()
+        self.times_of_files.clear()
         self._scalars = 0
         self._arrays = SCALAR_SLOTS
         self.defined[:] = bytes(len(self.defined))

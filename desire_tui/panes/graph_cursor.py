@@ -57,9 +57,9 @@ def read(graph: Graph, window: Window, part: float, picked: Curve | None = None)
     frame = graph.frame
     if frame.kind == "dispt":
         t = graph.axes.abscissa(frame, window.left + part * (window.right - window.left))
-        values = tuple((label(curve), curve.color, _shown(value_at(curve, t))) for curve in curves)
+        values = tuple((label(curve), curve.color, _told_at(curve, t)) for curve in curves)
         return Reading(part, f"t = {t:.6g}", values)
-    curve = picked if picked is not None else curves[-1]
+    curve = picked or next((one for one in reversed(curves) if not one.measured), curves[-1])
     x, _ = curve.samples()
     if not len(x):
         return None
@@ -77,18 +77,25 @@ def read(graph: Graph, window: Window, part: float, picked: Curve | None = None)
 def labels(graph: Graph) -> Callable[[Curve], str]:
     """Return what tells a graph's curves apart: names of variables, or what varies over the runs, or both."""
     study = graph.study
-    alone = len({curve.name for curve in graph.curves}) == 1
+    alone = len({curve.name for curve in graph.curves if not curve.measured}) == 1
     if len(study.records) < 2:
         return lambda curve: curve.name
-    if alone:
-        return lambda curve: study.name(curve.record) or curve.name
-    return lambda curve: ", ".join(filter(None, (curve.name, study.name(curve.record))))
+
+    def name(curve: Curve) -> str:
+        run = "" if curve.measured else study.name(curve.record)
+        return run if alone and run else ", ".join(filter(None, (curve.name, run)))
+
+    return name
 
 
-def value_at(curve: Curve, t: float) -> float:
-    """Return the sample of a curve over t that is nearest to a time; nan where its run has not come."""
+def _told_at(curve: Curve, t: float) -> str:
+    """Return the sample next to a time; of measured points, which may be far from it, with its own time."""
     number = _sample_at(curve, t)
-    return float("nan") if number is None else float(curve.samples()[1][number])
+    if number is None:
+        return GAP
+    x, y = curve.samples(number, number + 1)
+    value = _shown(float(y[0]))
+    return f"{value} at {x[0]:.6g}" if curve.measured else value
 
 
 def _sample_at(curve: Curve, t: float) -> int | None:
@@ -118,6 +125,8 @@ def told(graph: Graph, curve: Curve, number: int) -> str:
     """Return what is said of a curve that is picked: its run, what varies there, and one of its samples."""
     x, y = curve.samples(number, number + 1)
     study, record = graph.study, curve.record
+    if curve.measured:
+        return f"{curve.name} = {_shown(float(y[0]))} measured at {curve.x_name} = {_shown(float(x[0]))}"
     parts = [f"run {record.number}"] if record.number and len(study.records) > 1 else []
     parts += [varied.at(study.place(record)) for varied in study.every]
     sample = f"{curve.name} = {_shown(float(y[0]))}"

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.graph.chart_page import KEYS_MOST, MARGIN, limits_of, still_record
+from desire_tui.engine.graph.chart_page import KEYS_MOST, MARGIN, limits_of
 from desire_tui.engine.graph.colors import ramp_color
 from desire_tui.engine.graph.curve import Curve, Frame
 from desire_tui.engine.graph.model import ShownArray
+from desire_tui.engine.graph.still_record import still_record
 
 if TYPE_CHECKING:
     from desire_tui.engine.graph.curve import FrameKind

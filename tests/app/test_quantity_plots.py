@@ -113,14 +113,14 @@ async def test_before_a_run_and_after_a_change_there_is_nothing_to_plot(program)
     async with desktop(program(PROGRAM), size=(120, 40)) as desk:
         await desk.line("q = 3")
         await desk.idle()
-        assert desk.app.session.plot_quantity("q") == "no run"
+        assert desk.app.session.plot_quantities("q") == ("no run", "q")
         await desk.press("f5")
         await desk.idle()
         desk.app.editor.front.text = PROGRAM.replace("2*x", "3*x")
         await desk.press("f2")
         await desk.idle()
-        assert desk.app.session.plot_quantity("double") == "changed"
-        assert desk.app.session.plot_quantity("x") == "shown"
+        assert desk.app.session.plot_quantities("double") == ("changed", "double")
+        assert desk.app.session.plot_quantities("x") == ("shown", "x")
 
 
 async def test_the_next_run_starts_a_page_of_its_own(program):

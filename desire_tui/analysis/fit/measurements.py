@@ -122,29 +122,23 @@ def _slack(span: tuple[float, float]) -> float:
 
 
 def _measured(file: DataFile, pair: Pair, asked: Asked) -> Measured:
-    t = file.columns[file.time]
-    y = _column(file, pair.column, pair, asked)
-    sigma = None
-    if isinstance(pair.weights, float):
-        sigma = np.full(len(t), pair.weights)
-    elif pair.weights is not None:
-        sigma = _column(file, pair.weights, pair, asked)
-    good = np.isfinite(t) & np.isfinite(y)
-    if sigma is not None:
-        if np.any(sigma[good] <= 0.0):
-            asked.request.fail(
-                f"{file.name} has weights in {pair.weights} that are not above 0",
-                "weights are standard deviations", pair.span,
-            )  # fmt: skip
-        good &= np.isfinite(sigma)
-    order = np.argsort(t[good], kind="stable")
-    return Measured(t[good][order], y[good][order], None if sigma is None else sigma[good][order])
+    column = _column(file, pair.column, pair, asked)
+    if not isinstance(pair.weights, str):
+        t, y = file.measured(column)
+        return Measured(t, y, None if pair.weights is None else np.full(len(t), pair.weights))
+    t, y, sigma = file.measured(column, _column(file, pair.weights, pair, asked))
+    if np.any(sigma <= 0.0):
+        asked.request.fail(
+            f"{file.name} has weights in {pair.weights} that are not above 0",
+            "weights are standard deviations", pair.span,
+        )  # fmt: skip
+    return Measured(t, y, sigma)
 
 
-def _column(file: DataFile, name: str, pair: Pair, asked: Asked) -> Floats:
+def _column(file: DataFile, name: str, pair: Pair, asked: Asked) -> str:
     found = file.find(name)
     if found is None:
         near = file.near(name)
         remedy = f"did you mean {near}?" if near else f"there are {', '.join(file.columns)}"
         asked.request.fail(f"{file.name} has no column '{name}'", remedy, pair.span)
-    return file.columns[found]
+    return found

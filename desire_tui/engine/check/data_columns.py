@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.data_files.table_names import tables_beside
+from desire_tui.engine.data_files.data_file import time_column
+from desire_tui.engine.data_files.table_names import columns_beside, table_names
 from desire_tui.engine.diagnostics import Diagnostic
+from desire_tui.engine.nodes.display import Request
 from desire_tui.engine.nodes.expressions import Call, Element, Name
 from desire_tui.engine.nodes.files import LoadData, Write
 from desire_tui.engine.nodes.names import segment_targets
@@ -33,6 +35,8 @@ class DataColumns:
     names: set[str] = field(default_factory=set)
     perhaps: set[str] = field(default_factory=set)
     taken: list[Diagnostic] = field(default_factory=list)
+    times: dict[str, str] = field(default_factory=dict)
+    """The columns of times, which have no tables, and their files."""
 
 
 def data_columns(program: Program) -> DataColumns:
@@ -44,11 +48,12 @@ def data_columns(program: Program) -> DataColumns:
     elsewhere = segment_targets(program)
     for placed in statements:
         assert isinstance(placed.node, LoadData)
-        tables = tables_beside(program.source, placed.node.file)
-        if tables is None:
+        columns = columns_beside(program.source, placed.node.file)
+        if columns is None:
             found.perhaps |= _names_of_arrays(program)
             continue
-        for column, name in tables.items():
+        found.times[time_column(columns)] = placed.node.file
+        for column, name in table_names(columns).items():
             if name not in elsewhere:
                 found.names.add(name)
                 continue
@@ -72,5 +77,7 @@ def _arrays_in(node: Statement) -> Iterator[str]:
             yield part.name
         elif isinstance(part, Call) and part.name in _TABLES:
             yield from (a.name for a in part.args[_TABLES[part.name] :] if isinstance(a, Name))
+    if isinstance(node, Request):
+        yield from (item.name for item in node.items if isinstance(item, Name))
     if isinstance(node, Write):
         yield from (item.value.name for item in node.items if isinstance(item.value, Name))

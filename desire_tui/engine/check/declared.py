@@ -20,7 +20,7 @@ from desire_tui.engine.nodes.control import GoTo, Procedure
 from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.expressions import Name
 from desire_tui.engine.nodes.names import assigned, dummies, invocation
-from desire_tui.engine.values import SYSTEM_SLOTS, Kind, Quantity
+from desire_tui.engine.values import SYSTEM_SLOTS, SYSTEM_VARIABLES, Kind, Quantity
 from desire_tui.engine.whole_numbers import whole
 
 if TYPE_CHECKING:
@@ -65,8 +65,9 @@ class DeclaredNames:
         self._by_segments = _assigned_in_segments(program, structure)
         self._columns = data_columns(program)
         unknown = self._columns.perhaps.difference(self.everything, structure.functions, structure.submodels)
+        unknown -= set(SYSTEM_VARIABLES)
         for name in sorted(self._columns.names.union(unknown).difference(self._seen.quantities)):
-            self._seen.quantities[name] = Quantity(name, self._next, (UNKNOWN,))
+            self._seen.quantities[name] = Quantity(name, self._next, (UNKNOWN,), of_file=True)
             self._next += 1
 
     @property
@@ -101,9 +102,10 @@ class DeclaredNames:
             if label != text.label:
                 scalars |= names
         quantities = [
-            Quantity(q.name, q.slot, q.shape, q.kind, q.is_state) for q in self._seen.quantities.values()
+            Quantity(q.name, q.slot, q.shape, q.kind, q.is_state, q.of_file)
+            for q in self._seen.quantities.values()
         ]
-        return StaticScope(quantities, scalars, self._constants, self._next)
+        return StaticScope(quantities, scalars, self._constants, self._next, self._columns.times)
 
     # ------------------------------------------------------------------------------------------ the walk
 

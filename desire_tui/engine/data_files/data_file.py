@@ -58,6 +58,12 @@ class DataFile:
         """The column that holds the time: `t`, `time`, else the first."""
         return time_column(self.columns)
 
+    def measured(self, column: str, *others: str) -> tuple[Floats, ...]:
+        """Return the times at which columns (by their plain names) have values, rising, and these values."""
+        rows = np.array([self.columns[name] for name in (self.time, column, *others)])
+        rows = rows[:, np.isfinite(rows).all(axis=0)]
+        return tuple(rows[:, np.argsort(rows[0], kind="stable")])
+
     def find(self, name: str) -> str | None:
         """Return a column's name, found without regard to capitals too."""
         folded = {known.casefold(): known for known in reversed(self.columns)}

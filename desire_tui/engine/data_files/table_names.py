@@ -41,7 +41,13 @@ def _name(column: str) -> str:
 
 
 def tables_beside(source: Source, file: str) -> dict[str, str] | None:
-    """Return the table's name of each column of a file that a program names; None: that cannot be told.
+    """Return the table's name of each column of a file that a program names; None: that cannot be told."""
+    columns = columns_beside(source, file)
+    return None if columns is None else table_names(columns)
+
+
+def columns_beside(source: Source, file: str) -> tuple[str, ...] | None:
+    """Return the columns of a file that a program names; None: that cannot be told.
 
     It cannot be told where the program has no folder, or the file is not below it or hidden (nobody is asked
     for permission here), is none of text, or does not begin as one of measurements.
@@ -58,8 +64,7 @@ def tables_beside(source: Source, file: str) -> dict[str, str] | None:
         status = path.stat()
     except (OSError, ValueError, RuntimeError):
         return None
-    names = _names_in(path, status.st_mtime_ns, status.st_size)
-    return None if names is None else table_names(names)
+    return _names_in(path, status.st_mtime_ns, status.st_size)
 
 
 @lru_cache(maxsize=64)

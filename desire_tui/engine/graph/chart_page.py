@@ -10,8 +10,7 @@ from desire_tui.engine.graph.axes import Axes
 from desire_tui.engine.graph.colors import ramp_color
 from desire_tui.engine.graph.curve import Curve, Frame
 from desire_tui.engine.graph.settings import DisplaySettings
-from desire_tui.engine.integration.rules import DUMMY
-from desire_tui.engine.runtime.run_record import RunRecord
+from desire_tui.engine.graph.still_record import still_record
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,16 +63,6 @@ def _curve(one: Series, chart: Chart, frame: Frame, color: int) -> Curve:
     return Curve(
         one.name, chart.x_name, color, still_record([one.x, one.y], frame), 1, 0, frame,
         joined=one.look != "points", dash=int(one.look == "dashes"),
-    )  # fmt: skip
-
-
-def still_record(columns: Sequence[Floats], frame: Frame) -> RunRecord:
-    """Return columns of numbers as samples that no run makes; the first is the abscissa."""
-    table = np.column_stack(columns)
-    return RunRecord(
-        number=0, segment=None, line=0, requests=(), columns=(), overlay=False, rule=DUMMY, scale=frame.scale,
-        t0=frame.left, t_max=frame.right - frame.left, nn=len(table), dt=1.0, rows=table, count=len(table),
-        ended="tmax",
     )  # fmt: skip
 
 

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 SIGNS = "■╍┉"
 """Of solid, dashed and dotted curves."""
+MARK = "×"
+"""Of measured points."""
 KEYS_MOST = 8
 """Of more runs, only what varies between them is named, beside some of their colours."""
 _NAMED_MOST = 3
@@ -26,11 +28,13 @@ class Key(NamedTuple):
     colors: tuple[int, ...]
     dash: int = 0
     """As `Curve.dash`."""
+    measured: bool = False
+    """As `Curve.measured`."""
 
     @property
     def sign(self) -> str:
         """What stands for each of the colours in text."""
-        return SIGNS[min(self.dash, len(SIGNS) - 1)]
+        return MARK if self.measured else SIGNS[min(self.dash, len(SIGNS) - 1)]
 
     @property
     def color(self) -> int:
@@ -39,11 +43,16 @@ class Key(NamedTuple):
 
 
 def color_keys(curves: Sequence[Curve], study: Study) -> tuple[Key, ...]:
-    """Return the keys of a page's curves, each name and colour once.
+    """Return the keys of a page's curves and then of measured points, each name and colour once.
 
     Where runs share the page, keys say what was changed between them: `x, c = 0.3`, or for many of them
     `x, c = 0.3 … 1.5`. The name of the only variable goes without saying.
     """
+    points = dict.fromkeys(Key(one.name, (one.color,), measured=True) for one in curves if one.measured)
+    return (*_run_keys([one for one in curves if not one.measured], study), *points)
+
+
+def _run_keys(curves: Sequence[Curve], study: Study) -> tuple[Key, ...]:
     groups: dict[tuple[str, int], dict[RunRecord, None]] = {}
     for curve in curves:
         if curve.name:  # marks and fields of charts have none

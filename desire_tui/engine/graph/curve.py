@@ -48,6 +48,8 @@ class Curve:
     joined: bool = True
     dash: int = 0
     """0 solid; from 1 on dashed, dotted …: there are more curves than colours."""
+    measured: bool = False
+    """Points of a data file, no run's: they are markers, as large as may be overlooked by none."""
     own_color: int | None = None
     """Its colour without regard to runs that share the graph; None: `color`."""
 

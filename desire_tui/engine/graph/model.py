@@ -9,6 +9,7 @@ import numpy as np
 
 from desire_tui.engine.graph.axes import Axes
 from desire_tui.engine.graph.color_keys import color_keys
+from desire_tui.engine.graph.measured_curve import without_known
 from desire_tui.engine.graph.run_colors import RunColors
 from desire_tui.engine.graph.study import Study
 from desire_tui.engine.graph.units import units_of, with_units
@@ -180,7 +181,10 @@ class Graph:
         known, now = self._study, (len(self.curves), self.erased)
         if known is None or not (known[0][1] == now[1] and known[0][0] <= now[0] <= known[0][0] * _GROWTH):
             curves = list(self.curves)
-            known = self._study = ((len(curves), now[1]), Study([curve.record for curve in curves]))
+            known = self._study = (
+                (len(curves), now[1]),
+                Study([curve.record for curve in curves if not curve.measured]),
+            )
         return known[1]
 
     def begin_run(self, curves: Sequence[Curve], ahead: int | None) -> None:
@@ -189,6 +193,7 @@ class Graph:
         `ahead`: so many runs follow; None: that is not known.
         """
         colors = self.run_colors
+        curves = without_known(curves, self.curves)
         if not self.has_keys or (self.curves and not colors.runs):
             self.curves.extend(curves)  # all of one colour, or the page was begun for something else
             return
@@ -230,7 +235,10 @@ class Graph:
     @property
     def has_few_points(self) -> bool:
         """Whether points that no lines join are so few that single dots would be overlooked."""
-        return self.points.count + sum(c.count for c in self.curves if not c.joined) <= FEW_POINTS
+        return (
+            self.points.count + sum(c.count for c in self.curves if not (c.joined or c.measured))
+            <= FEW_POINTS
+        )
 
     @property
     def is_empty(self) -> bool:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.graph.axes import AXIS_WORDS
 from desire_tui.engine.graph.curve import Curve, Frame
+from desire_tui.engine.graph.measured_curve import measured_curve, without_known
 from desire_tui.engine.graph.model import Graph, ShownArray
 from desire_tui.engine.graph.settings import DisplaySettings
 from desire_tui.engine.integration.rules import DUMMY
@@ -166,7 +167,8 @@ class GraphPages:
             if page is None:
                 page = self._page(run_frame(record, request), caption(request))
                 page.fit = fit
-            page.curves.extend(self._curves(record, request, page.frame, first))
+            curves = list(self._curves(record, request, page.frame, first))
+            page.curves.extend(without_known(curves, page.curves))
             first = len(page.curves)
         self._fresh = True
         return page
@@ -199,6 +201,8 @@ class GraphPages:
                 thickness=self.settings.thickness, joined=joined,
                 dash=self.settings.curve_dash(first_color + number),
             )  # fmt: skip
+        for number, points in enumerate(record.points, len(pairs)):
+            yield measured_curve(points, frame, self.settings.curve_color(first_color + number))
 
     def _begin_pictures(self, record: RunRecord, pictures: Sequence[Picture]) -> Graph:
         frame = Frame("picture", 0.0, 1.0, 0.0, 1.0, record.scale)
@@ -244,8 +248,11 @@ def run_frame(record: RunRecord, request: SampleRequest) -> Frame:
 def caption(request: SampleRequest) -> str:
     """Return the caption: `x, y vs. t`."""
     names = [column.name for column in request.columns]
+    pairs = [(points.x.name if points.x is not None else "t", points.y.name) for points in request.points]
     if request.kind == "dispt":
-        return f"{', '.join(names)} vs. t"
+        return f"{', '.join([*names, *(y for _, y in pairs)])} vs. t"
     if request.kind == "dispxy":
-        return f"{', '.join(names[1:])} vs. {names[0]}"
-    return ", ".join(f"{y} vs. {x}" for x, y in zip(names[::2], names[1::2], strict=False))
+        x = names[0] if names else pairs[0][0]
+        return f"{', '.join([*names[1:], *(y for _, y in pairs)])} vs. {x}"
+    pairs = [*zip(names[::2], names[1::2], strict=False), *pairs]
+    return ", ".join(f"{y} vs. {x}" for x, y in pairs)

@@ -1,4 +1,4 @@
-"""Pages made on demand: an array's elements over their index, one variable of a run over time."""
+"""Pages made on demand: an array's elements over their index, quantities of a run over time."""
 
 from __future__ import annotations
 
@@ -6,28 +6,50 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from desire_tui.engine.graph.chart_page import MARGIN, limits_of
 from desire_tui.engine.graph.curve import Curve, Frame
-from desire_tui.engine.integration.rules import DUMMY
-from desire_tui.engine.runtime.run_record import RunRecord
+from desire_tui.engine.graph.measured_curve import measured_curve
+from desire_tui.engine.graph.still_record import still_record
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.graph.pages import GraphPages
+    from desire_tui.engine.runtime.measured_points import PointSet
+    from desire_tui.engine.runtime.run_record import RunRecord
 
 ROWS_MOST = 8
 """A matrix of more rows is shown as a picture."""
-MARGIN = 0.05
-"""Room above and below a curve, in parts of its height."""
 
 
-def history_page(pages: GraphPages, name: str, record: RunRecord, column: int) -> Graph:
-    """Show one of a run's columns over time on a page of its own, as high as it needs."""
-    bottom, top = _limits(record.rows[: record.count, 1 + column])
-    frame = Frame("dispt", *record.time_range, bottom, top, _scale(bottom, top))
-    curve = Curve(name, "t", pages.settings.curve_color(0), record, 1 + column, 0, frame)
-    return pages.show_curves(frame, f"{name} vs. t", [curve])
+def history_page(
+    pages: GraphPages,
+    record: RunRecord | None,
+    numbers: Sequence[tuple[str, int]],
+    points: Sequence[PointSet] = (),
+) -> Graph:
+    """Show quantities (names, slots) of a run and measured points over time, as high as they need.
+
+    Without a run (and then without quantities) the times are those of the points.
+    """
+    columns: dict[str, int] = {}
+    if record is not None:
+        columns = {name: 1 + record.slots.index(slot) for name, slot in numbers}
+    samples = [] if record is None else [record.rows[: record.count, column] for column in columns.values()]
+    times = limits_of([one.x for one in points], 0.0) if record is None else record.time_range
+    bottom, top = limits_of([*samples, *(one.y for one in points)], MARGIN)
+    frame = Frame("dispt", *times, bottom, top, _scale(bottom, top))
+    settings, curves = pages.settings, list[Curve]()
+    for name, column in columns.items():
+        assert record is not None
+        color, dash = settings.curve_color(len(curves)), settings.curve_dash(len(curves))
+        curves.append(Curve(name, "t", color, record, column, 0, frame, dash=dash))
+    for one in points:
+        curves.append(measured_curve(one, frame, settings.curve_color(len(curves))))
+    return pages.show_curves(frame, f"{', '.join(curve.name for curve in curves)} vs. t", curves)
 
 
 def array_page(pages: GraphPages, name: str, values: NDArray[Any]) -> Graph:
@@ -48,12 +70,9 @@ def array_page(pages: GraphPages, name: str, values: NDArray[Any]) -> Graph:
         }
     length = values.shape[-1]
     table = np.column_stack([np.arange(1.0, length + 1), *named.values()])
-    bottom, top = _limits(table[:, 1:])
+    bottom, top = limits_of([table[:, 1:].ravel()], MARGIN)
     frame = Frame("dispxy", 1.0, max(float(length), 2.0), bottom, top, _scale(bottom, top))
-    record = RunRecord(
-        number=0, segment=None, line=0, requests=(), columns=(), overlay=False, rule=DUMMY, scale=frame.scale,
-        t0=1.0, t_max=frame.right - 1.0, nn=length, dt=1.0, rows=table, count=length, ended="tmax",
-    )  # fmt: skip
+    record = still_record([*table.T], frame)
     curves = [
         Curve(
             curve,
@@ -75,14 +94,6 @@ def _row_name(name: str, shape: tuple[int, ...], number: int) -> str:
     if len(shape) == 1:
         return name
     return f"{name}[{','.join(str(k + 1) for k in np.unravel_index(number, shape[:-1]))}]"
-
-
-def _limits(values: NDArray[np.float64]) -> tuple[float, float]:
-    """Return the least and the largest finite value, with a margin."""
-    finite = values[np.isfinite(values)]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (-1.0, 1.0)
-    room = MARGIN * (high - low) or MARGIN * abs(high) or 1.0
-    return low - room, high + room
 
 
 def _scale(bottom: float, top: float) -> float:

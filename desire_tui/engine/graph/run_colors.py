@@ -23,7 +23,7 @@ SPAN_LEAST = 4
 def in_run_colors(curves: Sequence[Curve]) -> list[Curve]:
     """Return the curves of several runs, one after the other, in ramps from the first run to the last."""
     colors = RunColors()
-    for _, group in groupby(curves, lambda curve: curve.record):
+    for _, group in groupby((c for c in curves if not c.measured), lambda curve: curve.record):
         colors.add(list(group))
     colors.widen(0)
     return colors.colored(curves, 0, own_colors=True)
@@ -42,6 +42,8 @@ class RunColors:
         """Take note of a run's curves."""
         self.runs += 1
         for curve in curves:
+            if curve.measured:
+                continue
             if self._hues.setdefault(curve.name, curve.hue) != curve.hue:
                 self._has_own = True
             self._runs_of[curve.name] = self._runs_of.get(curve.name, 0) + 1
@@ -73,6 +75,9 @@ class RunColors:
         alone = len(self._hues) == 1 and not own_colors
         place, before, found = first - 1, None, []
         for curve in curves:
+            if curve.measured:
+                found.append(curve)
+                continue
             if curve.record is not before:
                 place, before = place + 1, curve.record
             found.append(self._with_color(curve, place, alone=alone))

@@ -14,14 +14,10 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.nodes.names import segment_targets
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from desire_tui.engine.data_files.data_file import DataFile
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import StatementContext
     from desire_tui.engine.nodes.files import LoadData
-
-    Floats = NDArray[np.float64]
 
 
 def load_data(context: StatementContext, node: LoadData) -> Operation:
@@ -34,6 +30,7 @@ def load_data(context: StatementContext, node: LoadData) -> Operation:
 
     def action() -> None:
         file = read_program_data(context.host.permit(Path(node.file.strip()), "read"))
+        context.values.times_of_files[file.time] = file.name
         names = table_names(file.columns)
         problems = _names_taken(context, file, names)
         if problems:
@@ -46,7 +43,7 @@ def load_data(context: StatementContext, node: LoadData) -> Operation:
         ]
         before = context.values.replacements
         for column, name in names.items():
-            table = _table(file, column)
+            table = np.concatenate(file.measured(column))
             if len(table):
                 context.values.data[_slots(context, name, len(table))] = table
             else:
@@ -58,13 +55,6 @@ def load_data(context: StatementContext, node: LoadData) -> Operation:
             context.host.warn(DesireError(warning))
 
     return context.then(action)
-
-
-def _table(file: DataFile, column: str) -> Floats:
-    t, y = file.columns[file.time], file.columns[column]
-    good = np.isfinite(t) & np.isfinite(y)
-    order = np.argsort(t[good], kind="stable")
-    return np.concatenate((t[good][order], y[good][order]))
 
 
 def _slots(context: StatementContext, name: str, count: int) -> slice:

@@ -35,13 +35,32 @@ class SampleColumn:
 
 
 @node
+class MeasuredColumn:
+    """A column of a data file: its table of `count` numbers (times, then values) stands at `slot`."""
+
+    name: str
+    slot: int
+    count: int
+    where: Where
+
+
+@node
+class MeasuredPoints:
+    """Points that a display shows over the run's curves: one column over another, or over t."""
+
+    y: MeasuredColumn
+    x: MeasuredColumn | None = None
+
+
+@node
 class SampleRequest:
-    """dispt, dispxy, DISPXY or type, with the variables they sample."""
+    """dispt, dispxy, DISPXY or type, with the variables they sample and the points drawn over these."""
 
     kind: Literal["dispt", "dispxy", "DISPXY", "type"]
     columns: tuple[SampleColumn, ...]
     channel: int | None = None
     where: Where | None = None
+    points: tuple[MeasuredPoints, ...] = ()
 
 
 @node

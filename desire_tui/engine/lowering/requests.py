@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.lowered.segment import Picture, SampleColumn, SampleRequest
+from desire_tui.engine.lowering.measured import measured_curves, split_measured
 from desire_tui.engine.lowering.scope import UNKNOWN, size_of
 from desire_tui.engine.lowering.subscripts import constant, element, truncated
 from desire_tui.engine.nodes.expressions import Element
@@ -20,7 +21,7 @@ _DISPLAYS = frozenset({"dispt", "dispxy", "DISPXY"})
 
 
 def request(builder: SegmentBuilder, node: Request) -> None:
-    """`dispt dispxy DISPXY type stash recover`. Errors 8, 14, 200, 69."""
+    """`dispt dispxy DISPXY type stash recover`. Errors 8, 14, 200, 69, 536."""
     context = builder.context
     family = "display" if node.kind in _DISPLAYS else node.kind
     if family in builder.once_only:
@@ -28,7 +29,9 @@ def request(builder: SegmentBuilder, node: Request) -> None:
         context.report("second-request", node, kind=node.kind, line=line)
         return
     builder.once_only[family] = context.span(node)
-    columns = tuple(c for c in (column(builder, item) for item in node.items) if c is not None)
+    sampled, measured = split_measured(context, node)
+    points = measured_curves(context, node, measured) if family == "display" else ()
+    columns = tuple(c for c in (column(builder, item) for item in sampled) if c is not None)
     if node.kind == "DISPXY" and len(node.items) % 2:
         context.report("pairs-expected", node)
     elif node.kind == "dispxy" and len(node.items) < 2:
@@ -39,7 +42,7 @@ def request(builder: SegmentBuilder, node: Request) -> None:
         builder.recover.extend(columns)
     else:
         channel = None if node.channel is None else truncated(context, node.channel)
-        builder.requests.append(SampleRequest(node.kind, columns, channel, context.where(node)))
+        builder.requests.append(SampleRequest(node.kind, columns, channel, context.where(node), points))
 
 
 def column(builder: SegmentBuilder, item: Target) -> SampleColumn | None:
@@ -60,7 +63,9 @@ def column(builder: SegmentBuilder, item: Target) -> SampleColumn | None:
         context.report("complex-in-dynamic", item, name=name)
         return None
     if quantity is None or not (name in context.assigned or context.scope.is_defined(quantity)):
-        if context.first_report(name):
+        if name in context.scope.times_of_files:
+            context.report("times-in-request", item, name=name, file=context.scope.times_of_files[name])
+        elif context.first_report(name):
             close = closest(name, context.known_names(name))
             context.report("undefined-in-segment", item, name=name, close=close)
         return None

@@ -35,6 +35,11 @@ class SegmentScope(Protocol):
         """Every quantity by name."""
         ...
 
+    @property
+    def times_of_files(self) -> Mapping[str, str]:
+        """The columns of times of data files, which have no tables, and the files' names."""
+        ...
+
     def is_defined(self, quantity: Quantity) -> bool:
         """Whether a scalar has a value before the run."""
         ...
@@ -58,6 +63,7 @@ class LiveScope:
     def __init__(self, values: Values) -> None:
         self.values = values
         self.names: Mapping[str, Quantity] = values.names
+        self.times_of_files: Mapping[str, str] = values.times_of_files
         self.constants: dict[int, float] = {}
         """Every number whose present value was asked for, by its slot."""
 
@@ -92,7 +98,9 @@ class StaticScope:
         scalars: Iterable[str],
         constants: Mapping[str, float],
         first_free: int,
+        times_of_files: Mapping[str, str],
     ) -> None:
+        self.times_of_files = times_of_files
         self.names: dict[str, Quantity] = {q.name: q for q in quantities}
         self._constants = constants
         self._defined = set(scalars)

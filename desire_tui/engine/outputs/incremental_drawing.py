@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.graph.fit import WHOLE
-from desire_tui.engine.graph.model import SQUARE_MOST
+from desire_tui.engine.graph.model import FEW_POINTS, SQUARE_MOST
 from desire_tui.engine.graph.polylines import thin_columns, through
 from desire_tui.engine.outputs.backdrop import Backdrop
 from desire_tui.engine.outputs.clip_marks import ClipMarks
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 CROSS = 3
 """The thickness that makes crosses of points."""
+MEASURED_LEAST = 2
+"""The thickness of measured points that are many."""
 SAMPLES_MOST = 200_000
 """Samples of a curve that one call draws at most, so that ten million of them do not block the screen."""
 
@@ -111,7 +113,7 @@ class Painter:
                 x, y, curve.color, curve.thickness, curve.dash, self._along.get(curve, 0)
             )
         else:
-            self.canvas.dots(x, y, curve.color, self._thickness(curve.thickness))
+            self.canvas.dots(x, y, curve.color, self._marker(curve))
         self._drawn[curve] = stop
         return stop < count
 
@@ -127,6 +129,12 @@ class Painter:
         for color in np.unique(colors):
             chosen = colors == color
             self.canvas.dots(x[chosen], y[chosen], int(color), self._thickness(self.graph.thickness))
+
+    def _marker(self, curve: Curve) -> int:
+        """Return the thickness of a curve's points; measured ones stand out whatever else is drawn."""
+        if curve.measured:
+            return CROSS if curve.count <= FEW_POINTS else MEASURED_LEAST
+        return self._thickness(curve.thickness)
 
     def _thickness(self, asked: int) -> int:
         """Return the thickness of points: few are drawn as crosses, which are seen."""

@@ -12,10 +12,11 @@ import numpy as np
 
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
 from desire_tui.engine.graph.fit import WHOLE, Extent, limits, notice
-from desire_tui.engine.graph.model import SQUARE_MOST
+from desire_tui.engine.graph.model import FEW_POINTS
 from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, through
 from desire_tui.engine.graph.ticks import log_ticks, minor_log_ticks, minor_ticks, round_ticks, tick_labels
 from desire_tui.engine.outputs.picture_options import FOR_PAPER, PictureOptions
+from desire_tui.engine.outputs.shown_arrays import FONT, draw_arrays
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.graph.curve import Curve
     from desire_tui.engine.graph.fit import View
-    from desire_tui.engine.graph.model import Graph, ShownArray
+    from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.picture_options import PictureStyle
 
     Floats = NDArray[np.float64]
@@ -43,7 +44,6 @@ _NAME_MOST = 40  # characters; a longer name of the ordinate stands in the capti
 _FEW_WIDTH = 5.0  # points; of points that are few
 _SPINE = 2 * 72 / FOR_PAPER.dots_per_inch  # two dots: crisp
 _COLUMNS = 4000  # finer than any printer shows at this size
-_FONT = 11
 _drawing = Lock()  # matplotlib's settings are global, and two threads may draw at once
 
 
@@ -116,13 +116,13 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
     figure = Figure(figsize=inches, facecolor=ground, layout="constrained")
     shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
     if graph.frame.kind == "picture":
-        _draw_arrays(shown, [figure.add_subplot(1, len(shown), n + 1) for n in range(len(shown))], ink)
+        draw_arrays(shown, [figure.add_subplot(1, len(shown), n + 1) for n in range(len(shown))], ink)
         return figure
     axes = figure.add_subplot()
     if shown:  # beside the curves
         columns = figure.add_gridspec(1, 1 + len(shown), width_ratios=[2 * len(shown), *[1] * len(shown)])
         axes.set_subplotspec(columns[0])
-        _draw_arrays(shown, [figure.add_subplot(columns[n + 1]) for n in range(len(shown))], ink)
+        draw_arrays(shown, [figure.add_subplot(columns[n + 1]) for n in range(len(shown))], ink)
     axes.set_facecolor(ground)
     extent = Extent(graph)
     extent.update()
@@ -133,13 +133,13 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
     _draw_points(axes, graph)
     room = round((inches[0] - 1) * _CHARACTERS)
     title = graph.heading or graph.title(fitted=extent.is_fitted, room=room)
-    axes.set_title(title, loc="left", color=ink, fontsize=_FONT)
+    axes.set_title(title, loc="left", color=ink, fontsize=FONT)
     names = graph.axis_names
     if names is None or len(names[1]) > _NAME_MOST or (graph.has_own_colors and not graph.texts):
-        axes.set_xlabel(graph.label, color=ink, fontsize=_FONT)
+        axes.set_xlabel(graph.label, color=ink, fontsize=FONT)
     else:
-        axes.set_xlabel(names[0], color=ink, fontsize=_FONT)
-        axes.set_ylabel(names[1], color=ink, fontsize=_FONT)
+        axes.set_xlabel(names[0], color=ink, fontsize=FONT)
+        axes.set_ylabel(names[1], color=ink, fontsize=FONT)
     if extent.outside and not extent.inside and not extent.is_fitted:
         _say(axes, notice(extent, "display fit shows all"), ink)
     if graph.keys:
@@ -149,7 +149,7 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
 
 def _say(axes: Axes, text: str, ink: Tint) -> None:
     """Write into a frame that would be empty without a word."""
-    axes.text(0.5, 0.5, text, color=ink, fontsize=_FONT, ha="center", transform=axes.transAxes)
+    axes.text(0.5, 0.5, text, color=ink, fontsize=FONT, ha="center", transform=axes.transAxes)
 
 
 def _style_axes(axes: Axes, graph: Graph, ink: Tint, reach: tuple[float, float, float, float]) -> None:
@@ -159,7 +159,7 @@ def _style_axes(axes: Axes, graph: Graph, ink: Tint, reach: tuple[float, float, 
         if net is not None:
             spine.set_color(net)
             spine.set_linewidth(_SPINE)
-    axes.tick_params(colors=ink, labelsize=_FONT, length=4 if net is not None else 0)
+    axes.tick_params(colors=ink, labelsize=FONT, length=4 if net is not None else 0)
     left, right, bottom, top = reach
     for axis, low, high, is_log in (
         (axes.xaxis, left, right, graph.axes.log_x), (axes.yaxis, bottom, top, graph.axes.log_y)
@@ -190,11 +190,14 @@ def _draw_curve(axes: Axes, curve: Curve, graph: Graph, window: View) -> None:
     if not curve.joined:
         marker = _MARKERS[curve.dash % len(_MARKERS)]
         few = _FEW_WIDTH if graph.has_few_points else 0.0
+        if curve.measured:
+            few = _FEW_WIDTH if curve.count <= FEW_POINTS else _FEW_WIDTH / 2
         with np.errstate(invalid="ignore"):
             inside = (x >= 0) & (x <= 1) & (y >= 0) & (y <= 1)
         axes.plot(
             x[inside], y[inside], linestyle="none", marker=marker, markersize=few or 0.8 * width,
             markeredgewidth=0, color=color, transform=axes.transAxes,
+            zorder=4 if curve.measured else 2, clip_on=not curve.measured,
         )  # fmt: skip
         return
     if curve.frame.kind == "dispt":
@@ -247,7 +250,10 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
                 [],
                 color=_curve_tint(color, graph),
                 linewidth=2 if key.dash else 3,
-                linestyle=_DASHES[key.dash % len(_DASHES)],
+                linestyle="none" if key.measured else _DASHES[key.dash % len(_DASHES)],
+                marker=_MARKERS[0] if key.measured else None,
+                markersize=_FEW_WIDTH,
+                markeredgewidth=0,
             )
             for color in key.colors
         )
@@ -259,35 +265,6 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
     )  # fmt: skip
     for text in legend.get_texts():
         text.set_color(ink)
-
-
-def _draw_arrays(shown: list[tuple[ShownArray, Floats]], places: list[Axes], ink: Tint) -> None:
-    for (array, values), axes in zip(shown, places, strict=True):
-        if array.by_size:
-            _draw_squares(axes, array, values)
-        else:
-            axes.imshow(values, cmap="gray", vmin=-array.scale, vmax=array.scale, interpolation="nearest")
-        axes.set_title(array.name, color=ink, fontsize=_FONT)
-        axes.set_xticks([])
-        axes.set_yticks([])
-
-
-def _draw_squares(axes: Axes, array: ShownArray, values: Floats) -> None:
-    """Positive elements white, negative ones black, on the grey of 0."""
-    from matplotlib.collections import PolyCollection
-
-    sides = array.sides(values)
-    row, column = np.nonzero(np.nan_to_num(sides))
-    drawn = sides[row, column]
-    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 2
-    size = SQUARE_MOST * np.abs(drawn)[:, None, None]
-    squares = np.stack([column, row], axis=1)[:, None, :] + corners * size
-    tints = np.where(drawn > 0, "white", "black").tolist()
-    axes.add_collection(PolyCollection(list(squares), facecolors=tints, linewidths=0))
-    axes.set_facecolor("gray")
-    axes.set_xlim(-0.5, values.shape[1] - 0.5)
-    axes.set_ylim(values.shape[0] - 0.5, -0.5)
-    axes.set_aspect("equal")
 
 
 def _tint(color: int, graph: Graph) -> Tint:

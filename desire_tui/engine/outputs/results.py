@@ -152,7 +152,7 @@ def run_data(record: RunRecord, *, more: bool = False, **in_memory: Any) -> Run:
         dt_least=record.dt_least, dt_most=record.dt_most, order=record.order, seconds=record.seconds,
         parameters=record.start.parameters if record.start is not None else {},
         initial=record.start.initial if record.start is not None else {},
-        continues=record.start is not None and record.start.continues,
+        continues=record.start is not None and record.start.continues, points=record.points,
         **in_memory,
     )  # fmt: skip
 

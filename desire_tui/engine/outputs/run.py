@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.diagnostics import DesireError, Diagnostic
+    from desire_tui.engine.runtime.measured_points import PointSet
 
     Floats = NDArray[np.float64]
 
@@ -70,6 +71,8 @@ class Run(Mapping[str, "Floats"]):
     error: DesireError | None = field(default=None, metadata=IN_MEMORY)
     """What ended the run early; None: it came to its end, or to a `term`."""
     warnings: tuple[Diagnostic, ...] = field(default=(), metadata=IN_MEMORY)
+    points: tuple[PointSet, ...] = field(default=(), metadata=IN_MEMORY)
+    """What was measured, which the program draws over its curves: `name`, `x_name`, `x`, `y`."""
 
     def __getitem__(self, name: str) -> Floats:
         """Return the samples of a variable, or of `t`; KeyError for one that was not recorded."""

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
+    from desire_tui.engine.runtime.measured_points import PointSet
+
 CURVES_MOST = 12
 """In a picture that nobody asked for."""
 _PARAMETERS_MOST = 20
@@ -31,8 +33,11 @@ def plot_run(run: SampledRun, names: Sequence[str], ax: Axes | None, style: Mapp
         from matplotlib import pyplot as plt
 
         ax = plt.subplots(layout="constrained")[1]
-    curves = [curve_named(run, name) for name in names] or _shown(run)
-    _draw(ax, run, curves, style)
+    points = [one for one in run.points if not names or one.name in names]
+    measured = {one.name for one in points}
+    curves = [curve_named(run, name) for name in names if name not in measured]
+    _draw(ax, run, curves if names else _shown(run), style)
+    _draw_points(ax, points)
     return ax
 
 
@@ -62,6 +67,7 @@ def run_png(runs: Sequence[SampledRun]) -> bytes:
         curves = _shown(run)[:CURVES_MOST]
         axes.set_prop_cycle(None)
         _draw(axes, run, curves, {} if number == 0 else {"label": "_"})
+    _draw_points(axes, [one for run in runs for one in run.points])
     file = BytesIO()
     figure.savefig(file, format="png", dpi=100)
     return file.getvalue()
@@ -84,6 +90,17 @@ def _shown(run: SampledRun) -> list[CurveData]:
     """Return what is drawn unless somebody asks for more: where curves are over others, only those."""
     curves = curves_over_t(run)
     return [curve for curve in curves if curve.x is not None] or curves
+
+
+def _draw_points(axes: Axes, points: Sequence[PointSet]) -> None:
+    """Draw what was measured as markers, each name once."""
+    there = set(axes.get_legend_handles_labels()[1])
+    for one in points:
+        if one.name not in there:
+            there.add(one.name)
+            axes.plot(one.x, one.y, "o", label=one.name)
+    if points:
+        axes.legend()
 
 
 def _draw(axes: Axes, run: SampledRun, curves: Sequence[CurveData], style: Mapping[str, Any]) -> None:

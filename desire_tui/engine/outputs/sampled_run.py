@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from desire_tui.engine.runtime.measured_points import PointSet
+
     Floats = NDArray[np.float64]
 
 
@@ -34,6 +36,11 @@ class SampledRun(Protocol):
     @property
     def curves(self) -> tuple[CurveData, ...]:
         """Every variable recorded."""
+        ...
+
+    @property
+    def points(self) -> tuple[PointSet, ...]:
+        """What was measured, to be drawn over the curves."""
         ...
 
     @property

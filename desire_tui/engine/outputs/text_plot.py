@@ -44,7 +44,7 @@ def text_plot(graph: Graph, columns: int, rows: int, *, colored: bool) -> str:
 
 def _key(key: Key, graph: Graph, *, colored: bool) -> str:
     if not colored:
-        return key.name
+        return f"{key.sign} {key.name}" if key.measured else key.name
     squares = (_paint(key.sign, color, graph, colored=True) for color in key.colors)
     return f"{''.join(squares)} {key.name}"
 

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
+    from desire_tui.engine.runtime.measured_points import PointSet
     from desire_tui.engine.runtime.start_values import StartValues
 
 EndedWord = Literal["running", "tmax", "term", "stopped", "failed"]
@@ -62,6 +63,8 @@ class RunRecord:
     When there are too many, of every `picture_every`-th sample from the first one, and of the newest.
     """
     picture_every: int = 1
+    points: tuple[PointSet, ...] = ()
+    """What was measured, to be drawn over its curves."""
 
     def __post_init__(self) -> None:
         """Give the rows their width: a run that fails at once has none, but columns."""

@@ -12,13 +12,14 @@ from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.lowered.segment import SampleColumn
 from desire_tui.engine.lowered.statements import Where
 from desire_tui.engine.passes.slices import full_pass, is_pure
+from desire_tui.engine.runtime.measured_points import point_sets
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.session.differences import needs_steps_of, table
 from desire_tui.engine.source import Span
 from desire_tui.engine.values import DT, ERMAX
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.graph.pages import GraphPages
@@ -117,11 +118,11 @@ def run_again(
     last: RunRecord,
     change: Variation,
     spacing: float | None = None,
-    recorded: tuple[str, int] | None = None,
+    recorded: Sequence[tuple[str, int]] = (),
 ) -> RunRecord:
     """Run from where the last run began; with `spacing`, samples stand that far apart.
 
-    The variable `recorded` (name, slot) is sampled too. Within `Runs.restored`.
+    The variables `recorded` (name, slot) are sampled too. Within `Runs.restored`.
     """
     is_exact = runs.start is not None
     runs.go_back()
@@ -133,8 +134,9 @@ def run_again(
         raise DesireError(Diagnostic("compare-not-integrated", facts={"what": f"rule {rule}", "why": why}))
     if segment.recover:
         segment = workspace.segments.recovering(segment, workspace.stash_path("read", lambda _: False))
-    if recorded is not None:  # stashed variables are columns and nothing else
-        segment = replace(segment, stash=(*segment.stash, SampleColumn(*recorded, _anywhere(segment))))
+    if recorded:  # stashed variables are columns and nothing else
+        more = (SampleColumn(name, slot, _anywhere(segment)) for name, slot in recorded)
+        segment = replace(segment, stash=(*segment.stash, *more))
     for slot, value in ((DT, change.dt), (ERMAX, change.error_max)):
         if value is not None:
             workspace.values.assign(slot, value)
@@ -151,7 +153,7 @@ def run_again(
     record = RunRecord(
         number=0, segment=last.segment, line=0, requests=segment.requests, columns=segment.columns,
         overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0, t_max=plan.span, nn=plan.nn,
-        dt=plan.dt, error_max=plan.tolerance,
+        dt=plan.dt, error_max=plan.tolerance, points=point_sets(segment, workspace.values),
     )  # fmt: skip
     if not is_exact:
         record.message = "compared with the quantities as they are now: of so large a model no copy is kept"

@@ -140,6 +140,8 @@ def _with_columns(
     """Let the display request sample more; a segment without one gets one."""
     for number, request in enumerate(requests):
         if request.kind != "type":
-            wider = SampleRequest(request.kind, (*request.columns, *columns), request.channel, request.where)
+            wider = SampleRequest(
+                request.kind, (*request.columns, *columns), request.channel, request.where, request.points
+            )
             return (*requests[:number], wider, *requests[number + 1 :])
     return (*requests, SampleRequest("dispt", columns))

@@ -14,6 +14,7 @@ from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.passes.replication import LockStepError
 from desire_tui.engine.passes.variational import variational
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
+from desire_tui.engine.runtime.measured_points import point_sets
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.start_values import StartQuantities, start_slots
 from desire_tui.engine.runtime.tables import check_tables
@@ -149,7 +150,7 @@ class PreparedRun:
             number=self._runs.count, segment=self._label, line=self._line, requests=segment.requests,
             columns=segment.columns, overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0,
             t_max=plan.span, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
-            start=begins, compile_seconds=perf_counter() - began,
+            start=begins, compile_seconds=perf_counter() - began, points=point_sets(segment, self.values),
         )  # fmt: skip
         self._control.begin()
         try:

@@ -10,6 +10,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic, internal_erro
 from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.runtime.gap_warnings import gap_warnings
+from desire_tui.engine.runtime.measured_points import outside_warnings, point_sets
 from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
 from desire_tui.engine.runtime.start_values import StartQuantities
@@ -109,6 +110,7 @@ class Runs:
         segment = workspace.segments.directed(segment, plan)
         model = workspace.segments.model(segment, plan.rule)
         self._warn_before(model, segment)
+        points = point_sets(segment, self._values)
         self.start, self.run_of = start, (program.source.text, self._values.generation)
         self.count += 1
         record = RunRecord(
@@ -116,8 +118,10 @@ class Runs:
             columns=segment.columns, overlay=self._graphs.settings.mode == 2, rule=plan.rule,
             scale=plan.scale, t0=plan.t0, t_max=plan.span, nn=plan.nn, dt=plan.dt, error_max=plan.tolerance,
             start=self._start_values(segment, start), compile_seconds=perf_counter() - began,
+            points=points,
         )  # fmt: skip
         self._keep(record)
+        self._warn_once(outside_warnings(segment, record))
         graph = self._graphs.begin_run(
             record, segment.pictures,
             program=program.source.file_name, has_scale=plan.scale != 1.0 or self._sets_scale(program),

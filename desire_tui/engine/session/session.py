@@ -367,15 +367,16 @@ class Session:
         with self._notebook.task(command, lambda: graph):
             self._notebook.output(text)
 
-    def plot_quantity(self, name: str) -> PlotOutcome:
-        """Plot `x`, `A` or `A[2,3]` on a page of its own: arrays over the index, others over the last run.
+    def plot_quantities(self, names: str) -> tuple[PlotOutcome, str]:
+        """Plot `x`, `A`, `A[2,3]` or several (`x, position`) on a page: arrays over the index, others over t.
 
-        What that run did not record is recorded by making it once more. Belongs to the session's thread.
+        What the last run did not record is recorded by making it once more. Belongs to the session's thread.
         """
-        from desire_tui.engine.session.quantity_plots import plot_quantity
+        from desire_tui.engine.session.quantity_plots import plot_quantities
 
+        show = self._listener.graph_changed
         with self._activity.working(State.RUNNING):
-            return plot_quantity(self._workspace, self._runs, self.graphs, name, self._listener.graph_changed)
+            return plot_quantities(self._workspace, self._runs, self.graphs, names, show)
 
     def help(self, topic: str = "") -> str:
         """Return the help page (Markdown) of a statement, function, command or error number."""

@@ -249,6 +249,21 @@ MESSAGES: dict[str, Wording] = {
     "array-in-request": Wording(
         69, "'{name}' is an array: one of its elements can be shown", "write {name}[i], or SHOW {name}"
     ),
+    "measured-not-sampled": Wording(
+        536,
+        "'{name}' is a column of a data file, and '{kind}' takes samples of the run",
+        "dispt draws its points; its value at any time is func1(t; {name})",
+    ),
+    "times-in-request": Wording(
+        536,
+        "'{name}' holds the times of {file}: the other columns are drawn over them, and it has no table",
+        "leave it out, or name another column",
+    ),
+    "measured-over-quantity": Wording(
+        536,
+        "'{name}' is a column of a data file, '{other}' is not: they have values at other times",
+        "draw one column over another (DISPXY x, y, column1, column2), or all over t (dispt)",
+    ),
     "show-array": Wording(112, "SHOW needs an array, '{name}' is none", "declare it: ARRAY {name}[m,n]"),
     "show-columns": Wording(112, "SHOW with {value} columns", "at least one column"),
     "illegal-in-jacobian": Wording(

@@ -33,6 +33,18 @@ MESSAGES: dict[str, Wording] = {
         "set it before drun, for instance TMAX = 10",
         _TMAX_PAGE,
     ),
+    "measured-apart": Wording(
+        536,
+        "no time of '{y}' is one of '{x}' too: points of both need values at the same times",
+        "take two columns of one file",
+    ),
+    "measured-outside-run": Wording(
+        537,
+        "no point of '{name}' is drawn: it was measured from t = {first:g} to {last:g}, and the run goes "
+        "from {begin:g} to {end:g}",
+        "set t and TMAX so that the run covers the data, or shift their times",
+        warning=True,
+    ),
     "tmax-zero": Wording(
         87,
         "TMAX = {value:g}, but a run must last some time",
