@@ -15,6 +15,7 @@ from desire_tui.commands import COMMAND_LINE_WORDS
 from desire_tui.editor.code_area import CodeArea
 from desire_tui.editor.completion_popup import CompletionPopup
 from desire_tui.language.completion import OFFERED_MAX, around, is_complete, offers
+from desire_tui.language.file_columns import file_columns
 from desire_tui.language.line_tokens import word_before
 from desire_tui.panes.prompt import Prompt
 
@@ -131,7 +132,8 @@ class Completer:
         command = isinstance(target, Prompt)
         area = self._front() if command else target
         assert isinstance(area, CodeArea)
-        lines, known = around(area.document.lines, area.cursor_location[0]), self._known()
+        lines = around(area.document.lines, area.cursor_location[0])
+        known = {**file_columns(lines, area.buffer.path), **self._known()}
         typed_itself, words = (0, COMMAND_LINE_WORDS) if command else (1, ())
         self._complete = is_complete(prefix, lines, known, commands=words, itself=typed_itself)
         found = offers(prefix, lines, known, commands=words, complete=self._complete)

@@ -12,6 +12,7 @@ from desire_tui.engine.values import SYSTEM_VARIABLES
 from desire_tui.help.page_catalogue import find
 from desire_tui.language.completion import OFFERED_MAX, OWN_NAME, around, offers
 from desire_tui.language.descriptions import described
+from desire_tui.language.file_columns import file_columns
 from desire_tui.language.line_tokens import joined_word_at, word_before
 
 if TYPE_CHECKING:
@@ -23,12 +24,10 @@ def completions(snapshot: Snapshot, position: types.Position) -> types.Completio
     """Return what fits the beginning of a word before a place, the likeliest first."""
     row, column = _row_and_column(snapshot, position)
     prefix = word_before(snapshot.lines[row], column)
-    known = {name: f"= {value:.6g}" for name, value in snapshot.values.items()}
-    found = (
-        offers(prefix, around(snapshot.lines, row), known)
-        if prefix or not _in_prose(snapshot, row, column)
-        else []
-    )
+    lines = around(snapshot.lines, row)
+    known = file_columns(lines, snapshot.source.path)
+    known |= {name: f"= {value:.6g}" for name, value in snapshot.values.items()}
+    found = offers(prefix, lines, known) if prefix or not _in_prose(snapshot, row, column) else []
     start = snapshot.places.offset(position) - len(prefix)
     where = types.Range(snapshot.places.position(start), position)
     items = [_item(offer, number, where) for number, offer in enumerate(found)]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from desire_tui.engine.graph.curve import Frame
-    from desire_tui.engine.runtime.measured_points import PointSet
+    from desire_tui.engine.runtime.point_set import PointSet
 
 _SLACK = 1e-9
 

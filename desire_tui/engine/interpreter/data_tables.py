@@ -41,6 +41,8 @@ def load_data(context: StatementContext, node: LoadData) -> Operation:
             for column, name in names.items()
             if name != column
         ]
+        if not names:
+            notes.append(f"{file.name}: its only column, {file.time}, is taken for the times: there is no table")
         before = context.values.replacements
         for column, name in names.items():
             table = np.concatenate(file.measured(column))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.diagnostics import DesireError, Diagnostic
-    from desire_tui.engine.runtime.measured_points import PointSet
+    from desire_tui.engine.runtime.point_set import PointSet
 
     Floats = NDArray[np.float64]
 

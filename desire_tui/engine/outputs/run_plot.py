@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-    from desire_tui.engine.runtime.measured_points import PointSet
+    from desire_tui.engine.runtime.point_set import PointSet
 
 CURVES_MOST = 12
 """In a picture that nobody asked for."""

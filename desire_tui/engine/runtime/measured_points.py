@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.runtime.point_set import PointSet
 from desire_tui.engine.runtime.run_faults import at_statement
 
 if TYPE_CHECKING:
@@ -21,16 +22,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
     Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PointSet:
-    """Points of a column: its values `y` over the times, or over another column's values (`x_name`)."""
-
-    name: str
-    x_name: str
-    x: Floats
-    y: Floats
 
 
 def point_sets(segment: Segment, values: Values) -> tuple[PointSet, ...]:

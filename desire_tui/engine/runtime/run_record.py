@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
-    from desire_tui.engine.runtime.measured_points import PointSet
+    from desire_tui.engine.runtime.point_set import PointSet
     from desire_tui.engine.runtime.start_values import StartValues
 
 EndedWord = Literal["running", "tmax", "term", "stopped", "failed"]
@@ -68,7 +68,7 @@ class RunRecord:
 
     def __post_init__(self) -> None:
         """Give the rows their width: a run that fails at once has none, but columns."""
-        if not len(self.rows):
+        if not len(self.rows) and self.rows.shape[1] <= len(self.columns):
             self.rows = np.zeros((0, 1 + len(self.columns)))
 
     @property

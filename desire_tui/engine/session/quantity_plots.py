@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.runtime.measured_points import PointSet
+    from desire_tui.engine.runtime.point_set import PointSet
     from desire_tui.engine.runtime.run_record import RunRecord
     from desire_tui.engine.session.runs import Runs
     from desire_tui.engine.session.workspace import Workspace
