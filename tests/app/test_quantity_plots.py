@@ -134,3 +134,17 @@ async def test_the_next_run_starts_a_page_of_its_own(program):
         await desk.idle()
         assert [c.name for c in chart.curves] == ["v"]
         assert desk.app.session.graph is not chart
+
+
+async def test_measured_points_beside_a_quantity(program, tmp_path):
+    (tmp_path / "m.csv").write_text("t,seen\n0,1\n3,-1\n")
+    async with desktop(program("data 'm.csv'\n" + OSCILLATOR), size=(120, 40)) as desk:
+        await desk.press("f5")
+        await desk.idle()
+        await desk.line("graph x, seen")
+        await desk.idle()
+        found = desk.app.session.graph
+        assert [(c.name, c.measured) for c in found.curves] == [("x", False), ("seen", True)]
+        assert found.caption == "x, seen vs. t"
+        assert desk.app.session.plot_quantities("seen") == ("shown", "seen")
+        assert desk.app.session.graph.frame.right == 3
