@@ -31,7 +31,8 @@ LOOKS_MOST = 400
         (4, BY_STATE, watch, "has_switched"),
         (4, BY_T, ahead, "over"),
         (14, BY_T, ahead, "over"),
-        (4, EVENT, locate, "make_step"),
+        (4, EVENT, locate, "go_to"),
+        (14, EVENT, locate, "go_to"),
     ],
 )
 def test_few_looks(rule, model, owner, looks):

@@ -71,6 +71,10 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "look": (ctypes.c_int32, (_ADDRESS, _REAL, _REAL)),
     "settle": (ctypes.c_int32, (_ADDRESS, _REAL)),
     "depart": (ctypes.c_int32, (_ADDRESS,)),
+    "limit_step": (_REAL, (_ADDRESS, _REAL, _REAL, _REAL)),
+    "look_inside": (_INT, (_ADDRESS, _REAL, _REAL)),
+    "remember_step": (None, (_ADDRESS, _REAL, _REAL)),
+    "happen": (ctypes.c_int32, (_ADDRESS, _INT)),
     "at_start": (_INT, (_ADDRESS, _ADDRESS)),
     "recurrences": (None, (_ADDRESS, _ADDRESS, _INT)),
 }
@@ -170,6 +174,11 @@ class SolverProblem(ctypes.Structure):
         ("look", _ADDRESS),
         ("settle", _ADDRESS),
         ("depart", _ADDRESS),
+        ("moments", _ADDRESS),  # `runtime.moments.memory.Moments`, 0: neither events nor delays
+        ("limit_step", _ADDRESS),  # functions of `runtime.moments`
+        ("look_inside", _ADDRESS),
+        ("remember_step", _ADDRESS),
+        ("happen", _ADDRESS),
         ("first_step", _REAL),  # 0: CVODE looks for one
         ("jacobian_calls", _INT),
         ("failed", _INT),  # steps tried again before the last restart

@@ -247,12 +247,10 @@ class StiffReferenceModel(ReferenceModel):
                 return None
             if problem.t != problem.t_step:
                 self._leave(problem.t_step, self._solution())
-            if not problem.settled:
-                assert self.switches is not None
-                problem.settled = 1
-                ended = self._take_up(self.switches.settle(t_next), memory)
-                if ended is not None:
-                    break
+            while not problem.settled and ended is None:
+                ended = self._settle(memory, t_next)
+            if ended is not None:
+                break
             if problem.t_step >= t_next:
                 memory.phase = Phase.AT_POINT
                 return None
@@ -280,17 +278,16 @@ class StiffReferenceModel(ReferenceModel):
         problem, solver, cells = self.system.problem, self.system.solver, self.cells
         t_from = problem.t_step
         stop = max(t_next, problem.t_end) if problem.is_free else t_next
-        if self.switches is not None:
-            stop = self.switches.limit(t_from, stop)
-        if stop - t_from <= TOO_NEAR * abs(stop):
+        stop, near = self._limited(t_from, stop, t_next)
+        if stop - t_from <= near:
             problem.t_step = stop
             self._leave(stop, self._solution())
-            problem.anew, problem.settled = 1, int(self.switches is None)
+            problem.anew, problem.settled = 1, int(not self._is_watched)
             return 0
         if problem.anew:
             self._begin_anew(t_from)
         problem.suspect = problem.suspect if problem.stuck else -1
-        flag, t = solver.step(stop)
+        flag, t = self._solver_step(stop)
         problem.fresh += 1
         if problem.turns and problem.fresh > SLIDE_STEPS:
             end_slide(problem)
@@ -312,15 +309,46 @@ class StiffReferenceModel(ReferenceModel):
         memory.dt_least = cells[DT] if memory.steps == 0 else min(memory.dt_least, cells[DT])
         memory.dt_most = max(memory.dt_most, cells[DT])
         memory.steps += 1
-        if self.switches is not None:
-            found = self.switches.look_back(t_from, t, self._taylor())
-            problem.settled = int(found < 0)
-            if found > 0:
-                self._solution()[:] = self._states()
-                problem.t_step, problem.anew = cells[T], 1
-            if found >= 0:
-                self._leave(problem.t_step, self._solution())
+        self._look_back(t_from)
         return 0
+
+    @property
+    def _is_watched(self) -> bool:
+        """Whether something may happen where a step ends."""
+        return self.switches is not None
+
+    def _limited(self, t: float, stop: float, t_next: float) -> tuple[float, float]:  # noqa: ARG002 - moments do
+        """Return how far a step from t may go, and how near to t that is no step."""
+        if self.switches is not None:
+            stop = self.switches.limit(t, stop)
+        return stop, TOO_NEAR * abs(stop)
+
+    def _solver_step(self, stop: float) -> tuple[int, float]:
+        """Take a step; return its flag and where it has ended."""
+        return self.system.solver.step(stop)
+
+    def _look_back(self, t0: float) -> None:
+        """Look whether something has switched in the last step, which began at t0; it ends there then."""
+        problem = self.system.problem
+        if self.switches is None:
+            return
+        found = self.switches.look_back(t0, problem.t_step, self._taylor())
+        if found > 0:
+            self._end_step_here()
+        if found >= 0:
+            problem.settled = 0
+            self._leave(problem.t_step, self._solution())
+
+    def _end_step_here(self) -> None:
+        """Let the last step end at the t and states in the values."""
+        problem = self.system.problem
+        self._solution()[:] = self._states()
+        problem.t_step, problem.anew = self.cells[T], 1
+
+    def _settle(self, memory: RunMemory, t_next: float) -> Ended | None:
+        """Take up what has switched where the last step has ended."""
+        self.system.problem.settled = 1
+        return None if self.switches is None else self._take_up(self.switches.settle(t_next), memory)
 
     def _take_up(self, bits: int, memory: RunMemory) -> Ended | None:
         """Go on from the t and states in the values, behind a switching."""

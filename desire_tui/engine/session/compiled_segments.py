@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.runtime.stash import read_stash, with_recovery
 
@@ -127,19 +126,7 @@ class CompiledSegments:
 
     def model(self, segment: Segment, rule: int) -> Model:
         """Return a segment made ready for a rule; the back end keeps it."""
-        if (segment.events or segment.delays) and rule_numbered(rule).has_interpolant and segment.order:
-            return self._located(segment, rule)
         return self.backend.model(segment, rule, self._values)
-
-    def _located(self, segment: Segment, rule: int) -> Model:
-        """Return a segment with events or delays for a multistep rule: native code has no such loop."""
-        from desire_tui.engine.reference.stiff_moments import StiffMomentModel
-
-        if self.backend.name != "native":
-            return StiffMomentModel(segment, rule, self._values)
-        from desire_tui.engine.codegen.switching.called_watch import CalledWatch
-
-        return StiffMomentModel(segment, rule, self._values, CalledWatch())
 
     def recovering(self, segment: Segment, stash: Path) -> Segment:
         """Return a segment with a `recover` line as one that reads the stash file as it is now."""

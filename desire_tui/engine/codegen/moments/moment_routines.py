@@ -16,15 +16,15 @@ from desire_tui.engine.codegen.plain_python.surroundings import Outside
 from desire_tui.engine.integration import halving, tableaus
 from desire_tui.engine.integration.switching import memory as switching
 from desire_tui.engine.runtime import run_memory
-from desire_tui.engine.runtime.moments import blocks, histories, locate, memory, stages, steps
-from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Moments
+from desire_tui.engine.runtime.moments import blocks, histories, inside, locate, memory, stages, steps
+from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Moments, Place
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.linker import MachineCode
 
-_MODULES = (histories, blocks, stages, locate, steps)
+_MODULES = (histories, blocks, stages, locate, steps, inside)
 _ENGINE = files("desire_tui.engine")
 
 
@@ -35,7 +35,7 @@ def _source(name: str) -> bytes:
 _TEXTS = {module: _source(module.__name__) for module in _MODULES}
 """Read now, when the modules are: files may change under a process that lives for days."""
 _OTHERS = b"".join(_source(module.__name__) for module in (memory, run_memory, tableaus, halving, switching))
-_PUBLIC = ("begin", "step", "look_up")
+_PUBLIC = ("begin", "step", "look_up", "limit_step", "look_inside", "remember_step", "happen")
 _making = Lock()
 _made: list[MomentFunctions] = []
 
@@ -46,6 +46,10 @@ class MomentFunctions(NamedTuple):
     begin: int
     step: int
     look_up: int
+    limit_step: int
+    look_inside: int
+    remember_step: int
+    happen: int
     keep: Any
 
 
@@ -54,16 +58,15 @@ def moment_functions() -> MomentFunctions:
     with _making:
         if not _made:
             code = kept_code(_name()) or _compiled()
-            begin, step, look_up = (code.address(f"moments_{name}") for name in _PUBLIC)
-            _made.append(MomentFunctions(begin, step, look_up, code))
+            addresses = [code.address(f"moments_{name}") for name in _PUBLIC]
+            _made.append(MomentFunctions._make([*addresses, code]))
         return _made[0]
 
 
 def _compiled() -> MachineCode:
     pointers = {name: of_function(Compute, "") for name in ("conditions", "blocks", "derivative", "sources")}
-    pointers |= {
-        name: of_function(kind, "") for name, kind in (("limit", Limit), ("look", Look), ("depart", Depart))
-    }
+    kinds = {"limit": Limit, "look": Look, "depart": Depart, "place": Place}
+    pointers |= {name: of_function(kind, "") for name, kind in kinds.items()}
     outside = Outside({"Moments": Moments, "RunMemory": RunMemory}, pointers)
     modules = [Module(_TEXTS[module], vars(module)) for module in _MODULES]
     text = write_program(modules, outside, "moments_", frozenset(_PUBLIC))

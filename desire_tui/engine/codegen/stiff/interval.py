@@ -2,7 +2,8 @@
 
 `interval` starts from t and the states in the values, where the pass at the first step's start has been done,
 and comes back with `Ended.RUNNING` once t is `t_next`; with STOPPED where `stop` was set; TERM with the
-statement's number in `which`; SOLVER with CVODE's flag in `which`.
+statement's number in `which`; SOLVER with CVODE's flag in `which`; ZENO where events come too fast; FULL
+where there is no room for what delays remember.
 
 The steps are those of `cvode_steps` or `own_steps`, whichever this text is compiled with. Where the problem
 `is_free` they go on beyond communication points, whose states are interpolated: the solver is then ahead of
@@ -25,6 +26,14 @@ from desire_tui.engine.codegen.stiff.cvode_steps import (
     take_step,
 )
 from desire_tui.engine.codegen.stiff.model_calls import gather, scatter
+from desire_tui.engine.codegen.stiff.moment_steps import (
+    begin_interval,
+    enter_step,
+    happen,
+    has_room,
+    look_for_events,
+    nearness,
+)
 from desire_tui.engine.codegen.stiff.rounding import watch_noise
 from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
@@ -53,6 +62,8 @@ def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
     states: Reals = problem.states
     between: Reals = problem.between
     synchronise(problem)
+    if problem.moments != 0:
+        begin_interval(problem, memory)
     if problem.watch != 0 and problem.settled != 0 and problem.t == problem.t_step:
         ended = take_up(problem, problem.depart(problem.watch))
         if ended != 0:
@@ -64,9 +75,8 @@ def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
             return Ended.RUNNING
         if problem.t != problem.t_step:
             leave(problem, problem.t_step, states)
-        if problem.settled == 0:
-            problem.settled = 1
-            ended = take_up(problem, problem.settle(problem.watch, t_next))
+        while problem.settled == 0:
+            ended = settle_here(problem, t_next)
             if ended != 0:
                 return ended
         if problem.t_step >= t_next:
@@ -82,6 +92,8 @@ def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
                 ended = take_up(problem, problem.depart(problem.watch))
                 if ended != 0:
                     return ended
+        if problem.moments != 0 and has_room(problem) == 0:
+            return Ended.FULL
         flag = advance_to(problem, memory, t_next)
         if flag < 0:
             memory.which = flag
@@ -98,19 +110,27 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
     stop = t_next
     if problem.is_free != 0:
         stop = max(stop, problem.t_end)
+    near = TOO_NEAR * abs(stop)
+    if problem.moments != 0:
+        stop = problem.limit_step(problem.moments, t_from, stop, t_next)
+        near = max(near, nearness(problem))
     if problem.watch != 0:
         stop = problem.limit(problem.watch, t_from, stop)
-    if stop - t_from <= TOO_NEAR * abs(stop):
+    if stop - t_from <= near:
         problem.t_step = stop
         leave(problem, stop, states)
         problem.anew = 1
-        problem.settled = 0 if problem.watch != 0 else 1
+        problem.settled = 0 if problem.watch != 0 or problem.moments != 0 else 1
         return 0
     if problem.anew != 0:
         begin_anew(problem, t_from)
     if problem.stuck == 0:
         problem.suspect = -1
+    if problem.moments != 0:
+        enter_step(problem, 1)
     flag = take_step(problem, stop)
+    if problem.moments != 0:
+        enter_step(problem, 0)
     problem.fresh += 1
     if problem.turns != 0 and problem.fresh > SLIDE_STEPS:
         end_slide(problem)
@@ -127,6 +147,8 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
     size = last_size(problem)
     values[DT] = size
     record_step(memory, size)
+    if problem.moments != 0:
+        t = look_for_events(problem, t_from)
     if problem.watch != 0:
         found: int = look(problem, t_from, t)
         if found > 0:
@@ -136,7 +158,31 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
         if found >= 0:
             problem.settled = 0
             leave(problem, problem.t_step, states)
+    if problem.moments != 0:
+        problem.remember_step(problem.moments, t_from, problem.t_step)
+        problem.settled = 0
+        leave(problem, problem.t_step, states)
     return 0
+
+
+def settle_here(problem: SolverProblem, t_next: float) -> Int32:
+    """Take up what has switched or is due where the last step has ended; return why the run ends, else 0."""
+    ended = 0
+    problem.settled = 1
+    if problem.watch != 0:
+        ended = take_up(problem, problem.settle(problem.watch, t_next))
+    if ended == 0 and problem.moments != 0:
+        came = happen(problem)
+        if came > 1:
+            return Ended.ZENO
+        if came != 0:
+            passed = problem.passed
+            synchronise(problem)
+            problem.passed = passed  # there the pass at a step's start is still to be made
+            problem.anew = 1
+            if problem.watch != 0:
+                ended = take_up(problem, problem.depart(problem.watch))
+    return ended
 
 
 def take_up(problem: SolverProblem, bits: int) -> Int32:
@@ -145,6 +191,8 @@ def take_up(problem: SolverProblem, bits: int) -> Int32:
     states: Reals = problem.states
     if bits == 0 and values[T] == problem.t:
         return 0
+    if problem.moments != 0 and values[T] > problem.t:
+        problem.settled = 0  # an event may come behind a switch of t
     gather(problem)
     problem.t_step = values[T]
     leave(problem, problem.t_step, states)

@@ -21,6 +21,7 @@ from desire_tui.engine.codegen.stiff import (
     interval,
     jacobian_fill,
     model_calls,
+    moment_steps,
     own_steps,
     rounding,
     taylor_steps,
@@ -41,6 +42,10 @@ from desire_tui.engine.integration.taylor import step as taylor_step
 from desire_tui.engine.integration.taylor.memory import Expand, Taylor
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.runtime import run_memory
+from desire_tui.engine.runtime.moments import inside as moments_inside
+from desire_tui.engine.runtime.moments import memory as moments_memory
+from desire_tui.engine.runtime.moments import steps as moments_steps
+from desire_tui.engine.runtime.moments.memory import Moments
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, T
 
@@ -53,11 +58,14 @@ _CALLED = (
     "CVode", "CVodeGetDky", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
 )  # fmt: skip
-_MODEL = (model_calls, jacobian_fill, rounding, sliding, interval)
+_MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
 _TAYLOR = (*_MODEL, taylor_steps, taylor_step, roots, located)
-_CONSTANTS = (memory, taylor_memory, problem, run_memory, signatures, switching)
+_CONSTANTS = (
+    memory, taylor_memory, problem, run_memory, signatures, switching, moments_inside, moments_memory,
+    moments_steps,
+)  # fmt: skip
 _ENGINE = files("desire_tui.engine")
 
 
@@ -77,6 +85,7 @@ _DEPENDS_ON = b"".join(
 )
 """Kept code of other texts is not looked at."""
 
+_STRUCTURES = (Bdf, SolverProblem, RunMemory, Taylor, Watch, Moments)
 _ANY = 0
 """In place of a number of states: code for all."""
 _SERIES = -1
@@ -179,7 +188,7 @@ def _name(n: int) -> str:
         [
             T,
             DT,
-            *((kind, sizeof(kind), kind._fields_) for kind in (Bdf, SolverProblem, RunMemory, Taylor, Watch)),
+            *((kind, sizeof(kind), kind._fields_) for kind in _STRUCTURES),
         ]
     )
     everything = _DEPENDS_ON + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
@@ -192,7 +201,7 @@ def _modules(modules: tuple[ModuleType, ...]) -> list[Module]:
 
 def _cvode_text() -> str:
     called = {name: of_declaration(*CVODE[name], name) for name in _CALLED}
-    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory}
+    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Moments": Moments}
     outside = Outside(structures, _of_the_problem(), modules={"cvode": called})
     public = frozenset(("interval", "rhs", "weights", "jacobian", "state_at"))
     return write_program(_modules(_CVODE), outside, "solver_", public)
@@ -201,7 +210,7 @@ def _cvode_text() -> str:
 def _own_text(n: int) -> str:
     """Write our solver, for n states only if that is not `_ANY`; all in one function takes LLVM 1 s more."""
     callbacks = {"evaluate": Evaluate, "weigh": Weigh, "fill": Fill}
-    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Bdf": Bdf}
+    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Bdf": Bdf, "Moments": Moments}
     pointers = _of_the_problem() | {name: of_function(kind, "") for name, kind in callbacks.items()}
     direct = {name: name for name in callbacks}
     outside = Outside(structures, pointers, direct, {"n": n} if n else {})
@@ -209,7 +218,10 @@ def _own_text(n: int) -> str:
 
 
 def _series_text() -> str:
-    structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Taylor": Taylor, "Watch": Watch}
+    structures = {
+        "SolverProblem": SolverProblem, "RunMemory": RunMemory, "Taylor": Taylor, "Watch": Watch,
+        "Moments": Moments,
+    }  # fmt: skip
     kinds = {"expand": Expand, "modes": Compute, "place": Place}
     pointers = _of_the_problem() | {name: of_function(kind, "") for name, kind in kinds.items()}
     public = frozenset(("interval", "state_at"))

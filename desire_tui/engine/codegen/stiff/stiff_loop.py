@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.tableaus import Tableau
 
 
+_FAULTS = (Ended.SOLVER, Ended.CHATTERS, Ended.ZENO, Ended.FULL)
+
+
 class StiffDriver(Driver):
     """Calls `the interval` where others make a step; it also makes the step passes inside the interval."""
 
@@ -25,7 +28,7 @@ class StiffDriver(Driver):
         call = f"call i32 {self.context.load('interval')}("
         ended = text.op(f"{call}ptr {self.context.load('problem')}, ptr %m, double {self.get('t_next')})")
         self.put("steps", self.memory.load("steps"))  # counted where they are made
-        others = (Ended.STOPPED, Ended.TERM, Ended.SOLVER, Ended.CHATTERS)
+        others = (Ended.STOPPED, Ended.TERM, *_FAULTS)
         cases = " ".join(f"i32 {int(e)}, label %interval.{e.name.lower()}" for e in others)
         text.do(f"switch i32 {ended}, label %interval.done [ {cases} ]")
         for name, reached, stop in (("done", 1, 0), ("stopped", 0, 1)):
@@ -36,10 +39,9 @@ class StiffDriver(Driver):
         text.begin("interval.term")
         self.context.store("term", self.memory.load("which"))
         text.jump("tail")
-        text.begin("interval.solver")
-        self.leave(Ended.SOLVER, Phase.ENDED)
-        text.begin("interval.chatters")
-        self.leave(Ended.CHATTERS, Phase.ENDED)
+        for fault in _FAULTS:
+            text.begin(f"interval.{fault.name.lower()}")
+            self.leave(fault, Phase.AFTER_POINT if fault is Ended.FULL else Phase.ENDED)
 
 
 def stiff_loop() -> Piece:

@@ -13,6 +13,7 @@ from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
+from desire_tui.engine.codegen.stiff.stiff_moments import StiffMoments
 from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.codegen.taylor.series_code import SeriesCode
 from desire_tui.engine.integration.advice import Probe, advice
@@ -89,11 +90,18 @@ class StiffModel:
         inner = {"derivative": passes["derivative"]} | extra
         if acts_at_steps(segment):
             inner["step"] = passes["step"]
+        self._moments: StiffMoments | None = None
+        if segment.events or segment.delays:
+            self._moments = StiffMoments(segment, values)
+            inner |= self._moments.passes
         own = frozenset({"step", "jacobian"})
         if switching is not None:
             inner["modes"] = switching.live_pass
         self._functions = functions = PassFunctions(code, values, segment.order, inner, own)
-        addresses = {name: functions.address(name) for name in inner}
+        if self._moments is not None:
+            self._moments.take(functions)
+        others = () if self._moments is None else self._moments.passes
+        addresses = {name: functions.address(name) for name in inner if name not in others}
         addresses["derivatives"] = addresses.pop("derivative")
         self._ranges = [(s.slot, s.first, s.count) for s in segment.states]
         self._watcher: Watcher | None = None
@@ -105,7 +113,7 @@ class StiffModel:
         self._at_start = addresses.pop("at_start", 0)
         self._inputs = np.array(changed_inputs(segment), dtype=np.int64)
         self._inputs_kept, self._inputs_before = np.full((2, max(self._inputs.size, 1)), np.nan)
-        self._is_free = not self._inputs.size and steps_are_free(segment)
+        self._is_free = not self._inputs.size and not segment.delays and steps_are_free(segment)
         way = _plan(segment, rule, extra)
         self._own = is_own(rule, segment.order, way)
         self._system = partial(
@@ -153,6 +161,8 @@ class StiffModel:
             self._watcher.connect(
                 watching.begin, self._modes, self._derivatives, natives.state_at, ctypes.addressof(problem)
             )
+        if self._moments is not None:
+            self._moments.connect(problem, natives.state_at)
         self.context.interval = natives.interval
         self.context.problem = ctypes.addressof(self.system.problem)
 
@@ -191,6 +201,9 @@ class StiffModel:
             np.zeros(order),
         )
 
+        if self._moments is not None:
+            self._moments.remember(memory)
+
         def derivatives(x: NDArray[np.float64]) -> NDArray[np.float64]:
             values[slots] = x
             self._functions.call("derivative", memory, k.ctypes.data)
@@ -207,6 +220,11 @@ class StiffModel:
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on (`runtime.run_memory`)."""
+        moments = self._moments
+        if moments is not None:
+            moments.remember(memory)
+            if not memory.begun and (ended := moments.begin(memory)) is not None:
+                return ended
         if memory.phase == Phase.AT_POINT and memory.point == 0:
             self._runs += 1
             if self._runs == 2:  # a program with a single run would only wait for it at its end
@@ -221,11 +239,17 @@ class StiffModel:
                 self._watcher.begin(memory)
         system = self.system
         system.problem.memory = self.context.memory = ctypes.addressof(memory)
-        ended = Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
+        while (
+            ended := Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
+        ) is Ended.FULL:
+            assert moments is not None
+            moments.grow()
         if self._array and self._given and ended is not Ended.RUNNING:
             fill_array(self._values, *self._given, self._array, self._numbers)
         system.report(memory)
-        if ended is Ended.SOLVER:
+        if ended is Ended.ZENO and moments is not None:
+            moments.too_fast(memory)
+        elif ended is Ended.SOLVER:
             memory.suspect = self._numbers[system.suspect()]
         elif ended is Ended.CHATTERS and self._watcher is not None:
             memory.culprit = self._watcher.culprit()

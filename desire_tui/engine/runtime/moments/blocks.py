@@ -97,6 +97,25 @@ def any_falls(m: Moments) -> int:
     return found
 
 
+def has_doubt(m: Moments) -> int:
+    """Whether a condition was 0 in front of its own block and behind it."""
+    found = 0
+    for i in range(m.count):
+        if m.in_doubt[i] != 0:
+            found = 1
+    return found
+
+
+def arm_fallen(m: Moments) -> None:
+    """Arm the conditions that are below 0 inside a step, in which no event has come yet."""
+    for i in range(m.count):
+        value: float = m.values[m.now + i]
+        if m.period[i] == 0.0 and value < 0.0:
+            m.in_doubt[i] = 0
+            m.armed[i] = 1
+            m.before[i] = value
+
+
 def arrive(m: Moments, slack: float) -> int:
     """Carry out what is due at t, clocks that are `slack` away included.
 

@@ -1,11 +1,21 @@
-"""Where in a step the first event's expression rises: the step is made again, ever closer to that place."""
+"""Where in a step the first event's expression rises: its inside is looked at, ever closer to that place.
+
+Rules 0 … 8 make the step again, as far as that; rules 9 … 17 have a polynomial of it.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.halving import RESOLUTION
-from desire_tui.engine.runtime.moments.blocks import any_doubt, any_falls, any_rises, rises
+from desire_tui.engine.runtime.moments.blocks import (
+    any_doubt,
+    any_falls,
+    any_rises,
+    arm_fallen,
+    has_doubt,
+    rises,
+)
 from desire_tui.engine.runtime.moments.stages import make_step
 from desire_tui.engine.values import T
 
@@ -17,39 +27,82 @@ PROBES = 60
 """Looks at a step's first half, quarter, eighth … for a condition that falls from 0 and rises again."""
 
 
+def go_to(m: Moments, here: float, t: float) -> None:
+    """Put t and the states there into the values, in a step that began at `here`."""
+    if m.places != 0:
+        m.place(m.owner, t)
+    else:
+        make_step(m, here, t - here)
+        m.values[T] = t
+
+
 def rises_in_step(m: Moments, here: float, end: float) -> int:
     """Whether an expression has risen in the step from `here` to `end` that has been made."""
     risen = any_rises(m)
     if any_doubt(m) == 0:
         return risen
+    clear_doubt(m, here, end)
+    go_to(m, here, end)
+    return any_rises(m)
+
+
+def clear_doubt(m: Moments, here: float, end: float) -> None:
+    """Look at ever smaller parts of a step whether a condition in doubt falls at its start."""
     part = 1.0
     for _ in range(PROBES):
         part *= 0.5
         t = here + part * (end - here)
         if not t > here:
             break
-        make_step(m, here, t - here)
-        m.values[T] = t
+        go_to(m, here, t)
         if any_falls(m) != 0:
             break
-    make_step(m, here, end - here)
-    m.values[T] = end
-    return any_rises(m)
 
 
-def locate(m: Moments, here: float, end: float) -> float:
-    """Return the first number t behind the root; t and the states in the values are those there.
+def look_inside(m: Moments, t0: float, t1: float) -> int:
+    """Find the first event in a step of a rule 9 … 17; 1: t and the states are those just behind it."""
+    if m.condition_count == 0 or not t1 > t0:
+        return 0
+    begin_at_left(m)
+    if has_doubt(m) != 0:
+        go_to(m, t0, t1)
+        any_rises(m)
+        if any_doubt(m) != 0:
+            clear_doubt(m, t0, t1)
+    left = t0
+    places: int = m.places
+    for k in range(1, places + 1):
+        right = t1
+        if k < places:
+            right = t0 + (t1 - t0) * k / places
+        go_to(m, t0, right)
+        if any_rises(m) != 0:
+            locate(m, t0, left, right)
+            return 1
+        arm_fallen(m)
+        keep(m, 0)
+        left = right
+    return 0
 
-    A step from `here` to `end` has been made, and some expression has risen in it.
-    """
-    left = here
-    right = end
-    keep(m, 1)
+
+def begin_at_left(m: Moments) -> None:
+    """Take the expressions at a step's start as those at the left end."""
     for i in range(m.count):
         m.at_left[i] = m.before[i]
+
+
+def locate(m: Moments, here: float, start: float, end: float) -> float:
+    """Return the first number t behind the root; t and the states in the values are those there.
+
+    In a step from `here` some expression has risen between `start`, where the expressions are `at_left`, and
+    `end`, whose states are in the values.
+    """
+    left = start
+    right = end
+    keep(m, 1)
     turn = 0
     stayed = 0
-    least = RESOLUTION * max(abs(here), abs(end))
+    least = RESOLUTION * max(abs(start), abs(end))
     while right - left > least:
         middle = left + 0.5 * (right - left)
         if not (middle > left and middle < right):
@@ -62,8 +115,7 @@ def locate(m: Moments, here: float, end: float) -> float:
             t = guessed(m, left, right)
             if not (t > left and t < right):
                 t = middle
-        make_step(m, here, t - here)
-        m.values[T] = t
+        go_to(m, here, t)
         if any_rises(m) != 0:
             right = t
             keep(m, 1)
@@ -76,8 +128,7 @@ def locate(m: Moments, here: float, end: float) -> float:
             if stayed < 0:
                 weigh(m, 1)
             stayed = -1
-    make_step(m, here, right - here)
-    m.values[T] = right
+    go_to(m, here, right)
     any_rises(m)
     return right
 

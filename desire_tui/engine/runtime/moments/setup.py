@@ -158,7 +158,7 @@ class Stepper:
 
     def _make_room(self, room: int) -> None:
         m, count, knots = self.moments, self.moments.delay_count, self.moments.knots
-        times, history, slopes = np.empty(room), np.empty((count, room)), np.empty((count, room))
+        times, history, slopes = np.zeros(room), np.zeros((count, room)), np.zeros((count, room))
         if self._remembered and knots:
             old = self._remembered
             times[:knots] = old[0][:knots]

@@ -8,7 +8,7 @@ from desire_tui.engine.integration.switching.memory import CHATTERS
 from desire_tui.engine.integration.tableaus import STILL_MOST
 from desire_tui.engine.runtime.moments.blocks import any_rises, arrive, next_time
 from desire_tui.engine.runtime.moments.histories import record
-from desire_tui.engine.runtime.moments.locate import locate, rises_in_step
+from desire_tui.engine.runtime.moments.locate import begin_at_left, locate, rises_in_step
 from desire_tui.engine.runtime.moments.stages import (
     combined,
     make_stages,
@@ -74,7 +74,8 @@ def fixed_step(m: Moments, memory: RunMemory) -> Int32:
         make_step(m, here, dt if whole != 0 else stop - here)
         m.values[T] = stop
         if m.condition_count != 0 and rises_in_step(m, here, stop) != 0:
-            stop = locate(m, here, stop)
+            begin_at_left(m)
+            stop = locate(m, here, here, stop)
         came = arrive(m, SLACK * dt)
         if came > 1:
             return Ended.ZENO
@@ -147,7 +148,8 @@ def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
     if m.watch != 0:
         m.look(m.watch, here, m.values[T])
     if m.condition_count != 0 and rises_in_step(m, here, m.values[T]) != 0:
-        locate(m, here, m.values[T])
+        begin_at_left(m)
+        locate(m, here, here, m.values[T])
     return Ended.ZENO if arrive(m, SLACK * dt) > 1 else Ended.RUNNING
 
 
