@@ -6,7 +6,6 @@ import ctypes
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.sundials.library import is_there
-from desire_tui.engine.integration.switching import watch as watching
 from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.reference.moments import connect
 from desire_tui.engine.reference.stiff import StiffReferenceModel
@@ -22,7 +21,6 @@ from desire_tui.engine.values import T
 if TYPE_CHECKING:
     from desire_tui.engine.integration.plan import SolverPlan
     from desire_tui.engine.lowered.segment import Segment
-    from desire_tui.engine.reference.switches import Watching
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
 
@@ -30,8 +28,8 @@ if TYPE_CHECKING:
 class StiffMomentModel(StiffReferenceModel):
     """A segment with events or delays under a rule 9 … 17; native code does the same in `stiff.interval`."""
 
-    def __init__(self, segment: Segment, rule: int, values: Values, watch: Watching = watching) -> None:
-        super().__init__(segment, rule, values, watch)
+    def __init__(self, segment: Segment, rule: int, values: Values) -> None:
+        super().__init__(segment, rule, values)
         self._stepper = stepper = Stepper(self._segment, EULER, values)
         self._moments = moments = stepper.moments
         moments.places, moments.place = PLACES, Place(self._place_inside)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from desire_tui.engine.runtime.moments.memory import Depart, Limit, Look, Moment
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.integration.switching.memory import Watch
     from desire_tui.engine.integration.taylor.memory import Taylor
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Where
@@ -25,30 +24,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.runtime.moments.setup import Stepper
     from desire_tui.engine.runtime.run_memory import RunMemory
     from desire_tui.engine.values import Values
-
-
-class Watching(Protocol):
-    """What looks for switches: the module `integration.switching.watch`, or the same as native code."""
-
-    def begin(self, w: Watch, t: float) -> int:
-        """See `watch.begin`."""
-        ...
-
-    def limit(self, w: Watch, t: float, wish: float) -> float:
-        """See `watch.limit`."""
-        ...
-
-    def look_back(self, w: Watch, t0: float, t1: float) -> int:
-        """See `watch.look_back`."""
-        ...
-
-    def settle(self, w: Watch, t_next: float) -> int:
-        """See `watch.settle`."""
-        ...
-
-    def depart(self, w: Watch) -> int:
-        """See `watch.depart`."""
-        ...
 
 
 class Switches:
@@ -60,9 +35,7 @@ class Switches:
         segment: Segment,
         values: Values,
         state_at: Callable[[float], None] | None = None,
-        watch: Watching = watching,
     ) -> None:
-        self._watching = watch
         self._closures = closures = StatementClosures(values, segment.order)
         modes, derivative = closures.compile(switching.live_pass), closures.compile(derivative_slice(segment))
         ranges = [(s.slot, s.first, s.count) for s in segment.states]
@@ -84,7 +57,7 @@ class Switches:
             self._numbers("f1")[:] = closures.derivatives
 
         watcher.connect(
-            self._watching.begin,
+            watching.begin,
             Compute(lambda *_: self._do(modes)),
             Compute(lambda *_: self._do(slopes)),
             Place(lambda _, t: self._do(lambda: place(t))),
@@ -100,13 +73,13 @@ class Switches:
 
     def limit(self, t: float, wish: float) -> float:
         """See `watch.limit`."""
-        return self._watching.limit(self._watch, t, wish)
+        return watching.limit(self._watch, t, wish)
 
     def look_back(self, t0: float, t1: float, series: Taylor | None = None) -> int:
         """See `watch.look_back`; `series`: of the step, in which the modes' arguments have some."""
         if series is not None:
             return self._checked(look_along(series, self._watch, t0, t1))
-        return self._checked(self._watching.look_back(self._watch, t0, t1))
+        return self._checked(watching.look_back(self._watch, t0, t1))
 
     def serve(self, stepper: Stepper) -> None:
         """Let the steps of models with events ask; what goes wrong meanwhile, `check` raises."""
@@ -124,11 +97,11 @@ class Switches:
 
     def settle(self, t_next: float) -> int:
         """See `watch.settle`."""
-        return self._checked(self._watching.settle(self._watch, t_next))
+        return self._checked(watching.settle(self._watch, t_next))
 
     def depart(self) -> int:
         """See `watch.depart`."""
-        return self._checked(self._watching.depart(self._watch))
+        return self._checked(watching.depart(self._watch))
 
     def follow(self, t0: float, t1: float, t_next: float, x0: Any, f0: Any) -> int:
         """See `watch.follow`; `x0` and `f0` are states and derivatives at the step's start."""

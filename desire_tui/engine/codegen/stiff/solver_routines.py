@@ -23,6 +23,7 @@ from desire_tui.engine.codegen.stiff import (
     model_calls,
     moment_steps,
     own_steps,
+    progress,
     rounding,
     taylor_steps,
 )
@@ -58,7 +59,7 @@ _CALLED = (
     "CVode", "CVodeGetDky", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
 )  # fmt: skip
-_MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, interval)
+_MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, progress, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
 _TAYLOR = (*_MODEL, taylor_steps, taylor_step, roots, located)
