@@ -73,6 +73,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "depart": (ctypes.c_int32, (_ADDRESS,)),
     "limit_step": (_REAL, (_ADDRESS, _REAL, _REAL, _REAL)),
     "look_inside": (_INT, (_ADDRESS, _REAL, _REAL)),
+    "look_along_series": (_INT, (_ADDRESS, _ADDRESS, _REAL, _REAL)),
     "remember_step": (None, (_ADDRESS, _REAL, _REAL)),
     "happen": (ctypes.c_int32, (_ADDRESS, _INT)),
     "at_start": (_INT, (_ADDRESS, _ADDRESS)),
@@ -177,6 +178,7 @@ class SolverProblem(ctypes.Structure):
         ("moments", _ADDRESS),  # `runtime.moments.memory.Moments`, 0: neither events nor delays
         ("limit_step", _ADDRESS),  # functions of `runtime.moments`
         ("look_inside", _ADDRESS),
+        ("look_along_series", _ADDRESS),
         ("remember_step", _ADDRESS),
         ("happen", _ADDRESS),
         ("first_step", _REAL),  # 0: CVODE looks for one

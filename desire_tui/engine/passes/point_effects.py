@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.lowered.effects import reads, role, writes
 from desire_tui.engine.lowered.statements import Terminate
 from desire_tui.engine.lowered.walk import simple_actions, walk_actions
+from desire_tui.engine.passes.moments import conditions_pass
 from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice
 from desire_tui.engine.passes.slot_set import SlotSet
 
@@ -41,15 +42,15 @@ def steps_are_free(segment: Segment) -> bool:
     for action in simple_actions(step_slice(segment)):
         if role(action) == "effect" and (not isinstance(action, Terminate) or action.fault is not None):
             return False
-    return not any(True for _ in _set_outside(segment))
+    return not any(True for _ in _set_outside(segment, conditions=True))
 
 
-def _set_outside(segment: Segment) -> Iterator[Piece]:
-    """Yield what derivative passes read, and states, that only points and steps set."""
+def _set_outside(segment: Segment, *, conditions: bool = False) -> Iterator[Piece]:
+    """Yield states and what derivative passes (`conditions`: and conditions) read, where points set it."""
     derivative = derivative_slice(segment)
     own = {id(action) for action in simple_actions(derivative)}
     read = _states(segment)
-    for action in walk_actions(derivative):
+    for action in walk_actions(derivative + (conditions_pass(segment, 0) if conditions else ())):
         for piece in reads(action):
             read.add(*piece)
     for simple in simple_actions(full_pass(segment)):

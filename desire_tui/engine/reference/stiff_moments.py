@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.sundials.library import is_there
 from desire_tui.engine.integration.tableaus import EULER
+from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.reference.moments import connect
 from desire_tui.engine.reference.stiff import StiffReferenceModel
+from desire_tui.engine.runtime.moments.along import look_along_series
 from desire_tui.engine.runtime.moments.blocks import begin
 from desire_tui.engine.runtime.moments.inside import PLACES, SAME, happen, limit_step, remember_step
 from desire_tui.engine.runtime.moments.locate import look_inside
@@ -38,6 +40,8 @@ class StiffMomentModel(StiffReferenceModel):
         connect(stepper, self._segment, self._others, self._stage)
         if self.switches is not None:
             self.switches.remember(moments)
+        if self._series is not None:
+            stepper.follow_series(self._series.conditions)
         if segment.delays:
             self.system.problem.is_free = 0
 
@@ -82,7 +86,12 @@ class StiffMomentModel(StiffReferenceModel):
 
     def _look_back(self, t0: float) -> None:
         problem = self.system.problem
-        if look_inside(self._moments, t0, problem.t_step):
+        solver = self.system.solver
+        if isinstance(solver, TaylorSolver):
+            found = look_along_series(solver.taylor, self._moments, t0, problem.t_step)
+        else:
+            found = look_inside(self._moments, t0, problem.t_step)
+        if found:
             self._end_step_here()
         super()._look_back(t0)
         remember_step(self._moments, t0, problem.t_step)

@@ -33,6 +33,7 @@ class ReferenceSeries:
         for piece in program.states:
             self.pieces.append((piece.first, piece.count, self.room, piece.count))
             self.room += piece.count * (ORDER_MOST + 1)
+        self.mode_count, self.conditions = program.mode_count, program.conditions
         self.arguments: list[tuple[int, int]] = []
         for operand, _ in program.arguments:
             self.arguments.append((self.room, 1) if isinstance(operand, Series) else (-1, 0))

@@ -15,8 +15,11 @@ from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
 from desire_tui.engine.integration import halving, tableaus
 from desire_tui.engine.integration.switching import memory as switching
+from desire_tui.engine.integration.taylor import isolation
+from desire_tui.engine.integration.taylor import memory as taylor_memory
+from desire_tui.engine.integration.taylor.memory import Taylor
 from desire_tui.engine.runtime import run_memory
-from desire_tui.engine.runtime.moments import blocks, histories, inside, locate, memory, stages, steps
+from desire_tui.engine.runtime.moments import along, blocks, histories, inside, locate, memory, stages, steps
 from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Moments, Place
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, ERRMAX, T
@@ -24,7 +27,7 @@ from desire_tui.engine.values import DT, ERRMAX, T
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.linker import MachineCode
 
-_MODULES = (histories, blocks, stages, locate, steps, inside)
+_MODULES = (histories, blocks, stages, locate, steps, inside, isolation, along)
 _ENGINE = files("desire_tui.engine")
 
 
@@ -34,8 +37,18 @@ def _source(name: str) -> bytes:
 
 _TEXTS = {module: _source(module.__name__) for module in _MODULES}
 """Read now, when the modules are: files may change under a process that lives for days."""
-_OTHERS = b"".join(_source(module.__name__) for module in (memory, run_memory, tableaus, halving, switching))
-_PUBLIC = ("begin", "step", "look_up", "limit_step", "look_inside", "remember_step", "happen")
+_LAYOUTS = (memory, run_memory, tableaus, halving, switching, taylor_memory)
+_OTHERS = b"".join(_source(module.__name__) for module in _LAYOUTS)
+_PUBLIC = (
+    "begin",
+    "step",
+    "look_up",
+    "limit_step",
+    "look_inside",
+    "remember_step",
+    "happen",
+    "look_along_series",
+)
 _making = Lock()
 _made: list[MomentFunctions] = []
 
@@ -50,6 +63,7 @@ class MomentFunctions(NamedTuple):
     look_inside: int
     remember_step: int
     happen: int
+    look_along_series: int
     keep: Any
 
 
@@ -67,13 +81,15 @@ def _compiled() -> MachineCode:
     pointers = {name: of_function(Compute, "") for name in ("conditions", "blocks", "derivative", "sources")}
     kinds = {"limit": Limit, "look": Look, "depart": Depart, "place": Place}
     pointers |= {name: of_function(kind, "") for name, kind in kinds.items()}
-    outside = Outside({"Moments": Moments, "RunMemory": RunMemory}, pointers)
+    outside = Outside({"Moments": Moments, "RunMemory": RunMemory, "Taylor": Taylor}, pointers)
     modules = [Module(_TEXTS[module], vars(module)) for module in _MODULES]
     text = write_program(modules, outside, "moments_", frozenset(_PUBLIC))
     return compile_and_keep(text, _name(), level=1, vectorize=False)
 
 
 def _name() -> str:
-    layout = repr((T, DT, ERRMAX, *((kind, sizeof(kind), kind._fields_) for kind in (Moments, RunMemory))))
+    layout = repr(
+        (T, DT, ERRMAX, *((kind, sizeof(kind), kind._fields_) for kind in (Moments, RunMemory, Taylor)))
+    )
     everything = b"".join(_TEXTS.values()) + _OTHERS + re.sub(" at 0x[0-9a-f]+", "", layout).encode()
     return f"moments-{blake2b(everything, digest_size=8).hexdigest()}"

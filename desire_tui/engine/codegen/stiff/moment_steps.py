@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.stiff.cvode_steps import look_for_moments
 from desire_tui.engine.codegen.stiff.model_calls import gather
 from desire_tui.engine.runtime.moments.inside import SAME
 from desire_tui.engine.runtime.moments.steps import SPLITS_MOST
@@ -45,7 +46,7 @@ def enter_step(problem: SolverProblem, is_inside: int) -> None:
 def look_for_events(problem: SolverProblem, t0: float) -> float:
     """Put the solver's step, from t0, back to its first event; return where it ends then."""
     values: Reals = problem.values
-    if problem.look_inside(problem.moments, t0, problem.t_step) != 0:
+    if look_for_moments(problem, t0, problem.t_step) != 0:
         gather(problem)
         problem.t_step = values[T]
         problem.anew = 1

@@ -52,3 +52,9 @@ def look(problem: SolverProblem, t0: float, t1: float) -> Int32:
     """Find the first switching in the last step (`switching.watch.look_back`)."""
     found: int = problem.look(problem.watch, t0, t1)
     return found
+
+
+def look_for_moments(problem: SolverProblem, t0: float, t1: float) -> int:
+    """Find the first event in the last step (`runtime.moments.locate.look_inside`)."""
+    found: int = problem.look_inside(problem.moments, t0, t1)
+    return found

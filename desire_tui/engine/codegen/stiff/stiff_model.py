@@ -94,6 +94,8 @@ class StiffModel:
         if segment.events or segment.delays:
             self._moments = StiffMoments(segment, values)
             inner |= self._moments.passes
+            if self._series is not None:
+                self._moments.follow_series(self._series.layout.conditions)
         own = frozenset({"step", "jacobian"})
         if switching is not None:
             inner["modes"] = switching.live_pass

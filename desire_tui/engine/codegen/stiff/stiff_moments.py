@@ -14,6 +14,8 @@ from desire_tui.engine.runtime.moments.setup import Stepper
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
     from desire_tui.engine.integration.problem import SolverProblem
     from desire_tui.engine.lowered.segment import Segment
@@ -49,7 +51,12 @@ class StiffMoments:
         moments.owner = ctypes.addressof(problem)
         problem.moments = self._stepper.address
         problem.limit_step, problem.look_inside = natives.limit_step, natives.look_inside
+        problem.look_along_series = natives.look_along_series
         problem.remember_step, problem.happen = natives.remember_step, natives.happen
+
+    def follow_series(self, conditions: Sequence[int]) -> None:
+        """Rule 17: which of the solver's series are those of the events' conditions."""
+        self._stepper.follow_series(conditions)
 
     def remember(self, memory: RunMemory) -> None:
         """Let what a run computes look up histories."""

@@ -72,3 +72,9 @@ def look(problem: SolverProblem, t0: float, t1: float) -> Int32:
         found: int = problem.look(problem.watch, t0, t1)
         return found
     return look_along(solver, watch, t0, t1)
+
+
+def look_for_moments(problem: SolverProblem, t0: float, t1: float) -> int:
+    """Find the first event in the last step, by the conditions' series where they have one."""
+    found: int = problem.look_along_series(problem.solver, problem.moments, t0, t1)
+    return found

@@ -72,8 +72,18 @@ class Layout:
         return [(p.first, p.count, self.place(p.series), apart(p.series)) for p in self._program.states]
 
     @property
+    def mode_count(self) -> int:
+        """So many of the arguments are modes'."""
+        return self._program.mode_count
+
+    @property
+    def conditions(self) -> tuple[int, ...]:
+        """Which arguments are the events' conditions (`passes.series.nodes`)."""
+        return self._program.conditions
+
+    @property
     def arguments(self) -> list[tuple[int, int]]:
-        """The places of the modes' arguments, as `integration.taylor.memory.Taylor` wants them."""
+        """The places of modes' and events' arguments, as `integration.taylor.memory.Taylor` wants them."""
         return [
             (self.place(o) + at, apart(o)) if isinstance(o, Series) else (-1, 0)
             for o, at in self._program.arguments

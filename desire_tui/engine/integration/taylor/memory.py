@@ -16,7 +16,6 @@ GAVE_UP = -8
 """Flag: the callback gave up."""
 
 HALVES_MOST = 30
-LEAST_PART = 2.0**-HALVES_MOST
 """Roots are looked for in parts of a step down to 2^-30 of it."""
 
 _ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
@@ -54,10 +53,13 @@ class Taylor(ctypes.Structure):
         ("h_most", _REAL),  # 0: no bound
         ("steps", _INT),
         ("worst", _INT),  # state whose coefficient was not finite
-        # modes' arguments: pairs (place of coefficient 0, distance), -1 for one that does not move (`roots`)
+        # arguments of modes, `argument_count` of them, and of events: pairs (place of coefficient 0,
+        # distance), -1 for one that does not move (`roots`, `isolation`)
         ("argument_count", _INT), ("arguments", _INTS),
         ("work", _REALS), ("part", _REALS), ("turned", _REALS), ("halves", _INTS),
         ("left", _REAL), ("right", _REAL),
+        # a walk along a step (`isolation`)
+        ("walk_h", _REAL), ("walk_low", _REAL), ("walk_width", _REAL), ("walk_level", _INT),
     )  # fmt: skip
 
 

@@ -31,7 +31,12 @@ class Layout(Protocol):
 
     @property
     def arguments(self) -> Sequence[tuple[int, int]]:
-        """(place, distance) of each mode's argument, (-1, 0) of one that does not move."""
+        """(place, distance) of each argument of modes and events, (-1, 0) of one that does not move."""
+        ...
+
+    @property
+    def mode_count(self) -> int:
+        """So many of these are modes'."""
         ...
 
 
@@ -59,7 +64,7 @@ class TaylorSolver:
         taylor.pieces, taylor.piece_count = ctypes.cast(self._pieces.ctypes.data, _INTS), len(pieces)
         self._arguments = np.array([*layout.arguments, (-1, 0)], dtype=np.int64).reshape(-1)
         taylor.arguments = ctypes.cast(self._arguments.ctypes.data, _INTS)
-        taylor.argument_count = len(layout.arguments)
+        taylor.argument_count = layout.mode_count
         for name, row in zip(("work", "part", "turned"), arrays.polynomials, strict=True):
             setattr(taylor, name, ctypes.cast(row.ctypes.data, _REALS))
         taylor.halves = ctypes.cast(arrays.halves.ctypes.data, _INTS)

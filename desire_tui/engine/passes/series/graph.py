@@ -10,7 +10,7 @@ from desire_tui.engine.passes.series.nodes import Constant, Series
 from desire_tui.engine.passes.slot_set import SlotSet
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
+    from collections.abc import Callable, Hashable, Iterable
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action, Where
@@ -43,6 +43,19 @@ class Graph:
         self.where = where
         self.remembered = SlotSet()
         """What some pass may read before it sets it: whoever reads it so has no series."""
+
+    def keep_used(self, roots: Iterable[Operand]) -> None:
+        """Leave out the nodes that these do not need."""
+        used: set[int] = set()
+        open_ = list(roots)
+        while open_:
+            operand = open_.pop()
+            if isinstance(operand, Series) and id(operand) not in used:
+                used.add(id(operand))
+                open_ += operand.operands
+        self.nodes = [node for node in self.nodes if id(node) in used]
+        for number, node in enumerate(self.nodes):
+            node.number = number
 
     # ------------------------------------------------------------------ constants
 

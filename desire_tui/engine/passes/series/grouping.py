@@ -125,7 +125,10 @@ class _Grouping:
         for number, node in enumerate(self._nodes):
             node.number = number
         actions = self._program.values_pass + tuple(self._copies)
-        return SeriesProgram(actions, tuple(self._nodes), states, arguments)
+        program = self._program
+        return SeriesProgram(
+            actions, tuple(self._nodes), states, arguments, program.mode_count, program.conditions
+        )
 
     def _states(self) -> Iterator[StatePiece]:
         """Yield the states' pieces, neighbours as one."""

@@ -27,6 +27,11 @@ Kind = Literal[
 """
 
 
+SAMPLED, NEVER_INSIDE = -1, -2
+"""In place of the number of an event's series: it has none; it never comes inside a step (clocks, conditions
+that depend on t alone, which steps end at)."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Constant:
     """What stays as it is while a step lasts: `value` is computed when the step begins.
@@ -83,10 +88,13 @@ class SeriesProgram:
 
     `values_pass` puts all constants and coefficients 0 into their slots, from t, states and parameters.
     `nodes` come behind their operands, except for an integral's first. `arguments` are those of the segment's
-    modes, one for each element, in their order (`lowered.switching`).
+    modes, one for each element, in their order (`lowered.switching`), `mode_count` of them, then conditions'.
+    `conditions` has for each event which argument is its condition's, or what there is in place of one.
     """
 
     values_pass: tuple[Action, ...]
     nodes: tuple[Series, ...]
     states: tuple[StatePiece, ...]
     arguments: tuple[tuple[Operand, int], ...] = field(default=())
+    mode_count: int = 0
+    conditions: tuple[int, ...] = ()

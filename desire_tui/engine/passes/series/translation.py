@@ -20,21 +20,29 @@ from desire_tui.engine.lowered.statements import (
 )
 from desire_tui.engine.lowered.walk import simple_actions
 from desire_tui.engine.passes.series import functions
+from desire_tui.engine.passes.series.conditions import condition_pass, conditions_of_time, is_smooth
 from desire_tui.engine.passes.series.expressions import Expressions
 from desire_tui.engine.passes.series.graph import NoSeriesError
 from desire_tui.engine.passes.series.grouping import grouped
-from desire_tui.engine.passes.series.nodes import Constant, SeriesProgram, StatePiece
+from desire_tui.engine.passes.series.nodes import (
+    NEVER_INSIDE,
+    SAMPLED,
+    Constant,
+    SeriesProgram,
+    StatePiece,
+)
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.passes.slot_set import SlotSet
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Action, Assignment
     from desire_tui.engine.lowered.switching import Switching
     from desire_tui.engine.passes.series.nodes import Operand, Series
+    from desire_tui.engine.passes.series.reading import Slots
 
 
 def series_program(
@@ -59,6 +67,8 @@ class _Translator(Expressions):
                     self._graph.remembered.add(slot, count)
         self._derivatives: dict[int, tuple[Operand, int]] = {}
         """Of each state, the last that a statement gives: an operand and which element of it."""
+        self._has_refused = False
+        """Whether something that steps can do without has no series."""
 
     def program(self, switching: Switching | None) -> SeriesProgram:
         """Translate everything."""
@@ -74,10 +84,16 @@ class _Translator(Expressions):
             if isinstance(derivative, Constant):
                 derivative = self._graph.stored(derivative)
             states.append(StatePiece(piece, first, piece.size, derivative))
-        self._slots = begin
-        arguments = self._arguments(switching)
+        self._slots = begin.copy()
+        arguments = list(self._arguments(switching))
+        mode_count = len(arguments)
+        conditions = tuple(self._conditions(switching, begin, arguments))
         graph = self._graph
-        return SeriesProgram(tuple(graph.values_pass), tuple(graph.nodes), tuple(states), arguments)
+        if self._has_refused:
+            roots = [operand for piece in states for operand in (piece.series, piece.derivative)]
+            graph.keep_used(roots + [operand for operand, _ in arguments])
+        parts = tuple(graph.values_pass), tuple(graph.nodes), tuple(states), tuple(arguments)
+        return SeriesProgram(*parts, mode_count, conditions)
 
     def _states(self) -> list[tuple[Series, int]]:
         """Make series of the states, arrays where a statement gives several derivatives; first numbers."""
@@ -113,14 +129,38 @@ class _Translator(Expressions):
         if switching is None or not switching.modes:
             return ()
         row = switching.slots.arguments
-        kept = len(self._graph.nodes), len(self._graph.values_pass)
         try:
             self._run(switching.live_pass)
         except NoSeriesError:  # it is looked at in some places of a step
-            del self._graph.nodes[kept[0] :], self._graph.values_pass[kept[1] :]
+            self._has_refused = True
             return ()
         found: list[tuple[Operand, int]] = [self._slots.lane(row + i) for i in range(switching.count)]
         return tuple((self._graph.stored(o) if isinstance(o, Constant) else o, at) for o, at in found)
+
+    def _conditions(
+        self, switching: Switching | None, begin: Slots, arguments: list[tuple[Operand, int]]
+    ) -> Iterator[int]:
+        """Translate the events' conditions, and add them to the arguments; yield each one's number there."""
+        timed = conditions_of_time(switching)
+        for number, event in enumerate(self._segment.events):
+            if event.condition is None or id(event.condition) in timed:
+                yield NEVER_INSIDE
+                continue
+            pass_ = condition_pass(self._segment, number)
+            self._slots = begin.copy()
+            try:
+                if not is_smooth(pass_, self._actions):
+                    self._refuse("function")
+                self._run(pass_[:-1])
+                self._known.clear()
+                self._where = self._graph.where = event.where
+                found = self._of(event.condition)
+            except NoSeriesError:
+                self._has_refused = True
+                yield SAMPLED
+                continue
+            arguments.append((self._graph.stored(found) if isinstance(found, Constant) else found, 0))
+            yield len(arguments) - 1
 
     # ------------------------------------------------------------------ statements
 

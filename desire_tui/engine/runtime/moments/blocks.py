@@ -83,18 +83,14 @@ def any_doubt(m: Moments) -> int:
     return found
 
 
-def any_falls(m: Moments) -> int:
-    """Arm conditions in doubt that are below 0 at the t and states in the values; whether there is one."""
+def take_side(m: Moments) -> None:
+    """Take conditions in doubt as being on the side of 0 where they are at the t and states in the values."""
     m.conditions(m.memory, m.k_at[0])
-    found = 0
     for i in range(m.count):
         value: float = m.values[m.now + i]
-        if m.in_doubt[i] != 0 and value < 0.0:
-            m.in_doubt[i] = 0
-            m.armed[i] = 1
+        if m.in_doubt[i] != 0 and value != 0.0:
+            m.armed[i] = 1 if value < 0.0 else 0
             m.before[i] = value
-            found = 1
-    return found
 
 
 def has_doubt(m: Moments) -> int:

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.integration.halving import RESOLUTION
 from desire_tui.engine.runtime.moments.blocks import (
     any_doubt,
-    any_falls,
     any_rises,
     arm_fallen,
     has_doubt,
     rises,
+    take_side,
 )
 from desire_tui.engine.runtime.moments.stages import make_step
 from desire_tui.engine.values import T
@@ -47,7 +47,7 @@ def rises_in_step(m: Moments, here: float, end: float) -> int:
 
 
 def clear_doubt(m: Moments, here: float, end: float) -> None:
-    """Look at ever smaller parts of a step whether a condition in doubt falls at its start."""
+    """Look at ever smaller parts of a step, on which side of 0 conditions in doubt are behind its start."""
     part = 1.0
     for _ in range(PROBES):
         part *= 0.5
@@ -55,8 +55,7 @@ def clear_doubt(m: Moments, here: float, end: float) -> None:
         if not t > here:
             break
         go_to(m, here, t)
-        if any_falls(m) != 0:
-            break
+        take_side(m)
 
 
 def look_inside(m: Moments, t0: float, t1: float) -> int:

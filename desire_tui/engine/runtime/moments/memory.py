@@ -82,4 +82,7 @@ class Moments(ctypes.Structure):
         ("t_stop", _REAL),  # no stage sees what is behind
         # rules 9 … 17, whose steps are not made again: so many looks at each, 0: another rule
         ("places", _INT), ("place", Place), ("owner", _ADDRESS),
+        # rule 17: of each condition the number of its series (`along`), where in the step it fell below 0 …
+        ("arguments", _INTS), ("fell", _REALS),
+        ("left", _REAL), ("right", _REAL),  # … and between which places the first event comes
     )  # fmt: skip

@@ -76,9 +76,9 @@ class Stepper:
         m.count = count
         m.condition_count = sum(event.condition is not None for event in events)
         m.now, m.due = values.room(max(count, 1)), values.room(max(count, 1))
-        for name in ("before", "at_left", "at_right", "fired", "ticks", "next", "came", "gap"):
+        for name in ("before", "at_left", "at_right", "fired", "ticks", "next", "came", "gap", "fell"):
             self._reals(name, np.zeros(count))
-        for name in ("armed", "in_doubt", "shrunk", "quick"):
+        for name in ("armed", "in_doubt", "shrunk", "quick", "arguments"):
             self._ints(name, np.zeros(count, dtype=np.int64))
         self._period, self._start = np.zeros(count), np.zeros(count)
         self._reals("period", self._period)
@@ -172,6 +172,11 @@ class Stepper:
     def step_start(self) -> tuple[int, int]:
         """Addresses of the states and derivatives at a step's start."""
         return self._x0.ctypes.data, self.k.ctypes.data
+
+    def follow_series(self, conditions: Sequence[int]) -> None:
+        """Tell the number of each condition's series among the solver's arguments (`along`)."""
+        for number, argument in enumerate(conditions):
+            self.moments.arguments[number] = argument
 
     def grow(self) -> None:
         """Make the room for histories twice as large."""
