@@ -27,6 +27,12 @@ r = r + m*0.25
 x = r
 next
 end
+PROCEDURE look(; r)
+for m = 1 to 300
+x = x + 0.25
+s = s + r
+next
+end
 """
 LOOPS = {
     "counted": "for k = 1 to 700 | s = s + k/7 | next",
@@ -56,6 +62,7 @@ LOOPS = {
     "whole": "for k = 1 to 500 | i = k/3 | s = s + i | next",
     "names of a procedure": "for k = 1 to 3 | call q(300; s) | next",
     "another name of x": "call q(400; x)",
+    "another name is read": "call look(; x)",
     "random": "for k = 1 to 500 | s = s + ran() + gauss(0) | next",
     "conditions": "for k = 1 to 500 | if k > 20 and not (k < 100 or s > 9e4) then | s = s + (k > 3)*k | proceed | next",
     "clear": "for k = 1 to 500 | if k = 400 then | clear | s = 7 | k = 499 | proceed | next",
@@ -151,10 +158,19 @@ def test_an_error_names_its_statement(body, code, piece, monkeypatch):
 def test_the_user_gets_in_and_finds_the_numbers():
     host = RecordingHost()
     host.looks_allowed = 250
+    seen = []
+    looks = host.interrupted
+
+    def look() -> bool:
+        seen.append(host.values.cells[host.values.names["s"].slot])
+        return looks()
+
+    host.interrupted = look
     with pytest.raises(Interrupted):
         host.run("s = 0\nwhile 1 > 0\ns = s + 1\nend while")
-    assert host["s"] > 10_000  # a look in 256 passes
-    assert host["s"] < 20_000
+    assert 10_000 < host["s"] < 20_000  # a look in 256 passes
+    assert seen[-1] == host["s"]
+    assert seen[-2] == host["s"] - 256
 
 
 def test_a_stop_in_a_rare_branch_and_go():
