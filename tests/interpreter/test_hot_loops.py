@@ -27,8 +27,8 @@ r = r + m*0.25
 x = r
 next
 end
-PROCEDURE look(; r)
-for m = 1 to 300
+PROCEDURE look(n; r)
+for m = 1 to n
 x = x + 0.25
 s = s + r
 next
@@ -62,7 +62,7 @@ LOOPS = {
     "whole": "for k = 1 to 500 | i = k/3 | s = s + i | next",
     "names of a procedure": "for k = 1 to 3 | call q(300; s) | next",
     "another name of x": "call q(400; x)",
-    "another name is read": "call look(; x)",
+    "another name is read": "call look(300; x)",
     "random": "for k = 1 to 500 | s = s + ran() + gauss(0) | next",
     "conditions": "for k = 1 to 500 | if k > 20 and not (k < 100 or s > 9e4) then | s = s + (k > 3)*k | proceed | next",
     "clear": "for k = 1 to 500 | if k = 400 then | clear | s = 7 | k = 499 | proceed | next",
