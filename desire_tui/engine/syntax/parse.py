@@ -20,7 +20,7 @@ from desire_tui.engine.nodes.files import Restore
 from desire_tui.engine.nodes.program import Placed, Program, SegmentText
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.source import Source, Span
-from desire_tui.engine.syntax import shapes
+from desire_tui.engine.syntax import line_patterns, shapes
 from desire_tui.engine.syntax.automaton import Unexpected
 from desire_tui.engine.syntax.build import Misuse
 from desire_tui.engine.syntax.shapes import statement
@@ -61,6 +61,7 @@ def parse(source: Source) -> Program:
     """Parse a whole program. Never raises: problems are in the result."""
     _lines.age()
     shapes.age()
+    line_patterns.age()
     script: list[Placed] = []
     segments: list[SegmentText] = []
     problems: list[Diagnostic] = []
@@ -142,8 +143,9 @@ def parse_command(source: Source) -> tuple[tuple[Placed, ...], tuple[Diagnostic,
 
 
 def forget_lines() -> None:
-    """Empty the store of parsed lines."""
+    """Empty the store of parsed lines, and of what they look like."""
     _lines.forget()
+    line_patterns.forget()
 
 
 def _number_before(text: str, end: int) -> Span:
@@ -307,8 +309,14 @@ def _line_places(source: Source, script: list[Placed]) -> tuple[tuple[int, int],
 
 def _parse_line(line: str) -> Entry:
     """Parse the statements of a logical line, and keep them."""
-    scanned = scan(line)
-    entry: Entry = (tuple((_item(chunk), chunk.base) for chunk in scanned.chunks), scanned.continues)
+    read = line_patterns.read(line)
+    if read is not None:
+        entry: Entry = ((read,), "")
+    else:
+        scanned = scan(line)
+        entry = tuple((_item(chunk), chunk.base) for chunk in scanned.chunks), scanned.continues
+        if len(entry[0]) == 1 and not (scanned.continues or scanned.comments or _has_fault(entry)):
+            line_patterns.learn(line, scanned.chunks[0])
     _lines.keep(line, entry)
     return entry
 

@@ -8,7 +8,7 @@ the tokens, 20 times faster than parsing.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from desire_tui.engine.left_chains import OPERATORS, chain
 from desire_tui.engine.nodes.expressions import Binary
@@ -59,6 +59,25 @@ def statement(chunk: StatementTokens) -> Statement:
     return maker(chunk)
 
 
+def function_of_words(
+    chunk: StatementTokens, places: WordPlaces, number: Callable[[str], float]
+) -> Callable[[list[str], list[int]], Statement] | None:
+    """Return a function of a line's words `v` and their lengths added up, `c`, for statements of this shape.
+
+    None for a shape that was not seen before, and for a statement nested too deep.
+    """
+    pattern = _patterns[tuple(chunk.kinds)]
+    if pattern is None:
+        return None
+    names: dict[str, Any] = {"octal_value": octal_value, "number": number}
+    code = _Code(names, places, "number")
+    try:
+        made: Callable[[list[str], list[int]], Statement] = eval(f"lambda v, c: {code.of(pattern)}", names)  # noqa: S307 - see _Code
+    except (SyntaxError, MemoryError, RecursionError):
+        return None
+    return made
+
+
 def age() -> None:
     """Between two programs: forget shapes that no program of late had."""
     _patterns.age()
@@ -102,9 +121,9 @@ def _filled(part: Any, chunk: StatementTokens) -> Any:
 def _generate(pattern: Statement) -> Maker:
     """Compile a function of a chunk that makes the pattern's nodes."""
     names: dict[str, Any] = {"octal_value": octal_value}
-    body = f"lambda v, s, e: {_code(pattern, names)}"
+    body = f"lambda v, s, e: {_Code(names).of(pattern)}"
     try:
-        make = eval(body, names)  # noqa: S307 - see _code
+        make = eval(body, names)  # noqa: S307 - see _Code
     except (
         SyntaxError,
         MemoryError,
@@ -114,25 +133,52 @@ def _generate(pattern: Statement) -> Maker:
     return lambda chunk: make(chunk.texts, chunk.starts, chunk.ends)
 
 
-def _code(part: Any, names: dict[str, Any]) -> str:
-    """Write the constructor call. Only class names, token numbers and this project's literals get into it.
+class WordPlaces(NamedTuple):
+    """For each token of a statement: its number among the line's words, code for its start and its end."""
 
-    The classes that it names go into `names`.
+    numbers: list[int]
+    starts: list[str]
+    ends: list[str]
+
+
+class _Code:
+    """Writes constructor calls. Only class names, numbers and this project's literals get into them.
+
+    The classes that it names go into `names`. Tokens are numbered, and their offsets found, as `WordPlaces`
+    says; without it, `v`, `s` and `e` are the tokens' texts, starts and ends.
     """
-    if isinstance(part, Node):
-        record: Any = part
-        values = [
-            f"s[{part.start:d}]" if name == "start" else f"e[{part.end:d}]" if name == "end"
-            else _code(getattr(record, name), names)
-            for name in record.__slots__
-        ]  # fmt: skip
-        names[type(part).__name__] = type(part)
-        return f"{type(part).__name__}({', '.join(values)})"
-    if isinstance(part, tuple):
-        return f"({''.join(_code(item, names) + ', ' for item in part)})"
-    if isinstance(part, Token):
-        return f"v[{part.number:d}]" + ("[1:-1]" if part.kind == STRING else "")
-    if isinstance(part, NumberToken):
-        return f"{'float' if part.kind == NUMBER else 'octal_value'}(v[{part.number:d}])"
-    assert part is None or isinstance(part, (bool, str))
-    return repr(part)
+
+    def __init__(
+        self, names: dict[str, Any], places: WordPlaces | None = None, number: str = "float"
+    ) -> None:
+        self._names, self._places, self._number = names, places, number
+
+    def of(self, part: Any) -> str:
+        """Return the code that makes a part of a pattern."""
+        if isinstance(part, Node):
+            record: Any = part
+            values = [
+                self._start(part.start) if name == "start" else self._end(part.end) if name == "end"
+                else self.of(getattr(record, name))
+                for name in record.__slots__
+            ]  # fmt: skip
+            self._names[type(part).__name__] = type(part)
+            return f"{type(part).__name__}({', '.join(values)})"
+        if isinstance(part, tuple):
+            return f"({''.join(self.of(item) + ', ' for item in part)})"
+        if isinstance(part, Token):
+            return f"v[{self._text(part.number):d}]" + ("[1:-1]" if part.kind == STRING else "")
+        if isinstance(part, NumberToken):
+            convert = self._number if part.kind == NUMBER else "octal_value"
+            return f"{convert}(v[{self._text(part.number):d}])"
+        assert part is None or isinstance(part, (bool, str))
+        return repr(part)
+
+    def _text(self, token: int) -> int:
+        return token if self._places is None else self._places.numbers[token]
+
+    def _start(self, token: int) -> str:
+        return f"s[{token:d}]" if self._places is None else self._places.starts[token]
+
+    def _end(self, token: int) -> str:
+        return f"e[{token:d}]" if self._places is None else self._places.ends[token]
