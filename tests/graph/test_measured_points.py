@@ -20,7 +20,9 @@ from desire_tui.engine.source import Source
 from desire_tui.panes import graph_cursor, picked_curve
 from desire_tui.panes.zoom_window import Window
 
-MEASURED = "day;ill;speed;high\n20;0,2;;0,1\n0;1;0;NA\n10;0,5;-0,9;1,4\n25;-0,3;0,5;0,5\n10;0,6;;1,2\n40;9;9;9\n"
+MEASURED = (
+    "day;ill;speed;high\n20;0,2;;0,1\n0;1;0;NA\n10;0,5;-0,9;1,4\n25;-0,3;0,5;0,5\n10;0,6;;1,2\n40;9;9;9\n"
+)
 RUN = "x = 1 | TMAX = 30 | NN = 31 | DT = 0.5\n{script}drun\n{more}DYNAMIC\nd/dt x = -x | y = 0.5*x\n{request}\n"
 
 
@@ -82,7 +84,9 @@ def test_drawn_as_markers(ran):
     assert marked[0].get_markersize() == 5.0
     many = "t,p\n" + "\n".join(f"{n / 10},0" for n in range(300))
     graph = ran("dispt x, p", measured=many)[0].graph
-    assert next(line for line in draw(graph).axes[0].lines if line.get_marker() == "o").get_markersize() == 2.5
+    assert (
+        next(line for line in draw(graph).axes[0].lines if line.get_marker() == "o").get_markersize() == 2.5
+    )
 
 
 def test_columns_over_each_other(ran):
@@ -98,7 +102,9 @@ def test_columns_over_each_other(ran):
 
 
 def test_runs_that_share_a_page_share_the_points(ran):
-    session, _ = ran("dispt x, ill", script="display 2\n", more="t = 0 | x = 2 | drun\nt = 0 | x = 3 | drun\n")
+    session, _ = ran(
+        "dispt x, ill", script="display 2\n", more="t = 0 | x = 2 | drun\nt = 0 | x = 3 | drun\n"
+    )
     graph = session.graph
     assert [c.name for c in graph.curves] == ["x", "ill", "x", "x"]
     graph.end_runs()

@@ -42,7 +42,9 @@ def load_data(context: StatementContext, node: LoadData) -> Operation:
             if name != column
         ]
         if not names:
-            notes.append(f"{file.name}: its only column, {file.time}, is taken for the times: there is no table")
+            notes.append(
+                f"{file.name}: its only column, {file.time}, is that of the times: there is no table"
+            )
         before = context.values.replacements
         for column, name in names.items():
             table = np.concatenate(file.measured(column))
