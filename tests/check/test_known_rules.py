@@ -12,6 +12,8 @@ NOISE = "\nDYNAMIC\nd/dt x = ran() - x\ndispt x\n"
 DELAY = "\nDYNAMIC\nd/dt x = -delay(x, 1)\ndispt x\n"
 WHITE = "\nDYNAMIC\nd/dt x = white(1) - x\ndispt x\n"
 
+TABLES = "\nDYNAMIC\nARRAY"
+
 
 def found(script, body):
     return [(d.code, d.severity) for d in check(parse(source(script + body)))]
@@ -30,6 +32,12 @@ def found(script, body):
         ("TMAX = 1 | irule 14 | drun", WHITE, [(488, "error")]),
         ("TMAX = 1 | irule 2 | drun", WHITE, []),
         ("TMAX = 1 | irule 14 | drun", DELAY, []),
+        ("TMAX = 1 | irule 17 | drun", DELAY, [(540, "error")]),
+        ("ARRAY F[2, 2], G[2], H[2] | irule 17 | drun", TABLES, [(540, "error")]),
+        ("TMAX = 1 | irule 17 | drun", NOISE, [(489, "error")]),
+        ("TMAX = 1 | irule 17 | drun", SMOOTH, []),
+        ("ARRAY F[2, 2], G[2], H[2] | irule 4 | drun", TABLES, []),
+        ("ARRAY F[2, 2], G[2], H[2] | irule 17 | drun | irule 4 | drun", TABLES, []),  # which of them is not told
     ],
 )
 def test_check(script, body, problems):

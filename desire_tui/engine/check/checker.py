@@ -8,6 +8,7 @@ from desire_tui.engine.cancellation import OutOfTime, handing_over
 from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.check.foreign_forms import foreign_forms
 from desire_tui.engine.check.rules import known_rule
+from desire_tui.engine.check.series import without_series
 from desire_tui.engine.check.unknown import misplaced, unknown_names
 from desire_tui.engine.check.uses import unfit_uses
 from desire_tui.engine.diagnostics.spelling import few_hints
@@ -53,6 +54,7 @@ def _all_problems(program: Program) -> list[Diagnostic]:
             problems.extend(of_it)
             if not of_it:
                 problems.extend(segment.warnings)
+                problems.extend(without_series(segment, rule, survey.quantities.values()))
         at = len(program.source.text)
         problems.extend(unknown_names(program, found, survey.everything, survey.array_names))
         problems.extend(unfit_uses(program, found))

@@ -20,6 +20,7 @@ from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
 from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.point_effects import changed_inputs, steps_are_free
+from desire_tui.engine.passes.series.expanded import expanded
 from desire_tui.engine.passes.slices import acts_at_steps, derivative_slice, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
 from desire_tui.engine.passes.switching import switching
@@ -30,7 +31,6 @@ from desire_tui.engine.reference.stiff_steps import StiffSteps
 from desire_tui.engine.reference.switches import Switches
 from desire_tui.engine.reference.taylor_series import ReferenceSeries
 from desire_tui.engine.runtime.run_memory import Ended, Phase
-from desire_tui.engine.runtime.taylor import expanded
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:

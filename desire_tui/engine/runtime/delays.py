@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY, RULES
+from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
@@ -23,7 +24,6 @@ from desire_tui.engine.lowered.statements import (
 from desire_tui.engine.lowered.walk import simple_actions
 from desire_tui.engine.runtime.before_run import evaluate, needed
 from desire_tui.engine.runtime.plan import ROUNDING
-from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.values import DT
 from desire_tui.engine.whole_numbers import whole
 

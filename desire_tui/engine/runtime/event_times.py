@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.lowered.statements import Set
 from desire_tui.engine.lowered.walk import walk_actions, walk_values
 from desire_tui.engine.runtime.before_run import evaluate, needed
-from desire_tui.engine.runtime.run_faults import at_statement
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:

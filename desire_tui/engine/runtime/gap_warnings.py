@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.runtime.run_faults import at_statement, defining, described
+from desire_tui.engine.lowered.problems import at_statement
+from desire_tui.engine.runtime.run_faults import defining, described
 
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.lowered.effects import writes
 from desire_tui.engine.lowered.expressions import Load
+from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.lowered.statements import Assignment, Deriv, DerivVec
 from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.runtime.moments.blocks import FIRINGS_MOST
@@ -152,15 +153,6 @@ def defining(segment: Segment, slot: int) -> Where | None:
 
 def _placed(key: str, facts: dict[str, object], segment: Segment, where: Where | None) -> DesireError:
     return DesireError(at_statement(key, facts, segment, where))
-
-
-def at_statement(key: str, facts: dict[str, object], segment: Segment, where: Where | None) -> Diagnostic:
-    """Return a problem of a segment's statement; one in a submodel's body names the invocation too."""
-    related: tuple[Diagnostic, ...] = ()
-    if where is not None and where.invoked_at is not None:
-        related = (Diagnostic("expanded-here", where.invoked_at, {}, segment.source),)
-    span = where.span if where is not None else None
-    return Diagnostic(key, span, facts, segment.source, related=related)
 
 
 def described(value: float) -> str:

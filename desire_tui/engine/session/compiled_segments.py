@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
-from desire_tui.engine.runtime.run_faults import at_statement
+from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.runtime.stash import read_stash, with_recovery
 
 if TYPE_CHECKING:

@@ -27,6 +27,7 @@ from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
 from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.point_effects import changed_inputs, steps_are_free
+from desire_tui.engine.passes.series.expanded import expanded
 from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
 from desire_tui.engine.passes.switching import switching as switches
@@ -34,7 +35,6 @@ from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
-from desire_tui.engine.runtime.taylor import expanded
 from desire_tui.engine.values import DT
 
 if TYPE_CHECKING:

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     Function = Callable[[Graph, Series], Operand]
 
 
+_SINC_SMALL, _SINC_TERMS = 1.0, 16
+"""Below, sin(x)/x is taken from its power series up to x^32, whose 20th coefficient at 1 has eleven digits."""
+
+
 def add(g: Graph, a: Operand, b: Operand) -> Operand:
     """Return a + b."""
     if isinstance(a, Constant) and isinstance(b, Constant):
@@ -187,6 +191,22 @@ def _acos(g: Graph, a: Series) -> Operand:
     return g.series("raised", Op("acos", (g.value(a),)), minus, count=a.count)
 
 
+def _sinc(g: Graph, a: Series) -> Operand:
+    """Return sin(a)/a, where a is small at a step's start by the power series of sin(x)/x.
+
+    Both are the same function: it is no switch, and no step ends on it. Near 0 the recurrence of the quotient
+    would divide by next to nothing.
+    """
+    size = g.computed("abs", g.held(a))
+    is_large = g.stored(g.computed("sub", size, g.number(_SINC_SMALL)))
+    square = mul(g, a, a)
+    near: Operand = g.number(1.0)
+    for n in range(_SINC_TERMS, 0, -1):  # 1 - z/(2·3)·(1 - z/(4·5)·(1 - …))
+        near = sub(g, g.number(1.0), mul(g, div(g, square, g.number(2.0 * n * (2.0 * n + 1.0))), near))
+    far = div(g, FUNCTIONS["sin"](g, a), a)
+    return g.series("select", Op("sinc", (g.value(a),)), is_large, far, near, count=a.count)
+
+
 FUNCTIONS: dict[str, Function] = {
     "neg": neg,
     "recip": lambda g, a: div(g, g.number(1.0), a),
@@ -198,6 +218,7 @@ FUNCTIONS: dict[str, Function] = {
     "cos": lambda g, a: _circular(g, a)[1],
     "sinh": lambda g, a: _hyperbolic(g, a)[0],
     "cosh": lambda g, a: _hyperbolic(g, a)[1],
+    "sinc": _sinc,
     "tan": _of_itself("tan", _one_plus_square),
     "tanh": _of_itself("tanh", _one_minus_square),
     "sigmoid": _of_itself("sigmoid", lambda g, u: sub(g, u, mul(g, u, u))),

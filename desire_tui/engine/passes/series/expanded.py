@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.passes.series.graph import NoSeriesError
 from desire_tui.engine.passes.series.pieces import with_pieces
 from desire_tui.engine.passes.series.translation import series_program
 from desire_tui.engine.passes.switching import switching
-from desire_tui.engine.runtime.run_faults import at_statement
 
 if TYPE_CHECKING:
     from collections.abc import Callable
