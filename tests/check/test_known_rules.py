@@ -11,8 +11,8 @@ from tests.lowering.programs import source
 NOISE = "\nDYNAMIC\nd/dt x = ran() - x\ndispt x\n"
 DELAY = "\nDYNAMIC\nd/dt x = -delay(x, 1)\ndispt x\n"
 WHITE = "\nDYNAMIC\nd/dt x = white(1) - x\ndispt x\n"
-
-TABLES = "\nDYNAMIC\nARRAY"
+TABLES = "\nDYNAMIC\nd/dt x = func2(x, t; F, G, H)\ndispt x\n"
+SMOOTH = "\nDYNAMIC\nd/dt x = sinc(x) - abs(x)\ndispt x\n"
 
 
 def found(script, body):
@@ -37,7 +37,11 @@ def found(script, body):
         ("TMAX = 1 | irule 17 | drun", NOISE, [(489, "error")]),
         ("TMAX = 1 | irule 17 | drun", SMOOTH, []),
         ("ARRAY F[2, 2], G[2], H[2] | irule 4 | drun", TABLES, []),
-        ("ARRAY F[2, 2], G[2], H[2] | irule 17 | drun | irule 4 | drun", TABLES, []),  # which of them is not told
+        (
+            "ARRAY F[2, 2], G[2], H[2] | irule 17 | drun | irule 4 | drun",
+            TABLES,
+            [],
+        ),  # which of them is not told
     ],
 )
 def test_check(script, body, problems):

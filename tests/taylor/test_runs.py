@@ -172,19 +172,30 @@ def test_errors_of_rounding_do_not_drift():
 
 
 @pytest.mark.parametrize(
-    ("line", "named"),
+    ("line", "named", "instead"),
     [
-        ("d/dt x = -delay(x, 1)", "delay"),
-        ("q = q + 1 | d/dt x = q", "read before"),
+        ("d/dt x = -delay(x, 1)", "a delay", 4),
+        ("q = q + 1 | d/dt x = q", "read before", 1),
+        ("d/dt x = func2(x, t; F, G, H)", "this table", 9),
+        ("d/dt x = func1(x; T)", "this table", 9),
+        ("v[1] = x | MATRIX W = v*v | Vector u = W*v | d/dt x = -u[1]", "a matrix that changes in a step", 9),
+        ("v[1] = x | Vector u^ = v | d/dt x = u[1] - x", "this operation on arrays", 9),
     ],
 )
 @both
-def test_what_has_no_series_is_refused(line, named, backend):
+def test_what_has_no_series_is_refused(line, named, instead, backend):
+    """The message tells the statement, and a rule that takes it."""
+    start = "ARRAY F[2,2], G[2], H[2], T[200], v[2], u[2], W[2,2] | x = 1 | q = 0\nG[2] = 1 | H[2] = 1\n"
+    start += (
+        "for i = 1 to 100\nT[i] = i/100 | T[100 + i] = i\nnext\nTMAX = 1 | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\n"
+    )
     with pytest.raises(DesireError) as caught:
-        made(f"x = 1 | q = 0 | TMAX = 1 | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\n{line}\ndispt x\n", 1e-6, backend)
+        made(f"{start}{line}\ndispt x\n", 1e-6, backend)
     (problem,) = caught.value.diagnostics
     assert problem.code == 540
     assert named in problem.message
+    assert problem.facts["instead"].startswith((f"rule {instead}", f"rules {instead} to"))
+    assert run(f"irule {instead} | {start}{line}\ndispt x\n", backend).record.count == 3
 
 
 def test_a_pole_is_told_with_its_state():

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.runtime.point_set import PointSet
-from desire_tui.engine.runtime.run_faults import at_statement
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

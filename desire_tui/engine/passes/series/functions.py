@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 _SINC_SMALL, _SINC_TERMS = 1.0, 16
-"""Below, sin(x)/x is taken from its power series up to x^32, whose 20th coefficient at 1 has eleven digits."""
+"""Below, sin(x)/x is taken from its power series up to x^32: its 20th coefficient at 1 has eleven digits."""
 
 
 def add(g: Graph, a: Operand, b: Operand) -> Operand:
