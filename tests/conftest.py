@@ -9,6 +9,8 @@ import gc
 import os
 import signal
 import tempfile
+from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -38,6 +40,26 @@ def pytest_configure(config: pytest.Config) -> None:
         from desire_tui.engine.syntax.parse import parse
 
         parse(Source("x = 1"))
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Import the test modules in another order in each worker, before all workers collect all of them in the same.
+
+    To rewrite a module's assertions takes longer than all else that is done with it, and its result is stored: in a
+    fresh clone each worker would do it for every module. Who is through with a share of his own helps the slower.
+    """
+    config = session.config
+    if config.args_source is not pytest.Config.ArgsSource.TESTPATHS or not hasattr(config, "workerinput"):
+        return
+    worker, workers = (
+        int(config.workerinput["workerid"].removeprefix("gw")),
+        config.workerinput["workercount"],
+    )
+    modules = sorted((config.rootpath / "tests").rglob("test_*.py"))
+    own = modules[worker::workers]
+    for path in own + [path for path in reversed(modules) if path not in own]:
+        with suppress(Exception, pytest.skip.Exception):  # the collection tells of it
+            import_module(".".join(path.relative_to(config.rootpath).with_suffix("").parts))
 
 
 def pytest_collection_finish() -> None:

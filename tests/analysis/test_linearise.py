@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import control
 import numpy as np
 import pytest
 
@@ -33,6 +32,8 @@ dispt a
 
 def test_the_servo_against_control():
     """At rest the torque is g2*V: x'' = -2*200 (x - u) - (2*26 + 0.6) x'."""
+    import control
+
     found = desire_tui.linearise(SERVO, "u -> x, output, torque")
     assert found["A"] == pytest.approx(np.array([[0.0, 1.0], [-400.0, -52.6]]))
     assert found["B"] == pytest.approx(np.array([[0.0], [400.0]]), rel=1e-9)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 
 import pytest
-from sarif_pydantic import Sarif
 
 from tests.batch.command_line import desire
 
@@ -34,6 +33,8 @@ def test_json(folder):
 
 def test_sarif(folder):
     """Read by a library of others' own, which knows the standard's fields and types."""
+    from sarif_pydantic import Sarif
+
     status, out, err = desire("check", ".", "missing.src", "--sarif", cwd=folder)
     assert (status, err) == (1, "")
     log = Sarif.model_validate(json.loads(out))

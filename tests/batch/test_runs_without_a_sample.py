@@ -6,7 +6,6 @@ import json
 
 import numpy as np
 import pytest
-from scipy.io import netcdf_file
 
 import desire_tui
 from desire_tui.engine.runtime import stash
@@ -30,6 +29,8 @@ def test_in_python(text):
 
 @pytest.mark.parametrize("text", FAILING.values(), ids=FAILING)
 def test_in_every_output(text, tmp_path):
+    from scipy.io import netcdf_file
+
     (tmp_path / "p.src").write_text(text)
     options = [word for kind in OUTPUTS for word in (f"--{kind}", f"o.{kind}")]
     status, _, _ = desire("run", "p.src", "--plot", *options, cwd=tmp_path)

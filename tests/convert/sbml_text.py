@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
-import libsbml
+if TYPE_CHECKING:
+    import libsbml
 
 
 class Sbml:
     """A model under construction; formulas are in libSBML's notation (`k*S1`, `time`, `piecewise(…)`)."""
 
     def __init__(self, level: int = 3, version: int = 1) -> None:
+        import libsbml  # a tenth of what importing all tests takes
+
         self.document = libsbml.SBMLDocument(level, version)
         self.model = self.document.createModel()
         self.model.setId("m")
 
     @property
     def text(self) -> str:
+        import libsbml
+
         return libsbml.writeSBMLToString(self.document)
 
     def compartment(self, name: str, size: float | None = 1.0, **more: object) -> Sbml:
@@ -124,6 +130,8 @@ class Sbml:
 
 
 def _math(formula: str) -> libsbml.ASTNode:
+    import libsbml
+
     node = libsbml.parseL3Formula(formula)
     assert node is not None, libsbml.getLastParseL3Error()
     return node

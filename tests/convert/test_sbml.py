@@ -227,16 +227,17 @@ def test_names_of_the_model_and_of_desire():
 
 
 @pytest.mark.parametrize(
-    ("model", "reason"),
+    ("written", "reason"),
     [
-        (Sbml().compartment("c").parameter("x", constant=False).algebraic("x - 1"), "algebraic equations"),
-        (Sbml().compartment("c").parameter("x", constant=False).assignment("x", "factorial(time)"), "factorial"),
-        (Sbml().parameter("x", constant=False).assignment("x", "time").event("E", "(x == 1) || (x > 2)", {}),
+        (lambda: Sbml().compartment("c").parameter("x", constant=False).algebraic("x - 1"), "algebraic equations"),
+        (lambda: Sbml().compartment("c").parameter("x", constant=False).assignment("x", "factorial(time)"), "factorial"),
+        (lambda: Sbml().parameter("x", constant=False).assignment("x", "time").event("E", "(x == 1) || (x > 2)", {}),
          "two quantities are equal at moments"),
-        (Sbml().parameter("x", constant=False).event("E", "time > 1", {"x": "1"}, priority="x"), "a priority"),
+        (lambda: Sbml().parameter("x", constant=False).event("E", "time > 1", {"x": "1"}, priority="x"), "a priority"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_converted_is_named_with_its_line(model, reason):
+def test_what_cannot_be_converted_is_named_with_its_line(written, reason):
+    model = written()
     errors = [problem for problem in converted(model).problems if problem.severity == "error"]
     assert len(errors) == 1
     assert reason in errors[0].message

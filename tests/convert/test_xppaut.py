@@ -10,9 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
-from scipy.linalg import expm
-from scipy.optimize import brentq
 
 import desire_tui
 from desire_tui.convert.conversion import Conversion, convert
@@ -108,6 +105,8 @@ WITHIN = {"wilson_cowan": 1e-4, "chemostat": 1e-4, "van_der_pol": 1e-4, "oregona
 
 @pytest.mark.parametrize("name", SMOOTH)
 def test_smooth_models_against_scipy(name):
+    from scipy.integrate import solve_ivp
+
     rates, starts, end = SMOOTH[name]
     stiff = name in {"van_der_pol", "oregonator"}
     right = solve_ivp(
@@ -181,6 +180,8 @@ def test_maps_are_iterated_together_and_start_at_t_0():
 
 
 def test_arrays_are_written_out():
+    from scipy.linalg import expm
+
     matrix = np.diag(np.full(11, -2.0)) + np.diag(np.ones(10), 1) + np.diag(np.ones(10), -1)
     assert final("heat_rod", *(f"u{k}" for k in range(11))) == pytest.approx(
         expm(2 * matrix) @ np.ones(11), rel=1e-7
@@ -199,6 +200,8 @@ def test_tables_run_straight_between_and_beyond_their_points():
 
 
 def test_presets_are_procedures_of_the_script():
+    from scipy.integrate import solve_ivp
+
     text = converted("presets").text
     called = text.replace("\ndrun\n", "\ncall set_long\ndrun\n").replace("\nx = 0.5", "\nx = 0.5 | v = 0")
     run = desire_tui.load(called).run(record="x", check=True)
@@ -266,6 +269,9 @@ def test_a_transient_is_not_shown():
 
 
 def test_an_algebraic_equation_against_its_roots():
+    from scipy.integrate import solve_ivp
+    from scipy.optimize import brentq
+
     def unknown(x: float) -> float:
         return brentq(lambda y: y + y**3 + x, -10, 10, xtol=1e-14)
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 import os
 from zipfile import ZipFile
 
-import fmpy
 import numpy as np
 import pytest
-from fmpy.validation import validate_fmu
 
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.source import Source
@@ -37,6 +35,15 @@ dispt x, m
 
 
 @pytest.fixture
+def fmpy():
+    """Fmpy is imported where it is used: it takes longer than all of the test modules' own text."""
+    import fmpy
+    import fmpy.validation
+
+    return fmpy
+
+
+@pytest.fixture
 def exported(tmp_path):
     def made(text, **settings):
         path = tmp_path / "spring.fmu"
@@ -53,9 +60,9 @@ def exact(t, k=4.0, r=0.2):
 
 
 @pytest.mark.parametrize("rule", [3, 4])
-def test_it_is_valid_and_gives_the_solution(exported, rule):
+def test_it_is_valid_and_gives_the_solution(fmpy, exported, rule):
     path = exported(SPRING.format(rule=rule))
-    assert validate_fmu(path) == []
+    assert fmpy.validation.validate_fmu(path) == []
     found = fmpy.simulate_fmu(path, fmi_type="CoSimulation", stop_time=5.0, output_interval=0.05)
     assert found["x"] == pytest.approx(exact(found["time"]), abs=1e-6)
     t, w = found["time"], np.sqrt(4.0 - 0.01)
@@ -65,13 +72,13 @@ def test_it_is_valid_and_gives_the_solution(exported, rule):
     assert np.all(np.diff(found["energy"]) <= 1e-9)
 
 
-def test_other_solvers_exchange_the_model(exported):
+def test_other_solvers_exchange_the_model(fmpy, exported):
     path = exported(SPRING.format(rule=3))
     found = fmpy.simulate_fmu(path, fmi_type="ModelExchange", stop_time=5.0, relative_tolerance=1e-8)
     assert found["x"] == pytest.approx(exact(found["time"]), abs=1e-5)
 
 
-def test_parameters_starts_and_inputs(exported):
+def test_parameters_starts_and_inputs(fmpy, exported):
     path = exported(SPRING.format(rule=3), inputs=("u",), settings={"r": 0.0})
     given = np.array([(0.0, 8.0), (5.0, 8.0)], dtype=[("time", float), ("u", float)])
     found = fmpy.simulate_fmu(
@@ -81,9 +88,9 @@ def test_parameters_starts_and_inputs(exported):
     assert found["x"] == pytest.approx(0.5 * (1.0 - np.cos(4.0 * found["time"])), abs=1e-6)
 
 
-def test_what_counts_is_for_co_simulation_alone(exported):
+def test_what_counts_is_for_co_simulation_alone(fmpy, exported):
     path = exported(COUNTER)
-    assert validate_fmu(path) == []
+    assert fmpy.validation.validate_fmu(path) == []
     description = fmpy.read_model_description(path)
     assert description.modelExchange is None
     found = fmpy.simulate_fmu(path, stop_time=1.0, output_interval=0.1)
@@ -91,7 +98,7 @@ def test_what_counts_is_for_co_simulation_alone(exported):
     assert found["m"].tolist() == [0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5]
 
 
-def test_a_stiff_model_is_exchanged_whatever_its_rule(exported):
+def test_a_stiff_model_is_exchanged_whatever_its_rule(fmpy, exported):
     """d/dt y = -1000 (y - cos t) - sin t keeps to cos t; the program's rule 14 is not in C."""
     path = exported("""y = 1 | TMAX = 3 | DT = 0.001 | NN = 31 | irule 14 | ERMAX = 1e-6
 drun
@@ -99,7 +106,7 @@ DYNAMIC
 d/dt y = -1000*(y - cos(t)) - sin(t)
 dispt y
 """)
-    assert validate_fmu(path) == []
+    assert fmpy.validation.validate_fmu(path) == []
     assert fmpy.read_model_description(path).coSimulation is None
     found = fmpy.simulate_fmu(path, stop_time=3.0, relative_tolerance=1e-8)
     assert found["y"] == pytest.approx(np.cos(found["time"]), abs=1e-5)

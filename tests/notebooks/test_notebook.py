@@ -6,8 +6,6 @@ import base64
 import io
 from pathlib import Path
 
-import nbclient
-import nbformat
 import numpy as np
 import pytest
 
@@ -43,17 +41,19 @@ MORE = {
 }
 
 
-class Listening(nbclient.NotebookClient):
-    """Counts how often each cell's displays were drawn anew."""
-
-    def process_message(self, msg, cell, cell_index):
-        if msg["msg_type"] == "update_display_data":
-            self.updates[cell_index] = self.updates.get(cell_index, 0) + 1
-        return super().process_message(msg, cell, cell_index)
-
-
 @pytest.fixture(scope="module")
 def executed():
+    import nbclient
+    import nbformat
+
+    class Listening(nbclient.NotebookClient):
+        """Counts how often each cell's displays were drawn anew."""
+
+        def process_message(self, msg, cell, cell_index):
+            if msg["msg_type"] == "update_display_data":
+                self.updates[cell_index] = self.updates.get(cell_index, 0) + 1
+            return super().process_message(msg, cell, cell_index)
+
     notebook = nbformat.read(NOTEBOOK, 4)
     count = len(notebook.cells)
     notebook.cells += [nbformat.v4.new_code_cell(text) for text in MORE.values()]
@@ -82,6 +82,8 @@ def problem(cell):
 
 
 def test_the_notebook_of_the_documentation_runs(executed):
+    import nbformat
+
     _, cells, _, _ = executed
     shipped = nbformat.read(NOTEBOOK, 4).cells
     for cell, before in zip(cells, shipped, strict=True):

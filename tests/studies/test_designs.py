@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -10,9 +12,12 @@ from desire_tui.studies.design_forms import over_texts, sample_texts
 from desire_tui.studies.plan import boxes
 from desire_tui.studies.streams import stream, streams
 
-SIX = sample_texts(
-    ["a=uniform(0,1), b=uniform(0,1), c=normal(3,2), d=uniform(0,1), e=uniform(0,1), f=randint(1,7)"]
-)
+
+@cache
+def six():
+    return sample_texts(
+        ["a=uniform(0,1), b=uniform(0,1), c=normal(3,2), d=uniform(0,1), e=uniform(0,1), f=randint(1,7)"]
+    )
 
 
 def test_a_grid_counts_its_last_quantity_first():
@@ -24,28 +29,28 @@ def test_a_grid_counts_its_last_quantity_first():
 
 @pytest.mark.parametrize("method", METHODS)
 def test_runs_depend_on_seed_and_number_alone(method):
-    design = Design(over_texts(["g=1,2"]), SIX, runs=100, method=method, seed=7)
+    design = Design(over_texts(["g=1,2"]), six(), runs=100, method=method, seed=7)
     rows = design.rows(0, 200)
     for first, count in ((0, 1), (95, 10), (199, 1), (3, 150)):
-        again = Design(over_texts(["g=1,2"]), SIX, runs=100, method=method, seed=7)
+        again = Design(over_texts(["g=1,2"]), six(), runs=100, method=method, seed=7)
         assert np.array_equal(again.rows(first, count), rows[first : first + count])
     assert np.array_equal(rows[:100, 1:], rows[100:, 1:]), "the same draws at each point of the grid"
-    other = Design({}, SIX, runs=100, method=method, seed=8)
+    other = Design({}, six(), runs=100, method=method, seed=8)
     assert not np.array_equal(other.rows(0, 100), rows[:100, 1:])
     if method == "random":  # so that a study can be made larger
-        assert np.array_equal(Design({}, SIX, runs=1000, seed=7).rows(0, 100), rows[:100, 1:])
+        assert np.array_equal(Design({}, six(), runs=1000, seed=7).rows(0, 100), rows[:100, 1:])
 
 
 def test_what_is_drawn_has_its_distribution():
     from scipy import stats
 
-    random = Design({}, SIX, runs=20_000, seed=1).rows(0, 20_000)
+    random = Design({}, six(), runs=20_000, seed=1).rows(0, 20_000)
     for column, law in ((0, stats.uniform()), (2, stats.norm(3, 2))):
         assert stats.kstest(random[:, column], law.cdf).pvalue > 1e-3
     assert np.abs(np.corrcoef(random.T) - np.eye(6)).max() < 0.03
-    latin = Design({}, SIX, runs=500, method="latin").rows(0, 500)
+    latin = Design({}, six(), runs=500, method="latin").rows(0, 500)
     assert np.array_equal(np.sort((latin[:, 0] * 500).astype(int)), np.arange(500)), "one in each stratum"
-    sobol = Design({}, SIX, runs=512, method="sobol").rows(0, 512)
+    sobol = Design({}, six(), runs=512, method="sobol").rows(0, 512)
     assert np.array_equal(np.sort((sobol[:, 1] * 512).astype(int)), np.arange(512))
 
 

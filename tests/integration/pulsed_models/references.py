@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy import exp
-from scipy.integrate import solve_ivp
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -112,6 +111,8 @@ MODELS: dict[str, tuple[Derivatives, list[float], list[tuple[float, float, float
 
 def solve(name: str, rtol: float, method: str = "DOP853") -> tuple[list[float], list[float]]:
     """The states at the end and their largest magnitudes."""
+    from scipy.integrate import solve_ivp
+
     derivatives, start, intervals = MODELS[name]
     x = np.array(start, float)
     largest = abs(x)
