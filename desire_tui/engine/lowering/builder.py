@@ -231,7 +231,10 @@ class SegmentBuilder:
     def is_second_derivative(self, slot: int, count: int) -> bool:
         """Whether this state already has a `d/dt` that could hold in the same pass (error 101)."""
         path = self.path if self.guards else ()
-        earlier = self.derivative_paths.setdefault((slot, count), [])
+        earlier = self.derivative_paths.get((slot, count))
+        if earlier is None:
+            self.derivative_paths[slot, count] = [path]
+            return False
         second = any(_same_pass(path, other) for other in earlier)
         earlier.append(path)
         return second

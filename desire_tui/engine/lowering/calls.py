@@ -15,6 +15,7 @@ from desire_tui.engine.lowering.lowering_context import (
     BAD,
     DEPTH_MAX,
     EXPANSIONS_MOST,
+    UNKNOWN_SLOT,
     Argument,
     ExpansionFrame,
 )
@@ -65,7 +66,7 @@ def call(context: LoweringContext, node: Call, extent: Extent) -> Value:
 
 
 def _expanded(context: LoweringContext, node: Call, extent: Extent) -> Value:
-    context.reads.append("")
+    context.reads[""] = UNKNOWN_SLOT
     function = context.functions[node.name]
     dummies = function.node.dummies
     frame = context.frame
@@ -110,7 +111,7 @@ def levels_of(value: Value) -> int:
 
 def _array(context: LoweringContext, node: Expr) -> Quantity | None:
     """Return the array a table function's argument names. Errors 36, 19."""
-    context.reads.append("")
+    context.reads[""] = UNKNOWN_SLOT
     if not isinstance(node, Name):
         context.report("table-not-a-name", node)
         return None

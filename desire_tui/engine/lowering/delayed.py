@@ -9,7 +9,7 @@ from desire_tui.engine.lowered.expressions import Const, ElementOperand, Load, O
 from desire_tui.engine.lowered.segment import DelayedValue
 from desire_tui.engine.lowered.statements import Set
 from desire_tui.engine.lowered.walk import walk_values
-from desire_tui.engine.lowering.lowering_context import BAD
+from desire_tui.engine.lowering.lowering_context import BAD, UNKNOWN_SLOT
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.passes.scalar_elements import element_of
 from desire_tui.engine.values import T
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 def delayed(context: LoweringContext, node: Call, extent: Extent) -> Value:
     """Lower `delay(x, tau, h)`: the operation `delayed` of the history's number, the time, and h there."""
-    context.reads.append("")  # every place has a history of its own
+    context.reads[""] = UNKNOWN_SLOT  # every place has a history of its own
     values = [context.lower(argument, extent) for argument in node.args]
     if context.rule == 0:
         return context.report("delay-without-states", node)

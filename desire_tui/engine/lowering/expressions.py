@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, assert_never
 from desire_tui.engine.left_chains import LONG
 from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowering import calls, long_chains, products
-from desire_tui.engine.lowering.lowering_context import BAD, SCALAR, Extent, LoweringContext
+from desire_tui.engine.lowering.lowering_context import BAD, SCALAR, UNKNOWN_SLOT, Extent, LoweringContext
 from desire_tui.engine.lowering.operators import OPERATIONS, power
 from desire_tui.engine.lowering.relations import truth
 from desire_tui.engine.lowering.subscripts import element
@@ -42,10 +42,11 @@ class ExpressionLowering(LoweringContext):
         # `type(…) is` takes half the time of isinstance, for every node
         if type(node) is Name:
             if self.plain:
-                self.reads.append(node.name)
                 load = self.flow.ready.get(node.name)
                 if load is not None:
+                    self.reads[node.name] = load.slot
                     return load
+                self.reads[node.name] = UNKNOWN_SLOT
             return _name(self, node, extent)
         if type(node) is Number:
             return Const(node.value)
@@ -91,7 +92,7 @@ def _name(context: LoweringContext, node: Name, extent: Extent) -> Value:
 
 def _subscripted(context: LoweringContext, node: Element) -> Value:
     """Lower `A[i, k]`."""
-    context.reads.append("")
+    context.reads[""] = UNKNOWN_SLOT
     slot, _ = element(context, node)
     if slot is None:
         return BAD
@@ -107,11 +108,28 @@ def _binary(context: LoweringContext, node: Binary, extent: Extent) -> Value:
         return long_chains.lower_long(context, node, extent)
     if extent and op in "*/&":
         return products.product(context, node, extent)
-    left = context.lower(node.left, extent)
-    right = context.lower(node.right, extent)
+    # a name that can be read is most of what there is, and `lower` would take as long again for it
+    ready = context.flow.ready.get if context.plain else _nothing_ready
+    part = node.left
+    if type(part) is Name and (load := ready(part.name)) is not None:
+        context.reads[part.name] = load.slot
+        left: Value = load
+    else:
+        left = context.lower(part, extent)
+    part = node.right
+    if type(part) is Name and (load := ready(part.name)) is not None:
+        context.reads[part.name] = load.slot
+        right: Value = load
+    else:
+        right = context.lower(part, extent)
     operation = OPERATIONS.get(op)
     if operation is not None:
         return Op(operation, (left, right))
     if op == "^":
         return power(left, right)
     return context.report("ampersand-here", node)
+
+
+def _nothing_ready(_name: str) -> Load | None:
+    """Return what can be read at once where names stand for others: nothing."""
+    return None

@@ -15,7 +15,7 @@ from desire_tui.engine.lowered.expressions import Const, Load, Op, Vec
 from desire_tui.engine.lowered.statements import Set, SetMat, SetVec
 from desire_tui.engine.lowering import products
 from desire_tui.engine.lowering.calls import LEVELS_MOST, levels_of
-from desire_tui.engine.lowering.lowering_context import BAD
+from desire_tui.engine.lowering.lowering_context import BAD, UNKNOWN_SLOT
 from desire_tui.engine.lowering.operators import OPERATIONS
 from desire_tui.engine.lowering.scope import UNKNOWN
 
@@ -60,7 +60,7 @@ def _kept(context: LoweringContext, node: Expr, value: Value, extent: Extent) ->
     """
     if isinstance(value, Const | Load | Vec):
         return value
-    context.reads.append("")  # the statement's own part alone must not be cached
+    context.reads[""] = UNKNOWN_SLOT  # the statement's own part alone must not be cached
     if UNKNOWN in extent:
         return BAD  # a check before the run: nothing is computed
     if extent and count_draws(value):

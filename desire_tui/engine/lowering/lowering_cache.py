@@ -9,11 +9,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.lowering.lowering_context import UNKNOWN_SLOT
 from desire_tui.engine.lowering.scope import LiveScope
 from desire_tui.engine.recently_used import RecentlyUsed
 
 if TYPE_CHECKING:
-    from desire_tui.engine.lowered.expressions import Value
+    from collections.abc import Mapping
+
+    from desire_tui.engine.lowered.expressions import Load, Value
     from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
 
@@ -48,15 +51,24 @@ def lower_cached(context: LoweringContext, node: Expr) -> Value:
                 break
         else:
             return known.value
-    context.reads.clear()
+    reads = context.reads
+    reads.clear()
     before = len(context.problems)
     value = context.lower(node)
     if len(context.problems) == before:
-        loads = [(name, ready.get(name)) for name in context.reads]
-        reads = tuple([(name, load.slot) for name, load in loads if load is not None])
-        if len(reads) == len(loads):
-            cache.keep(id(node), _Cached(node, reads, value))
+        if UNKNOWN_SLOT in reads.values():
+            _read_by_now(reads, ready)
+            if UNKNOWN_SLOT in reads.values():
+                return value
+        cache.keep(id(node), _Cached(node, tuple(reads.items()), value))
     return value
+
+
+def _read_by_now(reads: dict[str, int], ready: Mapping[str, Load]) -> None:
+    """Find the slots of names that became ready when they were read."""
+    for name, slot in reads.items():
+        if slot == UNKNOWN_SLOT and (load := ready.get(name)) is not None:
+            reads[name] = load.slot
 
 
 def age() -> None:

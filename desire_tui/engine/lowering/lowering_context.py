@@ -57,6 +57,7 @@ class Argument:
     value: Value | None = None
 
 
+UNKNOWN_SLOT = -1
 _NO_NAMES: Mapping[str, str] = {}
 _NO_ARGUMENTS: Mapping[str, Argument] = {}
 
@@ -112,8 +113,9 @@ class LoweringContext(ABC):
         self.assigned_array = ""
         """Its name."""
         self.reported: set[str] = set()
-        self.reads: list[str] = []
-        """Names that the expression being lowered has read; "" for what is more than reading a name."""
+        self.reads: dict[str, int] = {}
+        """Names that the expression being lowered has read, and their slots; UNKNOWN_SLOT for a name that was
+        not ready to be read, and under "" for what is more than reading a name."""
         self.row_chosen: Where | None = None
         """Where a row `P#` is read first, if the segment leaves iRow to the script."""
         self.row_read: Where | None = None

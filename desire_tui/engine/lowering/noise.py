@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.integration.rules import RULES
 from desire_tui.engine.lowered.expressions import Load, Op, Vec
 from desire_tui.engine.lowered.statements import Guard, Set, SetVec
+from desire_tui.engine.lowering.lowering_context import UNKNOWN_SLOT
 from desire_tui.engine.lowering.scope import UNKNOWN
 from desire_tui.engine.values import DT
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 def white(context: LoweringContext, node: Call, extent: Extent) -> Value:
     """Lower `white(s)`: s times a number of variance 1/DT, drawn at each step's start for each element."""
-    context.reads.append("")  # every place has a number of its own
+    context.reads[""] = UNKNOWN_SLOT  # every place has a number of its own
     size = context.lower(node.args[0], extent)
     rule = context.rule
     if rule is not None and rule in RULES and (rule == 0 or RULES[rule].controls_error):

@@ -266,7 +266,9 @@ def _states(context: LoweringContext, lines: Sequence[Line]) -> StateTable:
                 name = frame.rename.get(target.name, target.name)
                 known = context.scope.names.get(name)
                 if known is None or not known.shape:
-                    slot = context.scope.scalar(name, is_state=True).slot
+                    if known is None or not known.is_state:
+                        known = context.scope.scalar(name, is_state=True)
+                    slot = known.slot
                     where = context.derivative_places[id(node)] = context.where(node)
                     found.append(StateRange(name, slot, len(found), 1, where))
             else:
