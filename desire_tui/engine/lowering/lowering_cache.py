@@ -58,7 +58,7 @@ def lower_cached(context: LoweringContext, node: Expr) -> Value:
     if len(context.problems) == before:
         if UNKNOWN_SLOT in reads.values():
             _read_by_now(reads, ready)
-            if UNKNOWN_SLOT in reads.values():
+            if not all(slot >= 0 for slot in reads.values()):
                 return value
         cache.keep(id(node), _Cached(node, tuple(reads.items()), value))
     return value
