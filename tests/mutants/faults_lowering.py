@@ -119,5 +119,4 @@ LOWERING = (
     _fault(
         "if load is None or load.slot != slot:", "if load is None:", "tests/lowering/test_lowering_cache.py"
     ),
-    _fault("if not all(slot >= 0 for slot in reads.values()):", "if False:", "tests/lowering/test_lowering_cache.py"),
 )

@@ -58,14 +58,12 @@ def lower_cached(context: LoweringContext, node: Expr) -> Value:
     if len(context.problems) == before:
         if UNKNOWN_SLOT in reads.values():
             _read_by_now(reads, ready)
-            if not all(slot >= 0 for slot in reads.values()):
-                return value
         cache.keep(id(node), _Cached(node, tuple(reads.items()), value))
     return value
 
 
 def _read_by_now(reads: dict[str, int], ready: Mapping[str, Load]) -> None:
-    """Find the slots of names that became ready when they were read."""
+    """Find the slots of names that became ready when they were read; the others are never found again."""
     for name, slot in reads.items():
         if slot == UNKNOWN_SLOT and (load := ready.get(name)) is not None:
             reads[name] = load.slot
