@@ -78,7 +78,9 @@ class NativeBackend:
         """
         from desire_tui.engine.codegen.lanes.lane_model import LaneModel
 
-        return LaneModel(self._compiler.code, segment, rule, values, given, columns, fast=fast)
+        return LaneModel(
+            self._compiler.code, self._compiler.improver, segment, rule, values, given, columns, fast=fast
+        )
 
     def forget(self) -> None:
         """Drop all models: their segments will not come again. What was compiled for them may."""

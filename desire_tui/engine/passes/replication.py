@@ -8,7 +8,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.lowered.effects import ArrayPiece, count_draws, expressions, memory, reads, writes
+from desire_tui.engine.lowered.effects import (
+    ArrayPiece,
+    count_draws,
+    expressions,
+    memory,
+    reads,
+    role,
+    writes,
+)
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.lowered.statements import (
     DelayLine,
@@ -20,12 +28,13 @@ from desire_tui.engine.lowered.statements import (
     Terminate,
     UpdateTrackHold,
 )
-from desire_tui.engine.lowered.walk import walk_actions, walk_values
+from desire_tui.engine.lowered.walk import simple_actions, walk_actions, walk_values
 from desire_tui.engine.values import SYSTEM_SLOTS
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Mapping
+    from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Action
 
@@ -37,7 +46,7 @@ class LockStepError(Exception):
 HISTORIES = (StoreHistory, GetHistory, DelayLine)
 """Statements whose arrays hold a number for each run; where they stand in them is the same for all."""
 _PLAIN_STATEMENTS = (Set, Deriv, Guard, Terminate, UpdateTrackHold, *HISTORIES)
-_PLAIN_NODES = (Const, Load, Table1, Table2)
+_PLAIN_NODES = (Const, Load, Op, Table1, Table2)
 
 
 def hindrance(segment: Segment, varied: Iterable[int]) -> str | None:
@@ -46,26 +55,31 @@ def hindrance(segment: Segment, varied: Iterable[int]) -> str | None:
     `varied` are the slots whose values differ at the start.
     """
     differs = set(varied)
-    if segment.delays or segment.recover or any(event.condition is not None for event in segment.events):
-        return "events with conditions, delays or recovered values"
+    if segment.recover:
+        return "recovered values"
+    if not segment.order and (segment.delays or any(event.condition for event in segment.events)):
+        return "events or delays without states"
     if any(slot < SYSTEM_SLOTS for slot in differs):
         return "times or settings of the run vary"
     written, tables, scalars = set[int](), set[int](), set[int]()
     kept = histories(segment.body)
-    blocks = (action for event in segment.events for action in event.body)
-    for action in walk_actions((*segment.body, *blocks)):
+    actions = tuple(
+        walk_actions((*segment.body, *(action for event in segment.events for action in event.body)))
+    )
+    for action in actions:
         if not isinstance(action, _PLAIN_STATEMENTS):
             return f"{type(action).__name__} statements"
-        for slot, _ in writes(action):
-            written.add(slot)
-        for node in walk_values(*expressions(action)):
-            if not isinstance(node, _PLAIN_NODES) and not (isinstance(node, Op) and node.name != "delayed"):
-                return f"{type(node).__name__} operands"
-            for piece in memory(node):
-                if isinstance(piece, ArrayPiece):
-                    tables.update(range(piece.slot, piece.slot + piece.length))
-                else:
-                    scalars.add(piece[0])
+        written.update(slot for slot, _ in writes(action))
+    for node in walk_values(
+        *(value for action in actions for value in expressions(action)), *moment_values(segment)
+    ):
+        if not isinstance(node, _PLAIN_NODES):
+            return f"{type(node).__name__} operands"
+        for piece in memory(node):
+            if isinstance(piece, ArrayPiece):
+                tables.update(range(piece.slot, piece.slot + piece.length))
+            else:
+                scalars.add(piece[0])
     if any(slot < SYSTEM_SLOTS for slot in written):
         return "the program sets times or settings"
     if tables & (differs | written):
@@ -75,6 +89,15 @@ def hindrance(segment: Segment, varied: Iterable[int]) -> str | None:
     if len(inside) != len(set(inside)) or not others.isdisjoint(inside):
         return "a stored history is used in another way, too"
     return None
+
+
+def moment_values(segment: Segment) -> Iterator[Value]:
+    """Yield the conditions of events, and what delays remember."""
+    for event in segment.events:
+        if event.condition is not None:
+            yield event.condition
+    for delayed in segment.delays:
+        yield delayed.source
 
 
 def histories(actions: Iterable[Action]) -> dict[int, int]:
@@ -112,10 +135,10 @@ def _moved_apart(actions: Iterable[Action], found: Container[int], *, under: boo
 
 
 def differing(
-    passes: Mapping[str, Iterable[Action]], states: Mapping[int, int], varied: Iterable[int]
+    passes: Mapping[str, Iterable[Action]], segment: Segment, varied: Iterable[int]
 ) -> frozenset[int]:
-    """Return the slots of numbers that differ between the runs. `states`: slots by number."""
-    found = set(varied)
+    """Return the slots of numbers that differ between the runs."""
+    states, found = _states(segment), set(varied)
     while True:
         before = len(found)
         for kind, actions in passes.items():
@@ -125,7 +148,27 @@ def differing(
             return frozenset(found)
 
 
-def _spread(action: Action, states: Mapping[int, int], found: set[int], *, under: bool) -> None:
+def changed_apart(passes: Mapping[str, Iterable[Action]], segment: Segment) -> set[int]:
+    """Return the slots that differ as soon as runs take their steps in parts of their own.
+
+    These are the states, what events set, and everything that is no definition.
+    """
+    found = set(_states(segment))
+    for actions in passes.values():
+        for action in simple_actions(actions):
+            if role(action) == "effect":
+                found.update(slot for slot, _ in writes(action))
+    for event in segment.events:
+        found.update(slot for action in walk_actions(event.body) for slot, _ in writes(action))
+    return found
+
+
+def _states(segment: Segment) -> list[int]:
+    """Return the states' slots by number."""
+    return [slot for states in segment.states for slot in range(states.slot, states.slot + states.count)]
+
+
+def _spread(action: Action, states: Sequence[int], found: set[int], *, under: bool) -> None:
     """Add what a statement makes different; `under`: it stands under a condition that differs."""
     if isinstance(action, Guard):
         inner = under or (action.condition is not None and _differs(action, found))
@@ -138,4 +181,7 @@ def _spread(action: Action, states: Mapping[int, int], found: set[int], *, under
 
 
 def _differs(action: Action, found: Container[int]) -> bool:
-    return bool(count_draws(*expressions(action))) or any(slot in found for slot, _ in reads(action))
+    values = expressions(action)
+    if count_draws(*values) or any(slot in found for slot, _ in reads(action)):
+        return True
+    return any(isinstance(node, Op) and node.name == "delayed" for node in walk_values(*values))

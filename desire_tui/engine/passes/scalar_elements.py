@@ -15,13 +15,14 @@ from desire_tui.engine.lowered.expressions import (
     Load,
     MatVec,
     Op,
+    Outer,
     ShiftedVec,
     Table1,
     Table2,
     Vec,
 )
 from desire_tui.engine.lowered.segment import Event
-from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.lowered.walk import walk_values, with_bodies
 from desire_tui.engine.random_sequence import DRAWS
 
@@ -90,6 +91,12 @@ class _Writer:
                     )
                 case SetVec(mask_slot=None) if action.mode != "largest" and not reads_replaced(action):
                     yield from self._vector(action)
+                case SetMat(mask_slot=None) if _are_numbers(action) and not reads_replaced(action):
+                    yield from self._matrix(action)
+                case SetDot():
+                    self.written = True
+                    value = self._dot(action)
+                    yield Set(action.slot, value, action.where, action.persistent)
                 case DerivVec():
                     self.written = True
                     for at in reversed(range(action.count)):
@@ -111,6 +118,57 @@ class _Writer:
                 value = self.op("add", Load(action.slot + at), value)
             persistent = action.persistent or action.mode == "add"
             yield Set(action.slot + at, value, action.where, persistent)
+
+    def _matrix(self, action: SetMat) -> Iterator[Action]:
+        self.written = True
+        for at in reversed(range(action.rows * action.cols)):
+            value = _Element(self, at).value(action.value)
+            if action.mode == "add":
+                value = self.op("add", Load(action.slot + at), value)
+            if action.lower is not None:
+                value = self.op("max", value, action.lower)
+            if action.upper is not None:
+                value = self.op("min", value, action.upper)
+            yield Set(action.slot + at, value, action.where, action.persistent or action.mode == "add")
+
+    def _dot(self, action: SetDot) -> Value:
+        total: Value = _ZERO
+        for term in action.terms:
+            parts: list[Value] = []
+            for at in range(term.left.count):
+                left, element = Load(term.left.slot + at), _Element(self, at)
+                parts.append(left if term.right is None else self.op("mul", left, element.value(term.right)))
+            value = self._total(parts)
+            total = self.op(
+                "add", total, value if term.sign == 1.0 else self.op("mul", value, Const(term.sign))
+            )
+        if action.average and action.terms:
+            total = self.op("div", total, Const(float(action.terms[0].left.count)))
+        return total
+
+    def _total(self, parts: Sequence[Value]) -> Value:
+        """Return the sum of many numbers, as `codegen.vector.products` adds them up."""
+        main = len(parts) // (2 * _SUMS) * 2 * _SUMS
+        if not main:
+            return self.sum(_ZERO, parts)
+        both = [self.sum(_ZERO, parts[lane : main : 2 * _SUMS]) for lane in range(2 * _SUMS)]
+        sums = [
+            self.op("add", first, second) for first, second in zip(both[:_SUMS], both[_SUMS:], strict=True)
+        ]
+        return self.sum(self.in_pairs(sums), parts[main:])
+
+    def in_pairs(self, sums: Sequence[Value]) -> Value:
+        """Add up neighbours, then their sums, and so on."""
+        while len(sums) > 1:
+            sums = [self.op("add", a, b) for a, b in zip(sums[::2], sums[1::2], strict=True)]
+        return sums[0]
+
+    def sum(self, first: Value, parts: Sequence[Value]) -> Value:
+        """Add up numbers one by one."""
+        total = first
+        for part in parts:
+            total = self.op("add", total, part)
+        return total
 
     def op(self, name: str, *args: Value) -> Op:
         """Return an operation of an element."""
@@ -147,6 +205,14 @@ class _Element:
                 return Load(node.slot + at) if 0 <= at < node.count else _ZERO
             case MatVec():
                 return self._product(node)
+            case Outer():
+                u, v = (
+                    Load(slot + at)
+                    for slot, at in zip(
+                        (node.u_slot, node.v_slot), divmod(self._at, node.v_count), strict=True
+                    )
+                )
+                return self._writer.op(node.op, u, v)
             case Op():
                 return self._writer.op(node.name, *map(self.value, node.args))
             case Table1():
@@ -158,25 +224,22 @@ class _Element:
                 return node  # refused later, as an operand over elements
 
     def _product(self, node: MatVec) -> Value:
-        op = self._writer.op
+        op, add_up = self._writer.op, self._writer.sum
         if node.transposed:
             first, step, terms = node.slot + self._at, node.cols, node.rows
         else:
             first, step, terms = node.slot + self._at * node.cols, 1, node.cols
-        parts = [op("mul", Load(first + k * step), Load(node.x_slot + k)) for k in range(terms)]
+        parts: list[Value] = [op("mul", Load(first + k * step), Load(node.x_slot + k)) for k in range(terms)]
         if node.transposed:
-            return self._sum(_ZERO, parts)
+            return add_up(_ZERO, parts)
         main = terms // _SUMS * _SUMS
-        sums = [self._sum(_ZERO, parts[lane:main:_SUMS]) for lane in range(_SUMS)]
-        while len(sums) > 1:
-            sums = [op("add", a, b) for a, b in zip(sums[::2], sums[1::2], strict=True)]
-        return self._sum(sums[0], parts[main:])
+        sums = [add_up(_ZERO, parts[lane:main:_SUMS]) for lane in range(_SUMS)]
+        return add_up(self._writer.in_pairs(sums), parts[main:])
 
-    def _sum(self, first: Value, parts: Sequence[Value]) -> Value:
-        total = first
-        for part in parts:
-            total = self._writer.op("add", total, part)
-        return total
+
+def _are_numbers(action: SetMat) -> bool:
+    """Whether an element's bounds, if there are any, are plain numbers."""
+    return all(bound is None or isinstance(bound, Const) for bound in (action.lower, action.upper))
 
 
 def _draws(node: Value) -> bool:

@@ -37,10 +37,11 @@ def event_times(segment: Segment, values: Values) -> list[tuple[float, float]]:
     return found
 
 
-def clock_slots(segment: Segment) -> set[int]:
-    """Return the slots of all numbers that the times of clocks are computed from."""
+def moment_slots(segment: Segment) -> set[int]:
+    """Return the slots of all numbers that the times of clocks and delays are computed from."""
     sets = [action for action in segment.body if isinstance(action, Set)]
     times = [time for event in segment.events for time in (event.period, event.start) if time is not None]
+    times += [delayed.tau for delayed in segment.delays]
     values = [value for time in times for value in (time, *(made.value for made in needed(time, sets)))]
     return {node.slot for node in walk_values(*values) if isinstance(node, Load)}
 

@@ -70,7 +70,7 @@ _KINDS = {ctypes.c_double: "double", ctypes.c_int64: "i64", ctypes.c_int32: "i32
 
 
 class Fields:
-    """Reads and writes the fields of a C structure in a text. 64-bit unsigned fields are pointers."""
+    """Reads and writes the fields of a C structure in a text. Unsigned fields and arrays are pointers."""
 
     __slots__ = ("_base", "_offsets", "_text")
 
@@ -100,7 +100,7 @@ def _offsets(structure: type[ctypes.Structure]) -> dict[str, tuple[int, str]]:
     if known is None:
         fields = [(entry[0], entry[1]) for entry in structure._fields_]
         known = _TABLES[structure] = {
-            name: (getattr(structure, name).offset, _KINDS[kind]) for name, kind in fields
+            name: (getattr(structure, name).offset, _KINDS.get(kind, "ptr")) for name, kind in fields
         }
     return known
 

@@ -77,13 +77,13 @@ class LaneCells:
         return Number(found, slot in self.differing)
 
     def fetch(self, given: Sequence[int]) -> None:
-        """Read every number from the values at `%v`; those `given` for each run from `%in`."""
+        """Read every number from `%base`; those `given` for each run from `%in`."""
         places = {slot: place for place, slot in enumerate(given)}
-        for slot in self.slots:
+        for number, slot in enumerate(self.slots):
             if slot in places:
                 at = self.text.op(f"getelementptr double, ptr %in, i64 {places[slot] * self.runs.width}")
                 value = Number(self.text.op(f"load {self.runs.kind}, ptr {at}, align 8"), wide=True)
             else:
-                at = self.text.op(f"getelementptr double, ptr %v, i64 {slot}")
+                at = self.text.op(f"getelementptr double, ptr %base, i64 {number}")
                 value = Number(self.text.op(f"load double, ptr {at}"), wide=False)
             self.store(slot, value)

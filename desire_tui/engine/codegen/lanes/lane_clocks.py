@@ -5,10 +5,9 @@ What `runtime.moments.steps` does for one run, written for many.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.lanes.lane_cells import Number
-from desire_tui.engine.codegen.lanes.lane_stages import advance, save
 from desire_tui.engine.codegen.lanes.lane_steps import LaneSteps
 from desire_tui.engine.runtime.moments.steps import SLACK
 from desire_tui.engine.values import T
@@ -21,17 +20,24 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.tableaus import Tableau
 
 
-class LaneClocks:
-    """Clocks by number; their blocks are the pass `blocks`, which looks at slot `due` + number."""
+class ClockSlots(NamedTuple):
+    """How many clocks there are; the pass `blocks` looks at slot `due` + number of each."""
 
-    def __init__(self, loop: LaneVariables, count: int, due: int) -> None:
+    clocks: int
+    due: int
+
+
+class LaneClocks:
+    """Writes what clocks do. At `side` are (clocks, 4): period, start, ticks so far, next time."""
+
+    def __init__(self, loop: LaneVariables, slots: ClockSlots) -> None:
         self.loop, self.text, self.one = loop, loop.text, loop.one
-        self._count, self._due = count, due
+        self._count, self._due = slots
 
     def begin(self) -> None:
         """Write what comes before a run's first pass: what is due at its start."""
         text = self.text
-        clocks = self.loop.memory.load("clocks")
+        clocks = self.loop.memory.load("side")
         for number in range(self._count):
             for place, name in enumerate(("period", "start", "ticks", "next")):
                 text.alloca("double", f"%l.{name}.{number}")
@@ -119,20 +125,8 @@ class ClockedSteps(LaneSteps):
         self.clocks.arrive(slack)
         text.branch(one.compare("oge", stop, end), "step.done", "part.on")
         text.begin("part.on")
-        loop.put("i1", "whole", "false")
         loop.run_pass("derivative", 1)
         loop.put("double", "here", stop)
         text.jump("part")
         text.begin("step.done")
         self._arrive(dt, 1)
-
-    def _part(self, here: str, dt: str) -> None:
-        """Write a step from `here`; t is left to the caller."""
-        cells, tableau, one = self.cells, self.tableau, self.one
-        save(cells, self.states)
-        for stage in range(1, tableau.stages):
-            advance(cells, self.states, tableau.a[stage], dt, from_zero=True)
-            t = one.add(here, one.mul(one.const(float(tableau.c[stage])), dt))
-            cells.store(T, Number(t, wide=False))
-            self.loop.run_pass("derivative", stage + 1)
-        advance(cells, self.states, tableau.b, dt, from_zero=True)

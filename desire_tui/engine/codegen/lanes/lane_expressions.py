@@ -8,11 +8,13 @@ from desire_tui.engine.codegen.ir import random
 from desire_tui.engine.codegen.ir.functions import LIBRARY_OPERATIONS, apply, power
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.table_lookup import table1, table2
+from desire_tui.engine.codegen.ir.work_memory import Fields
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.lanes.lane_cells import Number
 from desire_tui.engine.codegen.lanes.replicas import Replicas
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.random_sequence import DRAWS
+from desire_tui.engine.runtime.moments.memory import SideBySide
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.lanes.lane_cells import LaneCells
@@ -33,6 +35,8 @@ class LaneExpressions:
         self._over_elements = over_elements
         self._library = Replicas(runs.text, runs.width, machine().width)
         self.mask: str | None = None
+        self.is_inside = False
+        """At a later stage of a step."""
         self._known: dict[int, Number] = {}
 
     def forget(self) -> None:
@@ -71,6 +75,8 @@ class LaneExpressions:
             exponent = node.args[1]
             assert isinstance(exponent, Const)
             return Number(power(lanes, x, int(exponent.value)), lanes.width > 1)
+        if node.name == "delayed":
+            return self._delayed(node)
         values = [self.value(arg) for arg in node.args]
         if id(node) in self._over_elements:
             return self._of_element(node.name, values)
@@ -85,6 +91,19 @@ class LaneExpressions:
             made = apply(self._library, name, [self.cells.wide(value) for value in values])
             return Number(self.text.op(f"extractelement {self.runs.kind} {made}, i64 0"), wide=False)
         return Number(apply(self._library, name, [self.cells.wide(value) for value in values]), wide=True)
+
+    def _delayed(self, node: Op) -> Number:
+        """Look up a value at an earlier time; number, time and, if given, what was before the start."""
+        number, time, *before = node.args
+        assert isinstance(number, Const)
+        text, side = self.text, Fields(self.text, SideBySide, "%side")
+        found = [self.cells.wide(self.value(value)) for value in (time, *before)]
+        for name, value in zip(("s", "past"), found, strict=False):
+            text.do(f"store {self.runs.kind} {value}, ptr {side.load(name)}, align 8")
+        text.declarations.add("declare void @moments.look_up_runs(ptr, i64, i64, i64)")
+        given = f"i64 {int(number.value)}, i64 {len(before)}, i64 {int(self.is_inside)}"
+        text.do(f"call void @moments.look_up_runs(ptr %side, {given})")
+        return Number(text.op(f"load {self.runs.kind}, ptr {side.load('found')}, align 8"), wide=True)
 
     def _alike(self, *values: Number) -> tuple[Lanes, list[str]]:
         """Return all values as numbers or, if one of them is a vector, as vectors."""

@@ -10,11 +10,13 @@ class LaneMemory(ctypes.Structure):
 
     _fields_ = (
         ("values", ctypes.c_uint64),  # address of slot 0
+        ("base", ctypes.c_uint64),  # what all runs begin with, for each slot of the code in its order
         ("starts", ctypes.c_uint64),  # (groups, given slots, width)
         ("random", ctypes.c_uint64),  # int64 (groups, width): where the random numbers begin
         ("rows", ctypes.c_uint64),  # (samples, 1 + columns, runs): t, then the columns
         ("arrays", ctypes.c_uint64),  # (groups, elements of all histories, width)
-        ("clocks", ctypes.c_uint64),  # (clocks, 4): period, start, ticks so far, next time
+        ("side", ctypes.c_uint64),  # times of clocks, or a `runtime.moments.memory.SideBySide`
+        ("group", ctypes.c_int64),  # that is under way
         ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
         ("counts", ctypes.c_uint64),  # int64 (groups, width): samples
         ("flagged", ctypes.c_uint64),  # int64 (groups, width): not 0: to be made again alone
@@ -44,8 +46,8 @@ def lane_frame(name: str, *, width: int, given: int, elements: int) -> str:
         )
     ]
     return _FRAME.format(
-        name=name, loads="\n".join(loads), stop=_offset("stop"), width=width, given=given * width,
-        elements=elements * width,
+        name=name, loads="\n".join(loads), stop=_offset("stop"), group=_offset("group"), width=width,
+        given=given * width, elements=elements * width,
     )  # fmt: skip
 
 
@@ -62,6 +64,7 @@ define i32 @{name}(ptr %a) #0 {{
 entry:
 {loads}
   %pstop = getelementptr i8, ptr %a, i64 {stop}
+  %pgroup = getelementptr i8, ptr %a, i64 {group}
   br label %next
 next:
   %g = phi i64 [ 0, %entry ], [ %g1, %work ]
@@ -80,6 +83,7 @@ work:
   %garrays = getelementptr double, ptr %arrays, i64 %oarrays
   %gcounts = getelementptr i64, ptr %counts, i64 %olane
   %gflags = getelementptr i64, ptr %flagged, i64 %olane
+  store i64 %g, ptr %pgroup
   %unused = call i32 @{name}.group(ptr %a, ptr %values, ptr %gin, ptr %gseeds, ptr %grows, ptr %garrays,
                                    ptr %gcounts, ptr %gflags)
   %g1 = add i64 %g, 1

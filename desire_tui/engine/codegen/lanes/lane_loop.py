@@ -19,8 +19,10 @@ from desire_tui.engine.codegen.ir.symbols import sine_and_cosine
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.ir.work_memory import Fields
 from desire_tui.engine.codegen.jit.piece import Piece
+from desire_tui.engine.codegen.lanes.event_steps import EventSteps
 from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
-from desire_tui.engine.codegen.lanes.lane_clocks import ClockedSteps, LaneClocks
+from desire_tui.engine.codegen.lanes.lane_clocks import ClockedSteps, ClockSlots, LaneClocks
+from desire_tui.engine.codegen.lanes.lane_events import EventSlots, LaneEvents
 from desire_tui.engine.codegen.lanes.lane_frame import LaneMemory, lane_frame
 from desire_tui.engine.codegen.lanes.lane_histories import LaneHistories
 from desire_tui.engine.codegen.lanes.lane_points import LanePoints
@@ -60,9 +62,8 @@ class LaneParts(NamedTuple):
     """Lengths of stored histories by their first slots."""
     counters: int
     over_elements: frozenset[int]
-    clocks: int
-    """How many `every` there are, and the first of the slots that say which is due."""
-    due: int
+    moments: ClockSlots | EventSlots | None
+    """What happens at moments of all runs, or at those of each run's own."""
 
 
 class LaneLoop:
@@ -90,14 +91,25 @@ class LaneLoop:
             self.runs, self.cells, self.memory, self.statements, passes, may_end=may_end
         )
         self.points = LanePoints(self.loop, parts.columns, parts.vital, steps=tableau is not None)
-        self.clocks = LaneClocks(self.loop, parts.clocks, parts.due) if parts.clocks else None
+        self.clocks = self.events = None
+        if isinstance(parts.moments, ClockSlots):
+            self.clocks = LaneClocks(self.loop, parts.moments)
+        elif parts.moments is not None:
+            self.events = LaneEvents(self.loop, parts.moments, states)
         self.steps = None if tableau is None else self._steps(tableau, states)
         self.given = parts.given
 
     def _steps(self, tableau: Tableau, states: Sequence[int]) -> LaneSteps:
-        if self.clocks is None:
-            return LaneSteps(self.loop, self.points, tableau, states)
-        return ClockedSteps(self.loop, self.points, tableau, states, self.clocks)
+        if self.events is not None:
+            return EventSteps(self.loop, self.points, tableau, states, self.events)
+        if self.clocks is not None:
+            return ClockedSteps(self.loop, self.points, tableau, states, self.clocks)
+        return LaneSteps(self.loop, self.points, tableau, states)
+
+    @property
+    def own(self) -> Sequence[int]:
+        """The slots of what single runs are handed over by."""
+        return self.events.own if self.events is not None else ()
 
     def piece(self) -> Piece:
         """Return the code, named by its content."""
@@ -121,10 +133,13 @@ class LaneLoop:
 
     def _write(self) -> None:
         self.loop.begin()
+        self.text.do(f"%base = load ptr, ptr {self.memory.at('base')}")
         self.cells.fetch(self.given)
         self.histories.begin()
         if self.clocks is not None:
             self.clocks.begin()
+        if self.events is not None:
+            self.events.begin()
         self.loop.next_point()
         self.text.jump("point")
         self.points.write()

@@ -11,13 +11,13 @@ import numpy as np
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.lanes.lane_frame import LaneMemory
 from desire_tui.engine.codegen.lanes.lane_loop import LaneLoop, LaneParts
+from desire_tui.engine.codegen.lanes.lane_moments import moments_of
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.lowered.effects import count_draws, expressions
 from desire_tui.engine.lowered.walk import walk_actions
 from desire_tui.engine.passes.assigned_states import stepped_segment
-from desire_tui.engine.passes.moments import blocks_pass
 from desire_tui.engine.passes.replication import (
     LockStepError,
     differing,
@@ -28,14 +28,13 @@ from desire_tui.engine.passes.replication import (
 from desire_tui.engine.passes.scalar_elements import TooManyError, scalar_elements
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.delays import Delays
-from desire_tui.engine.runtime.event_times import clock_slots, event_times
-from desire_tui.engine.runtime.moments.setup import first_tick
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
+    from desire_tui.engine.codegen.jit.background import Improver
     from desire_tui.engine.codegen.jit.cache import CodeCache
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.passes.scalar_elements import WrittenOut
@@ -77,6 +76,7 @@ class LaneModel:
     def __init__(
         self,
         code: CodeCache,
+        improver: Improver,
         segment: Segment,
         rule: int,
         values: Values,
@@ -95,24 +95,20 @@ class LaneModel:
         reason = hindrance(segment, given)
         if reason is not None:
             raise LockStepError(reason)
-        passes = passes_of(segment)
-        clocks, due = len(segment.events), 0
-        if clocks:
-            due = values.room(clocks)
-            passes["blocks"] = blocks_pass(segment, due)
+        tableau = TABLEAUS[rule] if segment.order else None
         states = [slot for s in segment.states for slot in range(s.slot, s.slot + s.count)]
-        self._values, self._given, self._columns = values, list(given), list(columns)
         self.width = 2 * machine().width
+        self._values, self._given, self._columns = values, list(given), list(columns)
+        self._moments = moments_of(segment, tableau, values, given, self.width)
+        passes = passes_of(segment) | self._moments.passes
         self.draws = any(
             count_draws(*expressions(action))
             for actions in passes.values()
             for action in walk_actions(actions)
         )
         """Whether the model takes random numbers."""
-        varies = differing(passes, dict(enumerate(states)), given)
+        varies = differing(passes, segment, {*given, *self._moments.changed(passes)})
         reason = moved_apart(segment, varies)
-        if not varies.isdisjoint(clock_slots(segment)):
-            reason = "times of 'every' differ"
         if reason is not None:
             raise LockStepError(reason)
         self._segment, self._delays = segment, Delays()
@@ -120,26 +116,16 @@ class LaneModel:
         self._histories = np.array(
             [slot for first, count in arrays.items() for slot in range(first, first + count)], dtype=np.intp
         )
-        piece = machine().width if fast else 1
         parts = LaneParts(
-            passes,
-            TABLEAUS[rule] if segment.order else None,
-            states,
-            columns,
-            vital,
-            given,
-            varies,
-            faults,
-            arrays,
-            segment.counters,
-            over_elements,
-            clocks,
-            due,
-        )
-        loop = LaneLoop(parts, self.width, piece)
+            passes, tableau, states, columns, vital, given, varies, faults, arrays, segment.counters,
+            over_elements, self._moments.slots(passes),
+        )  # fmt: skip
+        loop = LaneLoop(parts, self.width, machine().width if fast else 1)
+        self._slots = np.array(loop.cells.slots, dtype=np.intp)
+        self._moments.connect(code, improver, passes["derivative"], loop.own, varies)
         self._compiled = code.fast(loop.piece(), slp=False)
         self._run = _RUN(self._compiled.address)
-        self.memory = LaneMemory(values=values.address)
+        self.memory = LaneMemory(values=values.address, side=self._moments.address)
         self._samples = np.empty(0)
 
     def run(self, plan: RunPlan, starts: Floats, random: NDArray[np.uint64]) -> LaneRows:
@@ -163,8 +149,9 @@ class LaneModel:
         lags = np.zeros(max(self._segment.counters, 1), dtype=np.int64)
         for counter, records in self._delays.lags(self._segment, plan, self._values).items():
             lags[counter] = records
-        clocks = self._clocks(plan)
-        memory.clocks = clocks.ctypes.data
+        base = self._values.data[self._slots]
+        memory.base = base.ctypes.data
+        failed = self._moments.prepare(plan, starts[lanes], self._given)[:runs]
         memory.arrays, memory.lags = arrays.ctypes.data, lags.ctypes.data
         memory.groups, memory.runs, memory.stop = groups, groups * width, 0
         memory.t_start, memory.t_max, memory.comint = plan.t0, plan.t_max, plan.comint
@@ -172,15 +159,9 @@ class LaneModel:
         self._run(ctypes.addressof(memory))
         used = max(int(counts.max()), 1)
         table = rows[:used].transpose(1, 0, 2)
-        return LaneRows(table[:, :, :runs], counts[:runs], (flagged[:runs] != 0) | (counts[:runs] == 0))
-
-    def _clocks(self, plan: RunPlan) -> Floats:
-        """Return period, start, ticks so far and next time of each clock. DesireError 487."""
-        rows = []
-        for period, start in event_times(self._segment, self._values):
-            ticks = first_tick(period, start, plan.t0)
-            rows.append((period, start, ticks, start + ticks * period))
-        return np.array(rows or [(0.0,) * 4])
+        return LaneRows(
+            table[:, :, :runs], counts[:runs], failed | (flagged[:runs] != 0) | (counts[:runs] == 0)
+        )
 
     def _room(self, shape: tuple[int, ...]) -> Floats:
         """Return memory for samples, that of the last call if it is large enough: new pages take time."""

@@ -65,6 +65,17 @@ class LaneSteps:
         cells.store(T, Number(self._counted_time(1.0, dt), wide=False))
         self._arrive(dt, _CHECK_EVERY)
 
+    def _part(self, here: str, dt: str) -> None:
+        """Write a step from `here` as `runtime.moments.stages` makes it; t is left to the caller."""
+        cells, tableau, one = self.cells, self.tableau, self.one
+        save(cells, self.states)
+        for stage in range(1, tableau.stages):
+            advance(cells, self.states, tableau.a[stage], dt, from_zero=True)
+            t = one.add(here, one.mul(one.const(float(tableau.c[stage])), dt))
+            cells.store(T, Number(t, wide=False))
+            self.loop.run_pass("derivative", stage + 1)
+        advance(cells, self.states, tableau.b, dt, from_zero=True)
+
     def _arrive(self, dt: str, check_every: int) -> None:
         """Write the end of a step."""
         text = self.text

@@ -19,15 +19,15 @@ from desire_tui.engine.integration.taylor import isolation
 from desire_tui.engine.integration.taylor import memory as taylor_memory
 from desire_tui.engine.integration.taylor.memory import Taylor
 from desire_tui.engine.runtime import run_memory
-from desire_tui.engine.runtime.moments import along, blocks, histories, inside, locate, memory, stages, steps
-from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Moments, Place
+from desire_tui.engine.runtime.moments import along, blocks, histories, inside, locate, memory, side_by_side, stages, steps
+from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Moments, Place, SideBySide
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.linker import MachineCode
 
-_MODULES = (histories, blocks, stages, locate, steps, inside, isolation, along)
+_MODULES = (histories, blocks, stages, locate, steps, inside, isolation, along, side_by_side)
 _ENGINE = files("desire_tui.engine")
 
 
@@ -48,6 +48,10 @@ _PUBLIC = (
     "remember_step",
     "happen",
     "look_along_series",
+    "begin_runs",
+    "step_runs",
+    "record_runs",
+    "look_up_runs",
 )
 _making = Lock()
 _made: list[MomentFunctions] = []
@@ -56,6 +60,7 @@ _made: list[MomentFunctions] = []
 class MomentFunctions(NamedTuple):
     """Addresses; `keep` owns the code."""
 
+    keep: Any
     begin: int
     step: int
     look_up: int
@@ -64,6 +69,10 @@ class MomentFunctions(NamedTuple):
     remember_step: int
     happen: int
     look_along_series: int
+    begin_runs: int
+    step_runs: int
+    record_runs: int
+    look_up_runs: int
     keep: Any
 
 
@@ -81,7 +90,7 @@ def _compiled() -> MachineCode:
     pointers = {name: of_function(Compute, "") for name in ("conditions", "blocks", "derivative", "sources")}
     kinds = {"limit": Limit, "look": Look, "depart": Depart, "place": Place}
     pointers |= {name: of_function(kind, "") for name, kind in kinds.items()}
-    outside = Outside({"Moments": Moments, "RunMemory": RunMemory, "Taylor": Taylor}, pointers)
+    outside = Outside({"Moments": Moments, "RunMemory": RunMemory, "Taylor": Taylor, "SideBySide": SideBySide}, pointers)
     modules = [Module(_TEXTS[module], vars(module)) for module in _MODULES]
     text = write_program(modules, outside, "moments_", frozenset(_PUBLIC))
     return compile_and_keep(text, _name(), level=1, vectorize=False)
@@ -89,7 +98,7 @@ def _compiled() -> MachineCode:
 
 def _name() -> str:
     layout = repr(
-        (T, DT, ERRMAX, *((kind, sizeof(kind), kind._fields_) for kind in (Moments, RunMemory, Taylor)))
+        (T, DT, ERRMAX, *((kind, sizeof(kind), kind._fields_) for kind in (Moments, RunMemory, Taylor, SideBySide)))
     )
     everything = b"".join(_TEXTS.values()) + _OTHERS + re.sub(" at 0x[0-9a-f]+", "", layout).encode()
     return f"moments-{blake2b(everything, digest_size=8).hexdigest()}"

@@ -6,5 +6,6 @@ Plain Python, compiled by `codegen.plain_python` for native code; the reference 
     `blocks`   which events are due, and their blocks carried out
     `locate`   where in a step an event's expression rises through 0
     `steps`    the steps of a rule: fixed ones are split at a moment, variable ones end there
+    `side_by_side`  steps that single ones of many runs in lock step make alone
     `setup`    the memory behind the structure
 """

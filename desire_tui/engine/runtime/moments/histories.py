@@ -34,12 +34,18 @@ def begin_histories(m: Moments) -> None:
 
 def record(m: Moments) -> None:
     """Remember the values at the present t; the first derivatives of the step are known."""
-    if m.delay_count == 0 or m.knots >= m.room:
+    if m.delay_count != 0:
+        m.sources(m.memory, m.k_at[0])
+        add_knot(m)
+
+
+def add_knot(m: Moments) -> None:
+    """Remember what has been put where `sources` puts it."""
+    if m.knots >= m.room:
         return
     t: float = m.values[T]
     if m.knots == 1 and m.times[0] == t:
         m.knots = 0
-    m.sources(m.memory, m.k_at[0])
     m.times[m.knots] = t
     for j in range(m.delay_count):
         place = j * m.room + m.knots

@@ -86,3 +86,30 @@ class Moments(ctypes.Structure):
         ("arguments", _INTS), ("fell", _REALS),
         ("left", _REAL), ("right", _REAL),  # … and between which places the first event comes
     )  # fmt: skip
+
+
+class SideBySide(ctypes.Structure):
+    """`width` runs in lock step: what they need where some of them make a step alone (`side_by_side`).
+
+    Arrays hold a number for each run, those of one slot, state, event or delay side by side.
+    """
+
+    _fields_ = (
+        ("values", _REALS),  # slot 0
+        ("memory", _ADDRESS),  # the RunMemory that all of them use in turn
+        ("moments", _ADDRESSES),  # of each run
+        ("width", _INT), ("count", _INT), ("n", _INT), ("delay_count", _INT),  # runs, events, states, delays
+        ("source", _INT),  # first slot of what delays remember
+        ("own_count", _INT), ("own_slots", _INTS), ("own", _REALS),  # what differs, and where it stands
+        ("k1", _REALS),
+        ("sources", _REALS),  # what the delays remember
+        ("before", _REALS), ("armed", _INTS), ("in_doubt", _INTS),  # of the events
+        ("soon", _REALS),  # when the next clock is due or a jump comes back
+        ("random", _INTS),
+        ("wanted", _INTS),  # 1: makes this step alone; 2: its start has been recorded
+        ("failed", _INTS),
+        # (groups, 4·events + delays, width): period, start, ticks, next time of each; delays
+        ("times", _REALS), ("group", _INT),
+        ("here", _REAL), ("t_next", _REAL), ("k", _INT),  # where the step begins
+        ("s", _REALS), ("past", _REALS), ("found", _REALS),  # times, values before the start, results
+    )  # fmt: skip

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     Numbers = NDArray[np.float64]
 
-_SPAN = 1e-9
+SPAN = 1e-9
 """Part of COMINT within which very many events are too many."""
 _ROOM = 4096
 """Knots of a history at first."""
@@ -67,7 +67,10 @@ class Remembered:
 class Stepper:
     """A model's `Moments` with everything that it points at; `tableau` None: there are no states."""
 
-    def __init__(self, segment: Segment, tableau: Tableau | None, values: Values) -> None:
+    def __init__(
+        self, segment: Segment, tableau: Tableau | None, values: Values, like: Stepper | None = None
+    ) -> None:
+        """`like`: another one of the segment, for a run beside this one: both use the same slots."""
         self._kept: list[Any] = []
         events = segment.events
         count, order = len(events), segment.order
@@ -75,7 +78,11 @@ class Stepper:
         self._reals("values", values.data)
         m.count = count
         m.condition_count = sum(event.condition is not None for event in events)
-        m.now, m.due = values.room(max(count, 1)), values.room(max(count, 1))
+        if like is None:
+            m.now, m.due = values.room(max(count, 1)), values.room(max(count, 1))
+            m.source = values.room(max(len(segment.delays), 1))
+        else:
+            m.now, m.due, m.source = like.moments.now, like.moments.due, like.moments.source
         for name in ("before", "at_left", "at_right", "fired", "ticks", "next", "came", "gap", "fell"):
             self._reals(name, np.zeros(count))
         for name in ("armed", "in_doubt", "shrunk", "quick", "arguments"):
@@ -90,16 +97,15 @@ class Stepper:
         self._x0 = np.zeros(max(order, 1))
         self._reals("x0", self._x0)
         self._rule(tableau, max(order, 1))
-        self._histories(segment, values)
+        self._histories(segment)
         self.address = ctypes.addressof(m)
 
-    def _histories(self, segment: Segment, values: Values) -> None:
+    def _histories(self, segment: Segment) -> None:
         m, count = self.moments, len(segment.delays)
         numbers = {s.slot + i: s.first + i for s in segment.states for i in range(s.count)}
         m.delay_count = count
         if not count:
             return
-        m.source = values.room(count)
         slots = [d.source.slot if isinstance(d.source, Load) else -1 for d in segment.delays]
         self._ints("state_of", np.array([numbers.get(slot, -1) for slot in slots], dtype=np.int64))
         self._ints("jump_at", np.zeros(count, dtype=np.int64))
@@ -213,7 +219,7 @@ class Stepper:
             memory.past.stepper = self
         m.goes_on = memory.joined
         m.memory = ctypes.addressof(memory)
-        m.span = _SPAN * memory.comint
+        m.span = SPAN * memory.comint
         for number, (period, start) in enumerate(times):
             self._period[number], self._start[number] = period, start
             if period > 0.0:
