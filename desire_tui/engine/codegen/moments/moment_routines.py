@@ -19,7 +19,17 @@ from desire_tui.engine.integration.taylor import isolation
 from desire_tui.engine.integration.taylor import memory as taylor_memory
 from desire_tui.engine.integration.taylor.memory import Taylor
 from desire_tui.engine.runtime import run_memory
-from desire_tui.engine.runtime.moments import along, blocks, histories, inside, locate, memory, side_by_side, stages, steps
+from desire_tui.engine.runtime.moments import (
+    along,
+    blocks,
+    histories,
+    inside,
+    locate,
+    memory,
+    side_by_side,
+    stages,
+    steps,
+)
 from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Moments, Place, SideBySide
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, ERRMAX, T
@@ -53,6 +63,7 @@ _PUBLIC = (
     "record_runs",
     "look_up_runs",
 )
+_STRUCTURES = (Moments, RunMemory, Taylor, SideBySide)
 _making = Lock()
 _made: list[MomentFunctions] = []
 
@@ -60,7 +71,6 @@ _made: list[MomentFunctions] = []
 class MomentFunctions(NamedTuple):
     """Addresses; `keep` owns the code."""
 
-    keep: Any
     begin: int
     step: int
     look_up: int
@@ -90,15 +100,13 @@ def _compiled() -> MachineCode:
     pointers = {name: of_function(Compute, "") for name in ("conditions", "blocks", "derivative", "sources")}
     kinds = {"limit": Limit, "look": Look, "depart": Depart, "place": Place}
     pointers |= {name: of_function(kind, "") for name, kind in kinds.items()}
-    outside = Outside({"Moments": Moments, "RunMemory": RunMemory, "Taylor": Taylor, "SideBySide": SideBySide}, pointers)
+    outside = Outside({kind.__name__: kind for kind in _STRUCTURES}, pointers)
     modules = [Module(_TEXTS[module], vars(module)) for module in _MODULES]
     text = write_program(modules, outside, "moments_", frozenset(_PUBLIC))
     return compile_and_keep(text, _name(), level=1, vectorize=False)
 
 
 def _name() -> str:
-    layout = repr(
-        (T, DT, ERRMAX, *((kind, sizeof(kind), kind._fields_) for kind in (Moments, RunMemory, Taylor, SideBySide)))
-    )
+    layout = repr((T, DT, ERRMAX, *((kind, sizeof(kind), kind._fields_) for kind in _STRUCTURES)))
     everything = b"".join(_TEXTS.values()) + _OTHERS + re.sub(" at 0x[0-9a-f]+", "", layout).encode()
     return f"moments-{blake2b(everything, digest_size=8).hexdigest()}"
