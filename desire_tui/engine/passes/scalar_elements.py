@@ -63,7 +63,12 @@ def scalar_elements(segment: Segment, most: int) -> WrittenOut:
 
 
 def element_of(value: Value, at: int) -> Value | None:
-    """Return element `at` (of a matrix: row by row) of an expression; None: it cannot be written out."""
+    """Return element `at` (of a matrix: row by row) of an expression; None: it cannot be written out.
+
+    A product of vectors is not: it has a line of its own.
+    """
+    if any(isinstance(node, Outer) for node in walk_values(value)):
+        return None
     try:
         made = _Element(_Writer(_ELEMENT_MOST), at).value(value)
     except TooManyError:
