@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.ir.shared_loops import PREFIX
 from desire_tui.engine.codegen.jit.cache import CodeCache
 from desire_tui.engine.codegen.jit.piece import Piece
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.cache import Compiled
 
 _ARITHMETIC = re.compile(r"= (fadd|fsub|fmul|fdiv|fneg) (?=double|<)")
+_BLOCK = f"define internal void @{PREFIX}"
 _FLAGS = r"= \1 contract reassoc nsz arcp "
 
 
@@ -50,9 +52,15 @@ class LooseCode(CodeCache):
 
 
 def loosened(piece: Piece) -> Piece:
-    """Return a piece whose own arithmetic may be rearranged; helpers that it shares stay as they are."""
+    """Return a piece whose own arithmetic may be rearranged, that of its blocks too.
+
+    Other helpers stay as they are.
+    """
     text = _ARITHMETIC.sub(_FLAGS, piece.text).replace(f"@{piece.name}(", f"@{_loose(piece.name)}(")
-    return Piece(_loose(piece.name), text, piece.needs, piece.temps)
+    needs = {
+        _ARITHMETIC.sub(_FLAGS, need) if need.startswith(_BLOCK) else need for need in piece.needs
+    }
+    return Piece(_loose(piece.name), text, frozenset(needs), piece.temps)
 
 
 def _loose(name: str) -> str:

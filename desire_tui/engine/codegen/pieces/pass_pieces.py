@@ -50,7 +50,7 @@ def _weight(action: Action | Rolled) -> int:
 def write(actions: Sequence[Action | Rolled]) -> Piece:
     """Write one piece: a function `void NAME(ptr values, ptr derivatives, ptr context)`."""
     text = IrText()
-    statements = ArrayStatements(text, MemoryCells(text), machine().width)
+    statements = ArrayStatements(text, MemoryCells(text), machine().width, _share)
     statements.write(actions)
     body = "\n".join(text.lines)
     start = ["entry:", *text.allocas]
@@ -63,6 +63,12 @@ def write(actions: Sequence[Action | Rolled]) -> Piece:
     name = "p" + blake2b(whole.encode(), digest_size=10).hexdigest()
     function = f"define void @{name}(ptr noalias %v, ptr noalias %dx, ptr noalias %c) #0 {{\n{whole}\n}}"
     return Piece(name, function, frozenset(text.declarations), statements.temps)
+
+
+def _share() -> int:
+    from desire_tui.engine.codegen.threads.pool import thread_pool  # few models are so large
+
+    return thread_pool().share
 
 
 def _random_offset() -> int:

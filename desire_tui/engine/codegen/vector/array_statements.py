@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never
 
+from desire_tui.engine.codegen.ir.shared_loops import LEAST
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
@@ -70,20 +71,31 @@ class ArrayStatements(ArrayOperands):
     # ------------------------------------------------------------------ elementwise loops
 
     def _fused(self, group: list[SetVec | DerivVec]) -> None:
-        """Write statements of one length as one loop."""
+        """Write statements of one length as one loop, a long one without draws as one that threads share."""
+        count = group[0].count
+        is_shared = count >= LEAST and not any(count_draws(action.value) for action in group)
+        block = self.block() if is_shared else self
         writers = [_Writer(self, action) for action in group]
-        shifts = [n.by for a in group for n in walk_values(a.value) if isinstance(n, ShiftedVec)]
-        below = max((-by for by in shifts if by < 0), default=0)
-        above = max((by for by in shifts if by > 0), default=0)
-
-        def body(strip: Strip) -> None:
-            for writer in writers:
-                writer.write(strip)
-
-        self.sweep(group[0].count, below, above, body)
+        if is_shared:
+            _sweep(block, group, [_Writer(block, action) for action in group])
+            self.share(block, count)
+        else:
+            _sweep(self, group, writers)
         for writer in writers:
             writer.finish()
         self.free_temps()
+
+
+def _sweep(statements: ArrayOperands, group: list[SetVec | DerivVec], writers: list[_Writer]) -> None:
+    shifts = [n.by for a in group for n in walk_values(a.value) if isinstance(n, ShiftedVec)]
+    below = max((-by for by in shifts if by < 0), default=0)
+    above = max((by for by in shifts if by > 0), default=0)
+
+    def body(strip: Strip) -> None:
+        for writer in writers:
+            writer.write(strip)
+
+    statements.sweep(group[0].count, below, above, body)
 
 
 class _Writer:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, assert_never
+from typing import TYPE_CHECKING, Self, assert_never
 
+from desire_tui.engine.codegen.ir.cells import MemoryCells
 from desire_tui.engine.codegen.ir.counted_loops import loop
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.random import advance
+from desire_tui.engine.codegen.ir.shared_loops import BLOCK, write_shared
+from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.scalar.statements import ScalarStatements
-from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import LoopSetup, invariants, lane_states
-from desire_tui.engine.codegen.vector.strips import Strip
+from desire_tui.engine.codegen.vector.matrix_products import write_product
+from desire_tui.engine.codegen.vector.strips import Strip, sweep_block
 from desire_tui.engine.lowered.expressions import ElementOperand, MatVec, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowered.walk import walk_values
 from desire_tui.engine.values import IROW
@@ -19,19 +22,21 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.codegen.ir.cells import Cells
-    from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.lowered.expressions import Value
 
 
 class ArrayOperands(ScalarStatements):
     """Scalar statements, and the tools of array statements.
 
-    `temps` says how many doubles of scratch the context's `temps` must hold.
+    `temps` says how many doubles of scratch the context's `temps` must hold. `share` gives the address of what
+    shares large loops among threads (`ir.shared_loops`).
     """
 
-    def __init__(self, text: IrText, cells: Cells, width: int) -> None:
+    def __init__(self, text: IrText, cells: Cells, width: int, share: Callable[[], int]) -> None:
         super().__init__(text, cells)
         self.wide = Lanes(text, width)
+        self._share = share
+        self.is_block = False
         self.temps = 0
         self._top = 0
 
@@ -87,15 +92,10 @@ class ArrayOperands(ScalarStatements):
 
     def product(self, node: MatVec) -> str:
         """Write a matrix product into scratch memory."""
-        name = "tmatvec" if node.transposed else "matvec"
-        self.text.declarations.add(
-            products.transposed_times_vector() if node.transposed else products.matrix_times_vector()
-        )
+        before = self.block()
         result = self.temp(node.cols if node.transposed else node.rows)
-        self.text.do(
-            f"call void @{name}(ptr {self.at(node.slot)}, ptr {self.at(node.x_slot)}, ptr {result}, "
-            f"i64 {node.rows}, i64 {node.cols})"
-        )
+        if not self.is_block:  # where it is one, the product stands there already
+            write_product(self, before, node, result)
         return result
 
     def _pattern_row(self, node: PatternRow) -> str:
@@ -112,8 +112,28 @@ class ArrayOperands(ScalarStatements):
 
     # ------------------------------------------------------------------ loops
 
+    def block(self) -> Self:
+        """Return what writes the statement at hand for a block of its elements (`ir.shared_loops`).
+
+        It finds scratch memory where this one has it: whatever takes some must do so in the same order.
+        """
+        text = IrText()
+        inner = type(self)(text, MemoryCells(text), self.wide.width, self._share)
+        inner.is_block, inner._top = True, self._top
+        return inner
+
+    def share(self, block: Self, count: int, size: int = BLOCK) -> None:
+        """Write the loop over the blocks of `count` elements."""
+        write_shared(self.text, self._share(), block.text, "%dx", str(count), size)
+
     def sweep(self, count: int, below: int, above: int, body: Callable[[Strip], None]) -> None:
-        """Write a loop over `count` elements; the first `below` and last `above` reach outside operands."""
+        """Write a loop over `count` elements, or a block of them.
+
+        The first `below` and last `above` reach outside operands.
+        """
+        if self.is_block:
+            sweep_block(self.wide, count, below, above, body)
+            return
         text, wide = self.text, self.wide
         low, high = min(below, count), max(count - above, 0)
         if low >= high:

@@ -94,11 +94,12 @@ def matrix_times_vector() -> str:
 
 @functools.cache
 def transposed_times_vector() -> str:
-    """Return `void @tmatvec(a, x, y, rows, cols)`: y = Aᵀ·x."""
+    """Return `void @tmatvec(a, x, y, rows, cols, first, end)`: these elements of y = Aᵀ·x."""
     text = IrText()
     wide, single = Lanes(text, _LANES), Lanes(text)
-    text.do(f"%rest = urem i64 %cols, {_LANES}")
-    text.do("%main = sub i64 %cols, %rest")
+    text.do("%all = sub i64 %end, %first")
+    text.do(f"%rest = urem i64 %all, {_LANES}")
+    text.do("%main = sub i64 %end, %rest")
 
     def columns(lanes: Lanes, k: str) -> None:
         total = text.alloca(lanes.kind)
@@ -112,10 +113,11 @@ def transposed_times_vector() -> str:
         loop(text, "0", "%rows", 1, one)
         put(lanes, "%y", k, text.op(f"load {lanes.kind}, ptr {total}"))
 
-    loop(text, "0", "%main", _LANES, lambda k: columns(wide, k))
-    loop(text, "%main", "%cols", 1, lambda k: columns(single, k))
+    loop(text, "%first", "%main", _LANES, lambda k: columns(wide, k))
+    loop(text, "%main", "%end", 1, lambda k: columns(single, k))
     text.do("ret void")
-    parameters = "ptr noalias readonly %a, ptr noalias readonly %x, ptr noalias %y, i64 %rows, i64 %cols"
+    arrays = "ptr noalias readonly %a, ptr noalias readonly %x, ptr noalias %y"
+    parameters = f"{arrays}, i64 %rows, i64 %cols, i64 %first, i64 %end"
     return _function("void", "tmatvec", parameters, text, "argmem: readwrite")
 
 

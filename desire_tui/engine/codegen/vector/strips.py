@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.ir.counted_loops import loop
+
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.engine.codegen.ir.lanes import Lanes
 
 
@@ -61,3 +65,34 @@ class Strip:
             one = at if lane == 0 else text.op(f"getelementptr double, ptr {at}, i64 {lane}")
             part = text.op(f"extractelement {lanes.kind} {value}, i64 {lane}")
             text.do(f"store double {part}, ptr {one}")
+
+
+def sweep_block(wide: Lanes, count: int, below: int, above: int, body: Callable[[Strip], None]) -> None:
+    """Write a loop over the elements %first … %end - 1 of `count`.
+
+    The first `below` and last `above` of all reach outside operands. Numbers do not depend on where a block
+    begins: each element has its lane of the same functions.
+    """
+    text, width = wide.text, wide.width
+
+    def least(a: str, b: str) -> str:
+        return text.op(f"select i1 {text.op(f'icmp slt i64 {a}, {b}')}, i64 {a}, i64 {b}")
+
+    def most(a: str, b: str) -> str:
+        return text.op(f"select i1 {text.op(f'icmp sgt i64 {a}, {b}')}, i64 {a}, i64 {b}")
+
+    low = min(below, count)
+    high = max(count - above, low)
+    first, end = "%first", "%end"
+    if below:
+        loop(text, first, least(end, str(low)), 1, lambda i: body(Strip(wide, i, 1, edge=True)))
+        first = most(first, str(low))
+    if above:
+        end = least(end, str(high))
+    length = text.op(f"sub i64 {end}, {first}")
+    whole = text.op(f"sub i64 {length}, {text.op(f'srem i64 {length}, {width}')}")
+    full = text.op(f"add i64 {first}, {whole}")
+    loop(text, first, full, width, lambda i: body(Strip(wide, i, width)))
+    loop(text, full, end, 1, lambda i: body(Strip(wide, i, 1)))
+    if above:
+        loop(text, most("%first", str(high)), "%end", 1, lambda i: body(Strip(wide, i, 1, edge=True)))

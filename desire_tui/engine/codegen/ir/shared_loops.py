@@ -1,0 +1,38 @@
+"""Loops that the threads of a pool share (`codegen.threads`), a block of elements at a time."""
+
+from __future__ import annotations
+
+from hashlib import blake2b
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from desire_tui.engine.codegen.ir.text import IrText
+
+LEAST = 1 << 16
+"""Elements from which a loop is shared: it takes some ten times as long as two threads need to meet."""
+BLOCK = 1 << 12
+"""Elements of a block. Sums of products are formed block by block: this is a part of their definition."""
+PREFIX = "shared."
+"""Of the functions' names."""
+
+
+def write_shared(text: IrText, share: int, body: IrText, derivatives: str, count: str, block: int) -> None:
+    """Write a loop over `count` elements, cut into blocks, for all threads.
+
+    `share`: address of `pool.share`. `body` is the text for a block: elements %first … %end - 1, with the
+    values, derivatives and context at %v, %dx and %c; no block may read what another one writes.
+    """
+    content = body.body()
+    name = PREFIX + blake2b(content.encode(), digest_size=10).hexdigest()
+    arguments = "ptr noalias %v, ptr noalias %dx, ptr noalias %c, i64 %first, i64 %end"
+    text.declarations |= body.declarations
+    text.declarations.add(f"define internal void @{name}({arguments}) #0 {{\n{content}\nret void\n}}")
+    text.do(
+        f"call void inttoptr (i64 {share} to ptr)(ptr @{name}, ptr %v, ptr {derivatives}, ptr %c, "
+        f"i64 {count}, i64 {block})"
+    )
+
+
+def blocks(count: int, block: int = BLOCK) -> int:
+    """Return the number of blocks."""
+    return -(-count // block)
