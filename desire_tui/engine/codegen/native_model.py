@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.codegen.ir.shared_loops import LEAST, blocks
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.lanes.replica_steps import replica_steps
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
@@ -91,7 +92,9 @@ class NativeModel:
         if switching is not None:
             self._watch(switching)
         contiguous = bool((np.diff(self._states) == 1).all())
-        self._loop = array_loop(rule, contiguous=contiguous, watched=self._watched)
+        self._loop = array_loop(
+            rule, contiguous=contiguous, watched=self._watched, share=self._share() if contiguous else 0
+        )
         self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
         self.improved = self._small = False
@@ -115,6 +118,17 @@ class NativeModel:
         for name, array in zip(("x0", "k1", "k2", "k3", "k4"), arrays, strict=False):
             setattr(context, name, array.ctypes.data)
         self._kept.append(flat)
+
+    def _share(self) -> int:
+        """Return what shares loops over the states among threads; 0: there are too few of them."""
+        if self._states.size < LEAST:
+            return 0
+        from desire_tui.engine.codegen.threads.pool import thread_pool  # few models are so large
+
+        partial = np.zeros(2 * blocks(self._states.size))
+        self.context.partial = partial.ctypes.data
+        self._kept.append(partial)
+        return thread_pool().share
 
     def _watch(self, switching: Switching) -> None:
         """Prepare what sees to the segment's switches."""

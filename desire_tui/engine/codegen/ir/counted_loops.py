@@ -31,13 +31,16 @@ def loop(text: IrText, first: str, end: str, step: int, body: Callable[[str], No
     text.begin(f"{stem}.done")
 
 
-def elementwise(text: IrText, count: str, width: int, body: Callable[[Lanes, str], None]) -> None:
-    """Write a loop over `count` elements, `width` at a time, and one by one for what is left."""
+def elementwise(
+    text: IrText, end: str, width: int, body: Callable[[Lanes, str], None], first: str = "0"
+) -> None:
+    """Write a loop over elements before `end`, `width` at a time, and one by one for what is left."""
+    count = end if first == "0" else text.op(f"sub i64 {end}, {first}")
     rest = text.op(f"urem i64 {count}, {width}")
-    main = text.op(f"sub i64 {count}, {rest}")
+    main = text.op(f"sub i64 {end}, {rest}")
     wide, single = Lanes(text, width), Lanes(text)
-    loop(text, "0", main, width, lambda i: body(wide, i))
-    loop(text, main, count, 1, lambda i: body(single, i))
+    loop(text, first, main, width, lambda i: body(wide, i))
+    loop(text, main, end, 1, lambda i: body(single, i))
 
 
 def fetch(lanes: Lanes, base: str, index: str) -> str:

@@ -59,6 +59,8 @@ class WorkMemory(ctypes.Structure):
         ("modes_frozen", ctypes.c_uint64),  # rows of modes (`lowered.switching.ModeSlots`)
         ("modes_first", ctypes.c_uint64),
         ("modes_second", ctypes.c_uint64),
+        ("factor", ctypes.c_double),  # what loops shared among threads multiply by (`loop.shared_storage`)
+        ("partial", ctypes.c_uint64),  # and what they find in each block: two numbers
         ("whole_step", ctypes.c_uint64),  # `lanes.replica_steps`: takes the place of stages; or 0
         ("box_low", ctypes.c_uint64),  # the box in which no mode switches (`integration.switching.clearance`)
         ("box_high", ctypes.c_uint64),
@@ -88,6 +90,10 @@ class Fields:
         """Read the field; `volatile`: another thread may have written it."""
         kind = self._offsets[name][1]
         return self._text.op(f"load {'volatile ' if volatile else ''}{kind}, ptr {self.at(name)}")
+
+    def name(self, variable: str, name: str) -> None:
+        """Read the field into a variable."""
+        self._text.do(f"{variable} = load {self._offsets[name][1]}, ptr {self.at(name)}")
 
     def store(self, name: str, value: str) -> None:
         """Write the field."""

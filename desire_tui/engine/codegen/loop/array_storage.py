@@ -18,11 +18,20 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.codegen.ir.text import IrText
+    from desire_tui.engine.codegen.ir.work_memory import Fields
     from desire_tui.engine.integration.tableaus import Row
 
 
+    Visit = Callable[[Lanes, str, str, str, str], None]
+
+
 class ArrayStorage:
-    """Implements `storage.Storage`. `contiguous`: the states stand side by side in the values."""
+    """Implements `storage.Storage`. `contiguous`: the states stand side by side in the values.
+
+    Loops run over the states from number `first` to before `end`.
+    """
+
+    first, end = "0", "%n"
 
     may_come_late = True
     """Known when it runs."""
@@ -40,12 +49,15 @@ class ArrayStorage:
 
     def enter(self) -> None:
         """Name the arrays."""
-        names = {"v": "values", "x": "x", "x0": "x0", "slots": "state_slots", "columns": "columns"}
-        names |= {f"k{stage}": f"k{stage}" for stage in range(1, max(self.stages, 1) + 1)}
-        for name, field in names.items():
-            self.text.do(f"%{name} = load ptr, ptr {self.context.at(field)}")
-        self.text.do(f"%n = load i64, ptr {self.context.at('states')}")
-        self.text.do(f"%column.count = load i64, ptr {self.context.at('column_count')}")
+        names = {"v": "values", "slots": "state_slots", "columns": "columns", "n": "states"}
+        for name, field in (names | {"column.count": "column_count"}).items():
+            self.context.name(f"%{name}", field)
+        self.name_vectors(self.context)
+
+    def name_vectors(self, context: Fields) -> None:
+        """Name the arrays with an element for each state."""
+        for name in ("x", "x0", *(f"k{stage}" for stage in range(1, max(self.stages, 1) + 1))):
+            context.name(f"%{name}", name)
 
     def leave(self) -> None:
         """Everything is in memory all the time."""
@@ -70,32 +82,35 @@ class ArrayStorage:
         """Call the pieces of a pass one after the other."""
         call_table(self.text, self.context.load(kind), f"%k{stage}")
 
-    def _states(self, body: Callable[[Lanes, str, str, str], None]) -> None:
-        """Write a loop over the states: `body(lanes, number, base, index)`, the state at base[index]."""
+    def _states(self, body: Visit, factor: str = "") -> None:
+        """Write a loop over the states: `body(lanes, number, base, index, factor)`, the state at base[index]."""
         if self.contiguous:
-            elementwise(self.text, "%n", self.vector, lambda lanes, i: body(lanes, i, "%x", i))
+            elementwise(
+                self.text, self.end, self.vector, lambda lanes, i: body(lanes, i, "%x", i, factor), self.first
+            )
             return
 
         def one(i: str) -> None:
             at = self.text.op(f"getelementptr i64, ptr %slots, i64 {i}")
-            body(self.lanes, i, "%v", self.text.op(f"load i64, ptr {at}"))
+            body(self.lanes, i, "%v", self.text.op(f"load i64, ptr {at}"), factor)
 
-        loop(self.text, "0", "%n", 1, one)
+        loop(self.text, self.first, self.end, 1, one)
 
     def save(self) -> None:
         """Keep the states at a step's start."""
-        self._states(lambda lanes, i, base, at: put(lanes, "%x0", i, fetch(lanes, base, at)))
+        self._states(lambda lanes, i, base, at, _: put(lanes, "%x0", i, fetch(lanes, base, at)))
 
-    def advance(self, row: Row, dt: str, *, last: bool) -> None:  # noqa: ARG002 - as registers
+    def advance(self, row: Row, dt: str, *, saves: bool = False) -> None:
         """States ← saved states + dt·Σ row·k."""
-        factor = scaled(self.lanes, row, dt)
 
-        def one(lanes: Lanes, i: str, base: str, at: str) -> None:
+        def one(lanes: Lanes, i: str, base: str, at: str, factor: str) -> None:
+            before = fetch(lanes, base, at) if saves else fetch(lanes, "%x0", i)
+            if saves:
+                put(lanes, "%x0", i, before)
             total = weighted(lanes, row, lambda stage: fetch(lanes, f"%k{stage}", i))
-            step = lanes.mul(lanes.splat(factor), total)
-            put(lanes, base, at, lanes.add(fetch(lanes, "%x0", i), step))
+            put(lanes, base, at, lanes.add(before, lanes.mul(lanes.splat(factor), total)))
 
-        self._states(one)
+        self._states(one, scaled(self.lanes, row, dt))
 
     def whole_step(self) -> str:
         """Read it: models of replicas have one as soon as it is compiled."""
@@ -103,7 +118,7 @@ class ArrayStorage:
 
     def restore(self) -> None:
         """States ← saved states."""
-        self._states(lambda lanes, i, base, at: put(lanes, base, at, fetch(lanes, "%x0", i)))
+        self._states(lambda lanes, i, base, at, _: put(lanes, base, at, fetch(lanes, "%x0", i)))
 
     def difference(self, row: Row, dt: str) -> tuple[str, str]:
         """Largest test difference and its state."""
@@ -129,19 +144,24 @@ class ArrayStorage:
             place = text.op(f"load i64, ptr {where}")
             text.do(f"store i64 {text.op(f'select i1 {larger}, i64 {i}, i64 {place}')}, ptr {where}")
 
-        loop(text, "0", "%n", 1, one)
+        loop(text, self.first, self.end, 1, one)
         return text.op(f"load double, ptr {most}"), text.op(f"load i64, ptr {where}")
 
     # ------------------------------------------------------------------ looking
 
     def wild(self) -> str:
-        """Whether some state is inf or nan: x - x is 0 for every finite x, and so is the sum."""
+        """Whether some state is inf or nan: the sum is no number then."""
+        total = self.wildness()
+        return self.lanes.compare("uno", total, total)
+
+    def wildness(self) -> str:
+        """Return the sum of x - x, 0 for every finite x."""
         wide, single = Lanes(self.text, self.vector), self.lanes
         sums = {lanes.width: self.text.alloca(lanes.kind) for lanes in (wide, single)}
         for lanes in (wide, single):
             self.text.do(f"store {lanes.kind} zeroinitializer, ptr {sums[lanes.width]}")
 
-        def one(lanes: Lanes, _i: str, base: str, at: str) -> None:
+        def one(lanes: Lanes, _i: str, base: str, at: str, _factor: str) -> None:
             x = fetch(lanes, base, at)
             before = self.text.op(f"load {lanes.kind}, ptr {sums[lanes.width]}")
             total = lanes.add(before, lanes.sub(x, x))
@@ -153,7 +173,7 @@ class ArrayStorage:
             parts = self.text.op(f"load {wide.kind}, ptr {sums[self.vector]}")
             for lane in range(self.vector):
                 total = single.add(total, self.text.op(f"extractelement {wide.kind} {parts}, i64 {lane}"))
-        return single.compare("uno", total, total)
+        return total
 
     def width(self) -> str:
         """Doubles in a row."""
@@ -196,7 +216,8 @@ class ArrayStorage:
     def keep_change(self) -> None:
         """k2 ← k1."""
         elementwise(
-            self.text, "%n", self.vector, lambda lanes, i: put(lanes, "%k2", i, fetch(lanes, "%k1", i))
+            self.text, self.end, self.vector, lambda lanes, i: put(lanes, "%k2", i, fetch(lanes, "%k1", i)),
+            self.first,
         )
 
     def switched(self, kind: str) -> str:

@@ -13,6 +13,7 @@ from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
 from desire_tui.engine.codegen.loop.looks import no_looks
 from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
 from desire_tui.engine.codegen.loop.run_loop import Driver
+from desire_tui.engine.codegen.loop.shared_storage import SharedStorage
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
 from desire_tui.engine.integration.tableaus import TABLEAUS
 
@@ -22,12 +23,20 @@ if TYPE_CHECKING:
 
 
 @functools.cache
-def array_loop(rule: int, *, contiguous: bool, watched: Watched = NOTHING) -> Piece:
-    """Write the loop over arrays: the same for all models of a rule that watch the same."""
+def array_loop(rule: int, *, contiguous: bool, watched: Watched = NOTHING, share: int = 0) -> Piece:
+    """Write the loop over arrays: the same for all models of a rule that watch the same.
+
+    `share`: address of `pool.share` (`codegen.threads`), for many contiguous states.
+    """
     text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
-    storage = ArrayStorage(text, stages, machine().width, contiguous=contiguous)
+    width = machine().width
+    storage = (
+        SharedStorage(text, stages, width, share)
+        if share
+        else ArrayStorage(text, stages, width, contiguous=contiguous)
+    )
     Driver(text, storage, tableau, watched=watched).write()
     return named(text)
 

@@ -35,12 +35,11 @@ class FixedStep:
         whole = storage.whole_step()
         if whole:
             self._whole(whole, dt)
-        storage.save()
         for stage in range(1, tableau.stages):
-            storage.advance(tableau.a[stage], dt, last=False)
+            storage.advance(tableau.a[stage], dt, saves=stage == 1)
             storage.store(T, driver.counted_time(float(tableau.c[stage]), dt))
             driver.run_pass("derivative", stage + 1)
-        storage.advance(tableau.b, dt, last=True)
+        storage.advance(tableau.b, dt, saves=tableau.stages == 1)
         if whole:
             driver.text.jump("step.taken")
             driver.text.begin("step.taken")

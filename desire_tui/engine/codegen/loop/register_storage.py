@@ -100,8 +100,10 @@ class RegisterStorage:
         for number, slot in enumerate(self.states):
             self.text.do(f"store double {self.cells.load(slot)}, ptr %x0.{number}")
 
-    def advance(self, row: Row, dt: str, *, last: bool) -> None:  # noqa: ARG002 - arrays may treat the last one differently
+    def advance(self, row: Row, dt: str, *, saves: bool = False) -> None:
         """States ← saved states + dt·Σ row·k."""
+        if saves:
+            self.save()
         factor = scaled(self.lanes, row, dt)
         for number, slot in enumerate(self.states):
             total = weighted(self.lanes, row, lambda stage, n=number: self._k(stage, n))  # type: ignore[misc]  # n=: bound now

@@ -36,8 +36,8 @@ class Storage(Protocol):
     def save(self) -> None:
         """Keep the states at a step's start."""
 
-    def advance(self, row: Row, dt: str, *, last: bool) -> None:
-        """States ← saved states + dt·Σ row·k."""
+    def advance(self, row: Row, dt: str, *, saves: bool = False) -> None:
+        """States ← saved states + dt·Σ row·k; `saves`: it saves them itself, in the same loop."""
 
     def whole_step(self) -> str:
         """Return the address of what takes a fixed step as a whole, perhaps null; "": there is no such thing.

@@ -81,7 +81,7 @@ class VariableStep:
         lanes, driver, tableau = self.lanes, self.driver, self.tableau
         dt = driver.get("h")
         for stage in range(1, tableau.stages):
-            self.storage.advance(tableau.a[stage], dt, last=False)
+            self.storage.advance(tableau.a[stage], dt)
             c = float(tableau.c[stage])
             part = dt if c == 1.0 else lanes.mul(lanes.const(c), dt)
             self.storage.store(T, self._stage_time(c, lanes.add(driver.get("t_here"), part)))
@@ -135,7 +135,7 @@ class VariableStep:
         storage.store(T, here)
         driver.leave(Ended.STALLED, Phase.ENDED)
         text.begin("forward")
-        storage.advance(self.tableau.b, dt, last=True)
+        storage.advance(self.tableau.b, dt)
         driver.count("steps")
         storage.store(T, lanes.choose(lands, self._landing(), there))
         self._note_extremes(dt)
