@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from desire_tui.commands import BY_ID, COMMANDS, binding_ids
 from desire_tui.common.paths import config_file
 from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.thread_count import THREADS_MOST
 from desire_tui.engine.user_folders import ignored_variables
 
 if TYPE_CHECKING:
@@ -33,11 +34,18 @@ class Config:
     """How often unsaved work is written to the recovery file, 1 … 600."""
     plain_characters: bool = False
     """Whether blocks are drawn for braille, straight corners for round ones, as on the Linux console."""
+    threads: int = 0
+    """Threads for one run of a large model, in every command (`engine.thread_count`); 0: all cores."""
     keys: dict[str, str] = field(default_factory=dict)
     """Action → keys."""
 
 
-LIMITS = {"frames_per_second": (1, 60), "completion_after": (0, 20), "checkpoint_seconds": (1, 600)}
+LIMITS = {
+    "frames_per_second": (1, 60),
+    "completion_after": (0, 20),
+    "checkpoint_seconds": (1, 600),
+    "threads": (0, THREADS_MOST),
+}
 ABOUT = {
     "theme": "dark, light, contrast, publication, or a theme of Textual's",
     "frames_per_second": "how often the graph is drawn during a run",
@@ -45,6 +53,7 @@ ABOUT = {
     "restore_session": "open the tabs of the last session when no file is named",
     "checkpoint_seconds": "how often unsaved work goes to the recovery file",
     "plain_characters": "blocks for braille, for fonts that lack it; the Linux console gets them anyway",
+    "threads": "threads for one run of a model with more than 65,536 elements; 0: all cores",
 }
 
 

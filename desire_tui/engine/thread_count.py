@@ -1,6 +1,6 @@
 """How many threads large models run on: all cores, or the `threads` of the user's configuration."""
 
-# ruff: noqa: PTH118 - pathlib would add 5 ms to every start
+# ruff: noqa: PTH118, PTH123 - pathlib would add 5 ms to every start
 
 from __future__ import annotations
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from threading import Event
 from time import perf_counter
@@ -22,11 +21,6 @@ SECONDS = 0.25
 """How long a chunk should take: short enough to stop at, long enough to cost nothing."""
 NUMBERS_MOST = 1 << 22
 """Numbers that chunks under way may keep."""
-
-
-def cores() -> int:
-    """Return how many processor cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def chunks_by_threads(plan: Plan, missing: Iterable[tuple[int, int]], workers: int) -> Iterator[Chunk]:

@@ -6,9 +6,10 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.thread_count import cores
 from desire_tui.studies.chunk import prepare
 from desire_tui.studies.keep import kept
-from desire_tui.studies.local_threads import chunks_by_threads, cores
+from desire_tui.studies.local_threads import chunks_by_threads
 from desire_tui.studies.plan import Plan
 from desire_tui.studies.stores import MemoryStore, ZarrStore
 

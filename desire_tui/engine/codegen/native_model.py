@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.codegen.ir.shared_loops import LEAST, blocks
+from desire_tui.engine.codegen.ir.shared_loops import blocks, is_large
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.lanes.replica_steps import replica_steps
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
@@ -121,7 +121,7 @@ class NativeModel:
 
     def _share(self) -> int:
         """Return what shares loops over the states among threads; 0: there are too few of them."""
-        if self._states.size < LEAST:
+        if not is_large(self._states.size):
             return 0
         from desire_tui.engine.codegen.threads.pool import thread_pool  # few models are so large
 

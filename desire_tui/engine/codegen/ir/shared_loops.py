@@ -16,11 +16,13 @@ PREFIX = "shared."
 """Of the functions' names."""
 
 
-def write_shared(text: IrText, share: int, body: IrText, derivatives: str, count: str, block: int) -> None:
+def write_shared(
+    text: IrText, share: int, body: IrText, derivatives: str, count: str, block: int, *, values: str = "%v"
+) -> None:
     """Write a loop over `count` elements, cut into blocks, for all threads.
 
-    `share`: address of `pool.share`. `body` is the text for a block: elements %first … %end - 1, with the
-    values, derivatives and context at %v, %dx and %c; no block may read what another one writes.
+    `share`: address of `pool.share`. `body` is the text for a block: elements %first … %end - 1, with
+    `values`, `derivatives` and the context at %v, %dx and %c; no block may read what another one writes.
     """
     content = body.body()
     name = PREFIX + blake2b(content.encode(), digest_size=10).hexdigest()
@@ -28,9 +30,14 @@ def write_shared(text: IrText, share: int, body: IrText, derivatives: str, count
     text.declarations |= body.declarations
     text.declarations.add(f"define internal void @{name}({arguments}) #0 {{\n{content}\nret void\n}}")
     text.do(
-        f"call void inttoptr (i64 {share} to ptr)(ptr @{name}, ptr %v, ptr {derivatives}, ptr %c, "
+        f"call void inttoptr (i64 {share} to ptr)(ptr @{name}, ptr {values}, ptr {derivatives}, ptr %c, "
         f"i64 {count}, i64 {block})"
     )
+
+
+def is_large(elements: int) -> bool:
+    """Whether a loop over so many elements is shared."""
+    return elements >= LEAST
 
 
 def blocks(count: int, block: int = BLOCK) -> int:

@@ -57,9 +57,7 @@ def loosened(piece: Piece) -> Piece:
     Other helpers stay as they are.
     """
     text = _ARITHMETIC.sub(_FLAGS, piece.text).replace(f"@{piece.name}(", f"@{_loose(piece.name)}(")
-    needs = {
-        _ARITHMETIC.sub(_FLAGS, need) if need.startswith(_BLOCK) else need for need in piece.needs
-    }
+    needs = {_ARITHMETIC.sub(_FLAGS, need) if need.startswith(_BLOCK) else need for need in piece.needs}
     return Piece(_loose(piece.name), text, frozenset(needs), piece.temps)
 
 

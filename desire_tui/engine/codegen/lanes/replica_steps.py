@@ -10,6 +10,7 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.lanes import Lanes
+from desire_tui.engine.codegen.ir.shared_loops import BLOCK, is_large, write_shared
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
@@ -31,9 +32,12 @@ def replica_steps(model: ReplicatedModel, tableau: Tableau) -> Piece:
     """Return `void NAME(ptr values, ptr first, double t_base, double k, double dt)`: step k from t_base.
 
     `first`: derivatives at the step's start, where they were computed before code behind OUT changed what
-    they depend on; null: they are computed here.
+    they depend on; null: they are computed here. Threads share the replicas where there are many.
     """
     return _ReplicaSteps(model, tableau).piece()
+
+
+_NUMBERS = ("%t_base", "%k", "%dt")
 
 
 class _ReplicaSteps:
@@ -50,12 +54,36 @@ class _ReplicaSteps:
 
     def piece(self) -> Piece:
         """Write everything."""
+        replicas, width = self.model.replicas, self.runs.width
+        work = replicas * len(self.model.statements) * self.tableau.stages
+        if not is_large(work):
+            self._write("0", str(replicas))
+            self.text.do("ret void")
+            return _piece(self.text)
+        for place, name in enumerate(_NUMBERS):
+            at = self.text.op(f"getelementptr double, ptr %c, i64 {place}")
+            self.text.do(f"{name} = load double, ptr {at}")
+        self._write("%first", "%end")
+        from desire_tui.engine.codegen.threads.pool import thread_pool  # few models are so large
+
+        outer = IrText("o")
+        outer.alloca(f"[{len(_NUMBERS)} x double]", "%c")
+        for place, name in enumerate(_NUMBERS):
+            at = outer.op(f"getelementptr double, ptr %c, i64 {place}")
+            outer.do(f"store double {name}, ptr {at}")
+        block = max(width, BLOCK * replicas // work // width * width)
+        write_shared(outer, thread_pool().share, self.text, "%dx", str(replicas), block)
+        outer.do("ret void")
+        return _piece(outer)
+
+    def _write(self, first: str, end: str) -> None:
+        """Write the step of the replicas `first` … `end` - 1; `first` is a multiple of the width."""
         text, width = self.text, self.runs.width
         whole = self.model.replicas // width * width
         text.alloca("i64", "%i")
         for slot in self.scalars:  # before the loop: what is written there may not change them
             text.do(f"%g{slot} = load double, ptr {text.op(f'getelementptr double, ptr %v, i64 {slot}')}")
-        text.do("store i64 0, ptr %i")
+        text.do(f"store i64 {first}, ptr %i")
         text.jump("next")
         text.begin("next")
         index = text.op("load i64, ptr %i")
@@ -65,14 +93,8 @@ class _ReplicaSteps:
         self._move(self.model.states, index, store=True)
         following = text.op(f"add i64 {index}, {width}")
         text.do(f"store i64 {following}, ptr %i")
-        text.branch(text.op(f"icmp slt i64 {following}, {self.model.replicas}"), "next", "done")
+        text.branch(text.op(f"icmp slt i64 {following}, {end}"), "next", "done")
         text.begin("done")
-        text.do("ret void")
-        body = text.body()
-        declared = frozenset(text.declarations)
-        name = "b" + blake2b("\n".join((body, *sorted(declared))).encode(), digest_size=10).hexdigest()
-        arguments = "ptr noalias %v, ptr noalias %first, double %t_base, double %k, double %dt"
-        return Piece(name, f"define void @{name}({arguments}) #0 {{\n{body}\n}}", declared)
 
     def _move(self, vectors: tuple[int, ...], index: str, *, store: bool) -> None:
         """Read a block of vectors, or write it."""
@@ -133,12 +155,12 @@ class _ReplicaSteps:
 
     def _first_derivatives(self, index: str) -> None:
         text, numbers = self.text, self.model.numbers
-        text.branch(text.op("icmp eq ptr %first, null"), "compute", "take")
+        text.branch(text.op("icmp eq ptr %dx, null"), "compute", "take")
         text.begin("compute")
         self._derivatives(1)
         text.jump("computed")
         text.begin("take")
-        places = [self._place("%first", index, number) for number in numbers]
+        places = [self._place("%dx", index, number) for number in numbers]
 
         def take(mask: str | None) -> None:
             for number, place in enumerate(places):
@@ -170,3 +192,11 @@ class _ReplicaSteps:
                 self.cells.store(statement.slot, value)
             else:
                 self.cells.keep(f"k{stage}", statement.state, value)
+
+
+def _piece(text: IrText) -> Piece:
+    body, declared = text.body(), frozenset(text.declarations)
+    name = "b" + blake2b("\n".join((body, *sorted(declared))).encode(), digest_size=10).hexdigest()
+    numbers = ", ".join(f"double {number}" for number in _NUMBERS)
+    arguments = f"ptr noalias %v, ptr noalias %dx, {numbers}"
+    return Piece(name, f"define void @{name}({arguments}) #0 {{\n{body}\n}}", declared)

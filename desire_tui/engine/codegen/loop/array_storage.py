@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.work_memory import Fields
     from desire_tui.engine.integration.tableaus import Row
 
-
     Visit = Callable[[Lanes, str, str, str, str], None]
 
 
@@ -83,7 +82,7 @@ class ArrayStorage:
         call_table(self.text, self.context.load(kind), f"%k{stage}")
 
     def _states(self, body: Visit, factor: str = "") -> None:
-        """Write a loop over the states: `body(lanes, number, base, index, factor)`, the state at base[index]."""
+        """Write a loop over the states: `body(lanes, number, base, index, factor)`, x at base[index]."""
         if self.contiguous:
             elementwise(
                 self.text, self.end, self.vector, lambda lanes, i: body(lanes, i, "%x", i, factor), self.first
@@ -216,7 +215,10 @@ class ArrayStorage:
     def keep_change(self) -> None:
         """k2 ← k1."""
         elementwise(
-            self.text, self.end, self.vector, lambda lanes, i: put(lanes, "%k2", i, fetch(lanes, "%k1", i)),
+            self.text,
+            self.end,
+            self.vector,
+            lambda lanes, i: put(lanes, "%k2", i, fetch(lanes, "%k1", i)),
             self.first,
         )
 

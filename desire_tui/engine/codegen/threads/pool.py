@@ -63,9 +63,7 @@ class ThreadPool:
         _ONE_NUMBER(self._code.address("pool.open"))(members)
         work = _ONE_NUMBER(self._code.address("pool.work"))
         for member in range(1, members):
-            thread = threading.Thread(
-                target=work, args=(member,), name=f"desire loop {member}", daemon=True
-            )
+            thread = threading.Thread(target=work, args=(member,), name=f"desire loop {member}", daemon=True)
             thread.start()
             self._threads.append(thread)
 

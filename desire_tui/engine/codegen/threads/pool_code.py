@@ -1,11 +1,11 @@
 """The pool's native code: a loop over blocks, done by whoever is there; threads that sleep between loops.
 
-Blocks are cut at fixed places, so that nobody can tell from the results who did which. Each member of the pool
-has a ticket, the blocks of its own part that nobody has taken yet, and takes from the others' when its own part is
-done: a thread that the system has put aside holds up one block at most. A ticket is one number of 64 bits,
-taken by compare-and-swap (Herlihy & Shavit, The Art of Multiprocessor Programming, 2008, 5.8 and 16.5): the
-loop's number above bit 32, then 16 bits each for the part's end and its next block. What else belongs to a loop is
-written before its tickets and stays until the last block is done.
+Blocks are cut at fixed places, so that nobody can tell from the results who did which. Each member of the
+pool has a ticket, the blocks of its own part that nobody has taken yet, and takes from the others' when its
+own part is done: a thread that the system has put aside holds up one block at most. A ticket is one number of
+64 bits, taken by compare-and-swap (Herlihy & Shavit, The Art of Multiprocessor Programming, 2008, 5.8): the
+loop's number above bit 32, then 16 bits each for the part's end and its next block. What else belongs to a
+loop is written before its tickets and stays until the last block is done.
 
 Threads look for work for some 50 µs before they go to sleep on a condition variable of POSIX; a loop that
 begins while they sleep wakes them and starts without them.
@@ -31,12 +31,12 @@ def pool_text(triple: str) -> tuple[list[str], list[str]]:
     """Return the pool's functions and what must be declared.
 
     `void pool.open(i64 members)`: before the threads start, and after a fork; the caller is a member.
-    `void pool.share(body, values, derivatives, context, i64 count, i64 block)`: `body(values, derivatives, context,
-    i64 first, i64 end)` for all blocks of `block` elements, the last one perhaps shorter. Where another thread
-    of the process has the pool, or there are too many blocks, the caller does all of them.
+    `void pool.share(body, values, derivatives, context, i64 count, i64 block)`: `body(values, derivatives,
+    context, i64 first, i64 end)` for all blocks of `block` elements, the last one perhaps shorter. Where
+    another thread of the process has the pool, or there are too many blocks, the caller does all of them.
     `void pool.work(i64 member)`: what a thread runs until `void pool.close()`.
     """
-    declared, pause = _PAUSES.get(triple.split("-")[0], ("", ""))
+    declared, pause = _PAUSES.get(triple.split("-", maxsplit=1)[0], ("", ""))
     functions = [_OPEN, _SHARE, _TAKE, _WORK, _CLOSE]
     filled = [function.replace("PAUSE", pause).replace("LOOKS", str(_LOOKS)) for function in functions]
     tickets = f"@pool.tickets = internal global [{8 * MEMBERS_MOST} x i64] zeroinitializer, align 64"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never
 
-from desire_tui.engine.codegen.ir.shared_loops import LEAST
+from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
@@ -73,7 +73,7 @@ class ArrayStatements(ArrayOperands):
     def _fused(self, group: list[SetVec | DerivVec]) -> None:
         """Write statements of one length as one loop, a long one without draws as one that threads share."""
         count = group[0].count
-        is_shared = count >= LEAST and not any(count_draws(action.value) for action in group)
+        is_shared = is_large(count) and not any(count_draws(action.value) for action in group)
         block = self.block() if is_shared else self
         writers = [_Writer(self, action) for action in group]
         if is_shared:

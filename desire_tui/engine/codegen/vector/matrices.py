@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.counted_loops import loop
+from desire_tui.engine.codegen.ir.shared_loops import BLOCK, blocks, is_large
 from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions
 from desire_tui.engine.codegen.vector.fusion import needs_copy, value_footprint
@@ -17,27 +18,49 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.codegen.vector.operands import ArrayOperands
-    from desire_tui.engine.lowered.statements import SetDot, SetMat
+    from desire_tui.engine.lowered.statements import DotTerm, SetDot, SetMat
 
 
 def write_matrix(statements: ArrayOperands, action: SetMat) -> None:
-    """Write `MATRIX W = …` or `DELTA W = …`."""
+    """Write `MATRIX W = …` or `DELTA W = …`; threads share a large one without draws, by rows for u & v."""
     count = action.rows * action.cols
-    values = (action.value, action.lower, action.upper)
-    prepared = statements.prepare(count, count_draws(*values), *values)
-    footprint = value_footprint(action.value)
-    footprint.writes.add((action.slot, action.slot + count))
-    copies = needs_copy(footprint)
-    own = statements.at(action.slot)
-    target = statements.temp(count) if copies else own
-    mask = None if action.mask_slot is None else statements.at(action.mask_slot)
+    is_shared = is_large(count) and not count_draws(action.value, action.lower, action.upper)
+    by_rows = any(isinstance(n, Outer) for n in walk_values(action.value))
+    block = statements.block() if is_shared else statements
+    write = _write_rows if by_rows else _write_elements
+    writer = _Writer(statements, action)
+    if is_shared:
+        write(block, _Writer(block, action))
+        size = max(1, BLOCK // action.cols) if by_rows else BLOCK
+        statements.share(block, action.rows if by_rows else count, size)
+    else:
+        write(statements, writer)
+    writer.finish()
 
-    def body(strip: Strip) -> None:
-        expressions = StripExpressions(strip, statements.cells, prepared)
-        lanes = strip.lanes
+
+class _Writer:
+    """Writes a matrix statement: before the loop, for a strip, and behind the loop."""
+
+    def __init__(self, statements: ArrayOperands, action: SetMat) -> None:
+        self._statements = statements
+        self.action = action
+        self.count = action.rows * action.cols
+        values = (action.value, action.lower, action.upper)
+        self._prepared = statements.prepare(self.count, count_draws(*values), *values)
+        footprint = value_footprint(action.value)
+        footprint.writes.add((action.slot, action.slot + self.count))
+        self._copies = needs_copy(footprint)
+        self._own = statements.at(action.slot)
+        self._target = statements.temp(self.count) if self._copies else self._own
+        self._mask = None if action.mask_slot is None else statements.at(action.mask_slot)
+
+    def write(self, strip: Strip) -> None:
+        """Write the statement for a strip."""
+        action, lanes = self.action, strip.lanes
+        expressions = StripExpressions(strip, self._statements.cells, self._prepared)
         value = expressions.value(action.value)
         if action.mode == "add":
-            value = lanes.add(strip.fetch(own), value)
+            value = lanes.add(strip.fetch(self._own), value)
         if action.lower is not None:
             least = expressions.value(action.lower)
             value = lanes.choose(lanes.compare("olt", value, least), least, value)
@@ -45,19 +68,26 @@ def write_matrix(statements: ArrayOperands, action: SetMat) -> None:
             most = expressions.value(action.upper)
             value = lanes.choose(lanes.compare("ogt", value, most), most, value)
         expressions.finish()
-        if mask is not None:
-            free = lanes.compare("une", strip.fetch(mask), lanes.const(0.0))
-            value = lanes.choose(free, value, strip.fetch(own))
-        strip.put(target, value)
+        if self._mask is not None:
+            free = lanes.compare("une", strip.fetch(self._mask), lanes.const(0.0))
+            value = lanes.choose(free, value, strip.fetch(self._own))
+        strip.put(self._target, value)
 
-    if any(isinstance(n, Outer) for n in walk_values(action.value)):
-        cols = action.cols
-        loop(statements.text, "0", str(action.rows), 1, lambda row: _row_strips(statements, cols, row, body))
-    else:
-        statements.sweep(count, 0, 0, body)
-    if copies:
-        statements.move(target, own, count)
-    statements.cells.forget(action.slot, count)
+    def finish(self) -> None:
+        """Move a result that could not be written in place."""
+        if self._copies:
+            self._statements.move(self._target, self._own, self.count)
+        self._statements.cells.forget(self.action.slot, self.count)
+
+
+def _write_elements(statements: ArrayOperands, writer: _Writer) -> None:
+    statements.sweep(writer.count, 0, 0, writer.write)
+
+
+def _write_rows(statements: ArrayOperands, writer: _Writer) -> None:
+    first, end = ("%first", "%end") if statements.is_block else ("0", str(writer.action.rows))
+    cols = writer.action.cols
+    loop(statements.text, first, end, 1, lambda row: _row_strips(statements, cols, row, writer.write))
 
 
 def _row_strips(statements: ArrayOperands, cols: int, row: str, body: Callable[[Strip], None]) -> None:
@@ -77,19 +107,43 @@ def _row_strips(statements: ArrayOperands, cols: int, row: str, body: Callable[[
 
 def write_dot(statements: ArrayOperands, action: SetDot) -> None:
     """Write `DOT s = …` or `AVG s = …`."""
-    text, lanes = statements.text, statements.lanes
+    lanes = statements.lanes
     total = lanes.const(0.0)
     for term in action.terms:
-        count = term.left.count
-        left = statements.at(term.left.slot)
-        if term.right is None:
-            text.declarations.add(products.total())
-            value = text.op(f"call double @total(ptr {left}, i64 {count})")
-        else:
-            text.declarations.add(products.dot())
-            right = statements.base(term.right)
-            value = text.op(f"call double @dot(ptr {left}, ptr {right}, i64 {count})")
+        value = _sum(statements, term)
         total = lanes.add(total, value if term.sign == 1.0 else lanes.mul(lanes.const(term.sign), value))
     if action.average and action.terms:
         total = lanes.div(total, lanes.const(float(action.terms[0].left.count)))
     statements.cells.store(action.slot, total)
+
+
+def _sum(statements: ArrayOperands, term: DotTerm) -> str:
+    """Write a sum; a long one is that of its blocks' sums, whoever has formed them."""
+    count = term.left.count
+    block = statements.block()
+    operands = _operands(statements, term)
+    if not is_large(count):
+        return _sum_of_products(statements, operands, str(count))
+    partial = statements.temp(blocks(count))
+    text = block.text
+    places = [text.op(f"getelementptr double, ptr {at}, i64 %first") for at in _operands(block, term)]
+    to = text.op(
+        f"getelementptr double, ptr {block.temp(blocks(count))}, i64 {text.op(f'sdiv i64 %first, {BLOCK}')}"
+    )
+    value = _sum_of_products(block, places, text.op("sub i64 %end, %first"))
+    text.do(f"store double {value}, ptr {to}")
+    statements.share(block, count)
+    return _sum_of_products(statements, [partial], str(blocks(count)))
+
+
+def _operands(statements: ArrayOperands, term: DotTerm) -> list[str]:
+    left = statements.at(term.left.slot)
+    return [left] if term.right is None else [left, statements.base(term.right)]
+
+
+def _sum_of_products(statements: ArrayOperands, operands: list[str], count: str) -> str:
+    text = statements.text
+    text.declarations.add(products.total() if len(operands) == 1 else products.dot())
+    name = "total" if len(operands) == 1 else "dot"
+    arrays = ", ".join(f"ptr {at}" for at in operands)
+    return text.op(f"call double @{name}({arrays}, i64 {count})")

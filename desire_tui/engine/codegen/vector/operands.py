@@ -8,11 +8,11 @@ from desire_tui.engine.codegen.ir.cells import MemoryCells
 from desire_tui.engine.codegen.ir.counted_loops import loop
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.random import advance
-from desire_tui.engine.codegen.ir.shared_loops import BLOCK, write_shared
+from desire_tui.engine.codegen.ir.shared_loops import BLOCK, is_large, write_shared
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.scalar.statements import ScalarStatements
+from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import LoopSetup, invariants, lane_states
-from desire_tui.engine.codegen.vector.matrix_products import write_product
 from desire_tui.engine.codegen.vector.strips import Strip, sweep_block
 from desire_tui.engine.lowered.expressions import ElementOperand, MatVec, Outer, PatternRow, ShiftedVec, Vec
 from desire_tui.engine.lowered.walk import walk_values
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 class ArrayOperands(ScalarStatements):
     """Scalar statements, and the tools of array statements.
 
-    `temps` says how many doubles of scratch the context's `temps` must hold. `share` gives the address of what
-    shares large loops among threads (`ir.shared_loops`).
+    `temps` says how many doubles of scratch the context's `temps` must hold. `share` gives the address of
+    what shares large loops among threads (`ir.shared_loops`).
     """
 
     def __init__(self, text: IrText, cells: Cells, width: int, share: Callable[[], int]) -> None:
@@ -91,12 +91,25 @@ class ArrayOperands(ScalarStatements):
                 assert_never(node)
 
     def product(self, node: MatVec) -> str:
-        """Write a matrix product into scratch memory."""
-        before = self.block()
-        result = self.temp(node.cols if node.transposed else node.rows)
-        if not self.is_block:  # where it is one, the product stands there already
-            write_product(self, before, node, result)
+        """Write a matrix product into scratch memory, a large one shared by elements of the result.
+
+        In a block of the statement that it belongs to, it stands there already.
+        """
+        count, inner = (node.cols, node.rows) if node.transposed else (node.rows, node.cols)
+        block = self.block()
+        result = self.temp(count)
+        if self.is_block:
+            return result
+        if not is_large(count * inner):
+            self._part_of_product(node, result, "0", str(count))
+        else:
+            block._part_of_product(node, block.temp(count), "%first", "%end")  # noqa: SLF001 - of its own kind
+            self.share(block, count, max(1, BLOCK // inner // products.ROWS) * products.ROWS)
         return result
+
+    def _part_of_product(self, node: MatVec, result: str, first: str, end: str) -> None:
+        a, x = self.at(node.slot), self.at(node.x_slot)
+        products.write_product(self.text, node, a, x, result, first, end)
 
     def _pattern_row(self, node: PatternRow) -> str:
         """Return the address of row (trnc(iRow - 1) mod rows); beyond all reason, the first one."""
@@ -119,7 +132,7 @@ class ArrayOperands(ScalarStatements):
         """
         text = IrText()
         inner = type(self)(text, MemoryCells(text), self.wide.width, self._share)
-        inner.is_block, inner._top = True, self._top
+        inner.is_block, inner._top = True, self._top  # noqa: SLF001 - of its own kind
         return inner
 
     def share(self, block: Self, count: int, size: int = BLOCK) -> None:
@@ -154,6 +167,15 @@ class ArrayOperands(ScalarStatements):
 
     def move(self, source: str, target: str, count: int) -> None:
         """Copy an array."""
-        self.text.declarations.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
-        arguments = f"ptr {target}, ptr {source}, i64 {8 * count}, i1 false"
-        self.text.do(f"call void @llvm.memcpy.p0.p0.i64({arguments})")
+        if not is_large(count):
+            _copy(self.text, source, target, str(8 * count))
+            return
+        text = IrText()
+        here, there = (text.op(f"getelementptr double, ptr {base}, i64 %first") for base in ("%v", "%dx"))
+        _copy(text, here, there, text.op(f"shl i64 {text.op('sub i64 %end, %first')}, 3"))
+        write_shared(self.text, self._share(), text, target, str(count), BLOCK, values=source)
+
+
+def _copy(text: IrText, source: str, target: str, size: str) -> None:
+    text.declarations.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
+    text.do(f"call void @llvm.memcpy.p0.p0.i64(ptr {target}, ptr {source}, i64 {size}, i1 false)")

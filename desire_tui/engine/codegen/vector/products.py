@@ -16,8 +16,12 @@ from desire_tui.engine.codegen.ir.text import IrText
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from desire_tui.engine.lowered.expressions import MatVec
+
 _LANES = 8
 _ROWS = 4
+ROWS = 8
+"""Elements of a product that are computed side by side, at most: a cache line."""
 
 
 def _function(kind: str, name: str, parameters: str, text: IrText, memory: str) -> str:
@@ -119,6 +123,20 @@ def transposed_times_vector() -> str:
     arrays = "ptr noalias readonly %a, ptr noalias readonly %x, ptr noalias %y"
     parameters = f"{arrays}, i64 %rows, i64 %cols, i64 %first, i64 %end"
     return _function("void", "tmatvec", parameters, text, "argmem: readwrite")
+
+
+def write_product(text: IrText, node: MatVec, a: str, x: str, result: str, first: str, end: str) -> None:
+    """Write the elements from `first` to before `end` of A·x or Aᵀ·x."""
+    if node.transposed:
+        text.declarations.add(transposed_times_vector())
+        sizes = f"i64 {node.rows}, i64 {node.cols}, i64 {first}, i64 {end}"
+        text.do(f"call void @tmatvec(ptr {a}, ptr {x}, ptr {result}, {sizes})")
+        return
+    text.declarations.add(matrix_times_vector())
+    at = text.op(f"getelementptr double, ptr {a}, i64 {text.op(f'mul i64 {first}, {node.cols}')}")
+    to = text.op(f"getelementptr double, ptr {result}, i64 {first}")
+    sizes = f"i64 {text.op(f'sub i64 {end}, {first}')}, i64 {node.cols}"
+    text.do(f"call void @matvec(ptr {at}, ptr {x}, ptr {to}, {sizes})")
 
 
 def _reduction(name: str, arrays: Sequence[str]) -> str:

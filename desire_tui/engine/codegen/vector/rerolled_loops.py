@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.scalar import templates
 from desire_tui.engine.lowered.statements import Set
 
@@ -15,6 +16,17 @@ if TYPE_CHECKING:
 
 def write_rolled(statements: ArrayOperands, rolled: Rolled) -> None:
     """Write the loop over statements of one shape."""
+    if is_large(rolled.count):
+        block = statements.block()
+        _write(block, rolled)
+        statements.share(block, rolled.count)
+    else:
+        _write(statements, rolled)
+    if isinstance(rolled.first, Set):
+        statements.cells.forget(rolled.first.slot, rolled.count)
+
+
+def _write(statements: ArrayOperands, rolled: Rolled) -> None:
     first = rolled.first
     places = [statements.at(o) if isinstance(o, int) else _lanes(statements, o) for o in rolled.operands]
     if isinstance(first, Set):
@@ -30,8 +42,6 @@ def write_rolled(statements: ArrayOperands, rolled: Rolled) -> None:
         strip.put(target, templates.write_shape(strip.lanes, first.value, leaves))
 
     statements.sweep(rolled.count, 0, 0, body)
-    if isinstance(first, Set):
-        statements.cells.forget(first.slot, rolled.count)
 
 
 def _lanes(statements: ArrayOperands, leaves: tuple[int | float, ...]) -> str:

@@ -68,31 +68,30 @@ class Strip:
 
 
 def sweep_block(wide: Lanes, count: int, below: int, above: int, body: Callable[[Strip], None]) -> None:
-    """Write a loop over the elements %first … %end - 1 of `count`.
+    """Write a loop over the elements %first … %end - 1 of `count`; %first is a multiple of the width.
 
     The first `below` and last `above` of all reach outside operands. Numbers do not depend on where a block
-    begins: each element has its lane of the same functions.
+    begins: functions of vectors give each element its own.
     """
     text, width = wide.text, wide.width
 
-    def least(a: str, b: str) -> str:
-        return text.op(f"select i1 {text.op(f'icmp slt i64 {a}, {b}')}, i64 {a}, i64 {b}")
+    def either(relation: str, a: str, b: str) -> str:
+        return text.op(f"select i1 {text.op(f'icmp {relation} i64 {a}, {b}')}, i64 {a}, i64 {b}")
 
-    def most(a: str, b: str) -> str:
-        return text.op(f"select i1 {text.op(f'icmp sgt i64 {a}, {b}')}, i64 {a}, i64 {b}")
-
+    if not (below or above):  # all strips begin at multiples of the width: operands may come round with it
+        whole = count // width * width
+        loop(text, "%first", either("slt", "%end", str(whole)), width, lambda i: body(Strip(wide, i, width)))
+        if count > whole:
+            last = either("sgt", "%first", str(whole))
+            loop(text, last, "%end", width, lambda i: body(Strip(wide, i, count - whole)))
+        return
     low = min(below, count)
     high = max(count - above, low)
-    first, end = "%first", "%end"
-    if below:
-        loop(text, first, least(end, str(low)), 1, lambda i: body(Strip(wide, i, 1, edge=True)))
-        first = most(first, str(low))
-    if above:
-        end = least(end, str(high))
+    loop(text, "%first", either("slt", "%end", str(low)), 1, lambda i: body(Strip(wide, i, 1, edge=True)))
+    first, end = either("sgt", "%first", str(low)), either("slt", "%end", str(high))
     length = text.op(f"sub i64 {end}, {first}")
-    whole = text.op(f"sub i64 {length}, {text.op(f'srem i64 {length}, {width}')}")
-    full = text.op(f"add i64 {first}, {whole}")
+    full = text.op(f"sub i64 {end}, {text.op(f'srem i64 {length}, {width}')}")
     loop(text, first, full, width, lambda i: body(Strip(wide, i, width)))
     loop(text, full, end, 1, lambda i: body(Strip(wide, i, 1)))
-    if above:
-        loop(text, most("%first", str(high)), "%end", 1, lambda i: body(Strip(wide, i, 1, edge=True)))
+    last = either("sgt", "%first", str(high))
+    loop(text, last, "%end", 1, lambda i: body(Strip(wide, i, 1, edge=True)))

@@ -1,0 +1,138 @@
+"""Large models on several threads: the same bits as on one thread, and as before loops were shared."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from desire_tui.engine import thread_count
+from desire_tui.engine.codegen.ir import shared_loops
+from desire_tui.engine.codegen.jit.background import Improver
+from desire_tui.engine.codegen.threads.pool import ThreadPool, thread_pool
+from desire_tui.engine.session.session import Session
+from desire_tui.engine.source import Source
+from tests.codegen.conftest import improve
+
+N = 2 * shared_loops.BLOCK + 77
+HEAD = (
+    "n = {n} | m = 67 | l = 131 | STATE x[n], v[n] | ARRAY w[n], g[n], p[l], q[m] | ARRAY A[m,l]\n"
+    "for i = 1 to n | x[i] = sin(i) | w[i] = 0.3 + 0.0002*i | next\n"
+    "for i = 1 to m | for j = 1 to l | A[i,j] = cos(i*j) | next | next\n"
+    "irule {rule} | DT = 0.01 | TMAX = 0.04 | NN = 3 | SEED 3\ndrun\nDYNAMIC\n"
+)
+MODELS = {
+    "neighbours": "Vectr d/dt x = x{1} - 2*x + x{-3}\nVectr d/dt v = -w*v\n",
+    "replicas": "Vector g = sin(x)\nVectr d/dt x = v*g\nVectr d/dt v = -w*g - 0.1*v\n",
+    "in place": "Vectr d/dt x = v\nVectr d/dt v = -w*x\nOUT\nVector w = w{-2} + 0.1*w\nVectr delta g = x*w - x{-1}\n",
+    "products": "Vector q = tanh(A*p)\nVector p = A%*q + 1\nDELTA A = 0.01*(q*p); -1, 1\nVectr d/dt x = v\nVectr d/dt v = -w*x\n",
+    "draws": "Vectr d/dt x = v + ran()\nVectr d/dt v = -w*x\n",
+}
+
+
+@pytest.fixture
+def pool():
+    """Give the process's pool, and put its size back."""
+    found = thread_pool()
+    yield found
+    found.resize(thread_count.thread_count())
+
+
+def arrays(text: str) -> list[bytes]:
+    """Return the bits of all arrays behind a run."""
+    session = Session()
+    session.erun(Source(text))
+    return [np.array(session.values.view(q)).tobytes() for q in session.values if q.shape]
+
+
+@pytest.mark.parametrize(
+    ("name", "rule"), [*((name, 3) for name in MODELS), ("neighbours", 4), ("neighbours", 8)]
+)
+def test_bits_do_not_depend_on_threads(name, rule, pool, monkeypatch):
+    monkeypatch.setattr(Improver, "add", lambda _, model: improve(model))
+    text = HEAD.format(n=N, rule=rule) + MODELS[name]
+    alone = arrays(text)
+    monkeypatch.setattr(shared_loops, "LEAST", 1)
+    for members in (1, 3):
+        pool.resize(members)
+        assert arrays(text) == alone
+
+
+def test_sums_do_not_depend_on_threads(pool, monkeypatch):
+    monkeypatch.setattr(shared_loops, "LEAST", 1)
+    text = (
+        HEAD.format(n=N, rule=1)
+        + "Vectr d/dt x = v\nVectr d/dt v = -w*x\nDOT s = x*w\nAVG a = v*1\ndispt s, a\n"
+    )
+    found = []
+    for members in (1, 3):
+        pool.resize(members)
+        session = Session()
+        session.erun(Source(text))
+        x, w, v = (session.values.view(session.values.find(name)) for name in "xwv")
+        assert session.values.cells[session.values.find("s").slot] == pytest.approx(float(x @ w), rel=1e-12)
+        assert session.values.cells[session.values.find("a").slot] == pytest.approx(
+            float(v.mean()), rel=1e-10
+        )
+        found.append(session.runs[-1].rows[: session.runs[-1].count].tobytes())
+    assert found[0] == found[1]
+
+
+def test_two_runs_at_once(pool, monkeypatch):
+    monkeypatch.setattr(shared_loops, "LEAST", 1)
+    pool.resize(3)
+    text = HEAD.format(n=N, rule=3).replace("TMAX = 0.04", "TMAX = 0.5") + MODELS["neighbours"]
+    found: list[list[bytes]] = []
+    runs = [threading.Thread(target=lambda: found.append(arrays(text))) for _ in range(2)]
+    for run in runs:
+        run.start()
+    for run in runs:
+        run.join()
+    assert found[0] == found[1]
+
+
+def test_threads_sleep_between_loops(pool):
+    pool.resize(3)
+    time.sleep(0.05)
+    before = time.process_time()
+    time.sleep(0.2)
+    assert time.process_time() - before < 0.05
+
+
+def test_a_child_process_goes_on_alone(pool, monkeypatch):
+    monkeypatch.setattr(shared_loops, "LEAST", 1)
+    pool.resize(2)
+    wanted = arrays(HEAD.format(n=N, rule=3) + MODELS["neighbours"])
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if arrays(HEAD.format(n=N, rule=3) + MODELS["neighbours"]) == wanted else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+
+
+def test_threads_end_with_the_pool():
+    pool = ThreadPool(4)
+    names = {f"desire loop {member}" for member in range(1, 4)}
+    assert names <= {thread.name for thread in threading.enumerate()}
+    mine = list(pool._threads)
+    pool.close()
+    assert not any(thread.is_alive() for thread in mine)
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        ("threads = 3", 3),
+        ("threads = 0", None),
+        ("threads = -1", None),
+        ("threads = true", None),
+        ("[", None),
+    ],
+)
+def test_the_configuration_sets_their_number(text, count, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    monkeypatch.setattr(thread_count.user_folders, "folder", lambda _kind: str(tmp_path))
+    (tmp_path / "config.toml").write_text(text)
+    assert thread_count.thread_count() == (count or thread_count.cores())
