@@ -30,11 +30,19 @@ int main(void) {{
 
 
 def run_c(
-    declarations: str, before: str, work: str, result: str, *, repeats: int = 5, cpu: bool = False
+    declarations: str,
+    before: str,
+    work: str,
+    result: str,
+    *,
+    repeats: int = 5,
+    cpu: bool = False,
+    flags: tuple[str, ...] = (),
 ) -> tuple[float, float]:
     """Return the median seconds of `work` and the value of the expression `result` after it.
 
-    `cpu`: seconds of the processor, which other programs on the machine do not lengthen.
+    `flags`: more of the compiler's. `cpu`: seconds of the processor, which other programs on the machine do
+    not lengthen.
     """
     clock = "CLOCK_PROCESS_CPUTIME_ID" if cpu else "CLOCK_MONOTONIC"
     text = _FRAME.format(
@@ -43,7 +51,7 @@ def run_c(
     with tempfile.TemporaryDirectory() as folder:
         source, program = Path(folder, "yardstick.c"), Path(folder, "yardstick")
         source.write_text(text, encoding="ascii")
-        subprocess.run(["gcc", *FLAGS, str(source), "-o", str(program), "-lm"], check=True)
+        subprocess.run(["gcc", *FLAGS, *flags, str(source), "-o", str(program), "-lm"], check=True)
         lines = subprocess.run([str(program)], check=True, capture_output=True, text=True).stdout.splitlines()
     times = [float(line.split()[0]) for line in lines]
     return median(times), float(lines[-1].split()[1])

@@ -27,7 +27,7 @@ EXAMPLES = (
 FILES = (
     (
         "~/.config/desire-tui/config.toml",
-        "Settings of the desktop; desire config prints all with what they mean.",
+        "Settings of the desktop, threads of large models; desire config prints all with what they mean.",
     ),
     ("~/.cache/desire-tui", "Parse tables and native code, which only save time."),
     ("~/.local/state/desire-tui", "History, session and recovered programs of the desktop."),

@@ -8,6 +8,7 @@ and the threads that compile it, is one `compiler_state`. The rooms, from text t
     `vector`  statements over arrays: loops over strips of elements, neighbours of one length fused
     `jit`     LLVM: texts compiled, kept by their digests; quick code first, fast code from `background`,
               bitwise the same results
+    `threads` loops of large models on all cores
     `exact_functions` sin, exp and the like for many numbers at a time, with the C library's bits
     `pieces`  a pass (`passes.slices`) as functions of some dozen statements in tables of addresses
     `loop`    the run loop of language.md 8.2, written once over a `storage`, its steps fixed or variable:
