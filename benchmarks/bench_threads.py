@@ -74,7 +74,7 @@ def c_with_openmp(threads: int) -> float:
 
 
 def measure(program: str, threads: int) -> tuple[float, float, bool]:
-    """Return the least seconds of a run on one thread and on all, and whether all arrays have the same bits."""
+    """Return the least seconds of a run on one thread and on all, and whether arrays have the same bits."""
     session = Session()
     session.erun(Source(program, "threads"))
     for _ in range(2):  # fast code comes meanwhile

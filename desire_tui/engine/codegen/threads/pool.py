@@ -32,8 +32,7 @@ class ThreadPool:
     def __init__(self, members: int) -> None:
         self._code = _native_code()
         self._threads: list[threading.Thread] = []
-        self._open(min(members, MEMBERS_MOST))
-        atexit.register(self.close)
+        self._open(members)
 
     @property
     def share(self) -> int:
@@ -43,8 +42,7 @@ class ThreadPool:
     def resize(self, members: int) -> None:
         """Have other threads; no loop may be going on."""
         self.close()
-        self._open(min(members, MEMBERS_MOST))
-        atexit.register(self.close)
+        self._open(members)
 
     def after_fork(self) -> None:
         """Go on without threads in a child process: none of them is there."""
@@ -60,12 +58,14 @@ class ThreadPool:
         self._threads = []
 
     def _open(self, members: int) -> None:
+        members = min(members, MEMBERS_MOST)
         _ONE_NUMBER(self._code.address("pool.open"))(members)
         work = _ONE_NUMBER(self._code.address("pool.work"))
         for member in range(1, members):
             thread = threading.Thread(target=work, args=(member,), name=f"desire loop {member}", daemon=True)
             thread.start()
             self._threads.append(thread)
+        atexit.register(self.close)
 
 
 def thread_pool() -> ThreadPool:
