@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.codegen.ir.shared_loops import blocks, is_large
+from desire_tui.engine.codegen.ir.shared_loops import BLOCK, is_large
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.lanes.replica_steps import replica_steps
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
@@ -92,9 +92,7 @@ class NativeModel:
         if switching is not None:
             self._watch(switching)
         contiguous = bool((np.diff(self._states) == 1).all())
-        self._loop = array_loop(
-            rule, contiguous=contiguous, watched=self._watched, share=self._share() if contiguous else 0
-        )
+        self._loop = array_loop(rule, contiguous=contiguous, watched=self._watched, share=self._share())
         self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
         self.improved = self._small = False
@@ -125,9 +123,13 @@ class NativeModel:
             return 0
         from desire_tui.engine.codegen.threads.pool import thread_pool  # few models are so large
 
-        partial = np.zeros(2 * blocks(self._states.size))
-        self.context.partial = partial.ctypes.data
-        self._kept.append(partial)
+        firsts = np.arange(0, self._states.size, BLOCK)
+        partial, slots = np.zeros(2 * firsts.size), self._states[firsts]
+        gaps = np.concatenate(([0], np.cumsum(np.diff(self._states) != 1)))
+        lasts = np.minimum(firsts + BLOCK, self._states.size) - 1
+        slots[gaps[lasts] != gaps[firsts]] = -1
+        self.context.partial, self.context.block_slots = partial.ctypes.data, slots.ctypes.data
+        self._kept += [partial, slots]
         return thread_pool().share
 
     def _watch(self, switching: Switching) -> None:

@@ -1,10 +1,10 @@
-"""Storage for models of many states that stand side by side: threads share the loops over them."""
+"""Storage for models of many states: threads share the loops over them."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.ir.counted_loops import loop
+from desire_tui.engine.codegen.ir.counted_loops import elementwise, loop
 from desire_tui.engine.codegen.ir.shared_loops import BLOCK, write_shared
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
@@ -24,11 +24,12 @@ class SharedStorage(ArrayStorage):
     """
 
     def __init__(self, text: IrText, stages: int, width: int, share: int) -> None:
-        super().__init__(text, stages, width, contiguous=True)
+        super().__init__(text, stages, width, contiguous=False)
         self._share = share
+        self._width = width
 
     def _block(self) -> _Block:
-        return _Block(self.stages, self.vector)
+        return _Block(self.stages, self._width)
 
     def _run(self, block: _Block) -> None:
         write_shared(self.text, self._share, block.text, "null", "%n", BLOCK)
@@ -100,14 +101,39 @@ class SharedStorage(ArrayStorage):
 
 
 class _Block(ArrayStorage):
-    """Loops over the states of a block, in a text of their own."""
+    """Loops over the states of a block, in a text of their own.
+
+    The states of most blocks stand side by side: they are elements of one vector.
+    """
 
     first, end = "%first", "%end"
 
     def __init__(self, stages: int, width: int) -> None:
         super().__init__(IrText(), stages, width, contiguous=True)
         self.context.name("%m", "memory")
+        self.context.name("%slots", "state_slots")
         self.name_vectors(self.context)
+
+    def _states(self, body: Visit, factor: str = "") -> None:
+        text, op = self.text, self.text.op
+        block = op(f"sdiv i64 %first, {BLOCK}")
+        firsts = self.context.load("block_slots")
+        slot = op(f"load i64, ptr {op(f'getelementptr i64, ptr {firsts}, i64 {block}')}")
+        names = [text.fresh() for _ in range(3)]
+        text.branch(op(f"icmp sge i64 {slot}, 0"), names[0], names[1])
+        text.begin(names[0])
+        x = op(f"getelementptr double, ptr %v, i64 {op(f'sub i64 {slot}, %first')}")
+        elementwise(text, self.end, self.vector, lambda lanes, i: body(lanes, i, x, i, factor), self.first)
+        text.jump(names[2])
+        text.begin(names[1])
+
+        def one(i: str) -> None:
+            at = op(f"getelementptr i64, ptr %slots, i64 {i}")
+            body(self.lanes, i, "%v", op(f"load i64, ptr {at}"), factor)
+
+        loop(text, self.first, self.end, 1, one)
+        text.jump(names[2])
+        text.begin(names[2])
 
     def leave_found(self, value: str, state: str) -> None:
         """Write what is found to the block's place."""
