@@ -36,7 +36,7 @@ CODEGEN = (
     _vector("low, high = min(below, count), max(count - above, 0)", "low, high = min(below, count), count", *program("vectors/shifts_beyond_the_end")),
     _vector("-self.strip.active * self.prepared.per_element", "-self.lanes.width * self.prepared.per_element", "tests/codegen/test_random.py", *program("vectors/random_order")),
     _vector("(count - 1 - lane) * per_element", "(count - lane) * per_element", "tests/codegen/test_random.py"),
-    _vector("lanes.choose(free, value, strip.fetch(own))", "lanes.choose(free, value, lanes.const(0.0))", *program("vectors/masked_matrix_keeps")),
+    _vector("lanes.choose(free, value, strip.fetch(self._own))", "lanes.choose(free, value, lanes.const(0.0))", *program("vectors/masked_matrix_keeps")),
     _vector("op(f\"select i1 {op(f'icmp slt i64 {rest}, 0')}, i64 {lifted}, i64 {rest}\")", "rest", *program("vectors/shifts_beyond_the_end")),
     # scalar statements as loops
     _scalar("a == b and type(a) is type(b) and (a != 0 or str(a) == str(b))", "a == b and type(a) is type(b)", "tests/codegen/test_minus_zero.py"),
