@@ -196,18 +196,20 @@ def test_one_line_edited_compiles_one_piece(monkeypatch):
     assert sum(text.count("define void") for text in compiled) == 1
 
 
-def test_vector_code_does_not_grow_with_the_vectors():
+@pytest.mark.parametrize("lengths", [(16, 1_600), (160_000, 16_000_000)], ids=["alone", "shared by threads"])
+def test_vector_code_does_not_grow_with_the_vectors(lengths):
     from desire_tui.engine.codegen.pieces.pass_pieces import write
     from desire_tui.engine.passes.slices import full_pass
 
     sizes = []
-    for n in (16, 1_600_000):
+    for n in lengths:
         values = Values()
         for name in ("x", "y"):
             values.array(name, (n,), is_state=name == "x")
         text = "DYNAMIC\nVector y = sin(x) + x{1}\nVectr d/dt x = y - x\nDOT s = x*y\ndispt s\n"
         segment = lower(parse(Source(text)), None, values)
-        sizes.append(len(write(list(full_pass(segment))).text))
+        piece = write(list(full_pass(segment)))
+        sizes.append(len(piece.text) + sum(map(len, piece.needs)))
     assert abs(sizes[0] - sizes[1]) < 200
 
 
