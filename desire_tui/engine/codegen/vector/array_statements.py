@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, assert_never
 from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector import products
-from desire_tui.engine.codegen.vector.elements import StripExpressions
+from desire_tui.engine.codegen.vector.elements import StripExpressions, is_separable
 from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_footprint
 from desire_tui.engine.codegen.vector.in_place import write_in_place
 from desire_tui.engine.codegen.vector.learning import write_learning
@@ -71,9 +71,9 @@ class ArrayStatements(ArrayOperands):
     # ------------------------------------------------------------------ elementwise loops
 
     def _fused(self, group: list[SetVec | DerivVec]) -> None:
-        """Write statements of one length as one loop, a long one without draws as one that threads share."""
+        """Write statements of one length as one loop, which threads share if it is long."""
         count = group[0].count
-        is_shared = is_large(count) and not any(count_draws(action.value) for action in group)
+        is_shared = is_large(count) and is_separable(*(action.value for action in group))
         block = self.block() if is_shared else self
         writers = [_Writer(self, action) for action in group]
         if is_shared:

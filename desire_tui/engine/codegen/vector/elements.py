@@ -48,6 +48,14 @@ def is_invariant(node: Value) -> bool:
     )
 
 
+def is_separable(*values: Value | None) -> bool:
+    """Whether threads may compute different elements: none draws, or searches what delays remember."""
+    return not any(
+        isinstance(node, Op) and (node.name in DRAWS or node.name == "delayed")
+        for node in walk_values(*values)
+    )
+
+
 def invariants(node: Value) -> list[Value]:
     """Return the largest parts that are the same for all elements, numbers apart."""
     if isinstance(node, Const):

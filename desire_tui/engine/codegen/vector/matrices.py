@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.counted_loops import loop
 from desire_tui.engine.codegen.ir.shared_loops import BLOCK, blocks, is_large
 from desire_tui.engine.codegen.vector import products
-from desire_tui.engine.codegen.vector.elements import StripExpressions
+from desire_tui.engine.codegen.vector.elements import StripExpressions, is_separable
 from desire_tui.engine.codegen.vector.fusion import needs_copy, value_footprint
 from desire_tui.engine.codegen.vector.strips import Strip
 from desire_tui.engine.lowered.effects import count_draws
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 
 def write_matrix(statements: ArrayOperands, action: SetMat) -> None:
-    """Write `MATRIX W = …` or `DELTA W = …`; threads share a large one without draws, by rows for u & v."""
+    """Write `MATRIX W = …` or `DELTA W = …`; threads share a large one, by rows for u & v."""
     count = action.rows * action.cols
-    is_shared = is_large(count) and not count_draws(action.value, action.lower, action.upper)
+    is_shared = is_large(count) and is_separable(action.value, action.lower, action.upper)
     by_rows = any(isinstance(n, Outer) for n in walk_values(action.value))
     block = statements.block() if is_shared else statements
     write = _write_rows if by_rows else _write_elements
