@@ -24,6 +24,15 @@ CHATTER_STEPS, CHATTER_PART, CHATTER_FLAG = 50_000, 1e-3, -3
 and half as many were rejected besides: a relay that holds the solution on its jump would take for ever."""
 
 
+JACOBIAN_SERVES_STEPS, DOUBT_STEPS = 51, 50
+"""A Jacobian serves for so many steps [CVODE's msbj]; where the corrector fails twice within the second number
+of steps it serves for a single one, for as many steps.
+
+Where it changes from step to step, and an old one is far larger than it should be, corrections come out as
+next to nothing, which passes for convergence: `d/dt y = -1/(2*y)` went through its singularity on a straight
+line, to 1e9, under rules 10, 11, 14 and 15, and no flag said so."""
+
+
 ERROR_SHARE = 0.02
 """Part of ERMAX that a step's error, a root mean square over the states, may reach by the solver's estimate.
 
@@ -186,6 +195,9 @@ class SolverProblem(ctypes.Structure):
         ("failed", _INT),  # steps tried again before the last restart
         ("suspect", _INT),  # state whose derivative was not finite; -1: none
         ("restarts", _INT),
+        ("diverged", _INT),  # how often the corrector has failed since the last restart …
+        ("warned", _INT),  # … whether it did in the last `DOUBT_STEPS` steps, that many and fewer to go …
+        ("doubted", _INT),  # … and for how many steps a Jacobian still serves for one only
         ("fresh", _INT),  # steps since the last restart
         ("stuck", _INT),  # steps in a row that were too small to change t
         ("watch_steps", _INT),  # steps since chattering was last looked for, and t and failures then

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.problem import DOUBT_STEPS, JACOBIAN_SERVES_STEPS, Matrix
 from desire_tui.engine.integration.sundials.signatures import ONE_STEP
 
 if TYPE_CHECKING:
@@ -15,13 +16,43 @@ def begin(problem: SolverProblem, t: float, first_step: float) -> None:
     """Begin anew from the states in `problem.states`; a first step of 0: the solver looks for one."""
     cvode.CVodeReInit(problem.solver, t, problem.vector)
     cvode.CVodeSetInitStep(problem.solver, first_step)
+    problem.diverged = 0
+    problem.warned = 0
+    trust(problem)
 
 
 def take_step(problem: SolverProblem, t_next: float) -> int:
     """Take a step to `t_next` at most; `reached[0]` and the states are then the solution. Return the flag."""
     cvode.CVodeSetStopTime(problem.solver, t_next)
     flag: int = cvode.CVode(problem.solver, t_next, problem.vector, problem.reached, ONE_STEP)
+    if problem.method != Matrix.NONE:
+        doubt(problem)
     return flag
+
+
+def doubt(problem: SolverProblem) -> None:
+    """Let a Jacobian serve for one step only where the corrector fails again (`integration.problem`)."""
+    cvode.CVodeGetNumStepSolveFails(problem.solver, problem.count)
+    diverged: int = problem.count[0]
+    more = diverged - problem.diverged
+    problem.diverged = diverged
+    if more > 1 or (more > 0 and problem.warned > 0):
+        if problem.doubted == 0:
+            cvode.CVodeSetJacEvalFrequency(problem.solver, 1)
+        problem.doubted = DOUBT_STEPS
+    if more > 0:
+        problem.warned = DOUBT_STEPS
+    if problem.doubted == 1:
+        trust(problem)
+    problem.doubted -= problem.doubted > 0
+    problem.warned -= problem.warned > 0
+
+
+def trust(problem: SolverProblem) -> None:
+    """Let Jacobians serve as long as ever."""
+    if problem.doubted != 0:
+        cvode.CVodeSetJacEvalFrequency(problem.solver, JACOBIAN_SERVES_STEPS)
+        problem.doubted = 0
 
 
 def last_size(problem: SolverProblem) -> float:

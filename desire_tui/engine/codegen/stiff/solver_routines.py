@@ -57,7 +57,7 @@ if TYPE_CHECKING:
 
 _CALLED = (
     "CVode", "CVodeGetDky", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
-    "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails",
+    "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails", "CVodeSetJacEvalFrequency",
 )  # fmt: skip
 _MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, progress, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)

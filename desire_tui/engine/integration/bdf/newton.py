@@ -6,6 +6,7 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.bdf.memory import SETUP_FAILED
+from desire_tui.engine.integration.problem import DOUBT_STEPS, JACOBIAN_SERVES_STEPS
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.bdf.memory import Bdf
@@ -20,7 +21,6 @@ _ITERATIONS_MOST = 3  # [NLS_MAXCOR]
 _DIVERGING = 2.0  # [RDIV]
 _RATE_FORGETS = 0.3  # [CRDOWN]
 _FACTORS_SERVE_STEPS = 20  # [MSBP]
-_JACOBIAN_SERVES_STEPS = 51  # [MSBJ]
 _GAMMA_FACTORS = 0.3  # [DGMAX_LSETUP]
 _GAMMA_JACOBIAN = 0.2  # [DGMAX_JBAD]
 
@@ -37,9 +37,13 @@ def size(s: Bdf, place: int) -> float:
 
 def correct(s: Bdf, met: int) -> int:
     """Solve for the step's end [cvNls, SUNNonlinSolSolve_Newton]; `met`: what this step has met so far."""
+    if met == BAD_CORRECTION:
+        s.doubted = DOUBT_STEPS if s.warned > 0 else 0
+        s.warned = DOUBT_STEPS
     old = s.steps == 0 or s.steps >= s.factored_at + _FACTORS_SERVE_STEPS
     setup = met != NOTHING or old or abs(s.gamma / s.gamma_factored - 1.0) > _GAMMA_FACTORS
-    old = s.steps == 0 or s.steps >= s.jacobian_at + _JACOBIAN_SERVES_STEPS
+    serve = 1 if s.doubted > 0 else JACOBIAN_SERVES_STEPS
+    old = s.steps == 0 or s.steps >= s.jacobian_at + serve
     renew = met == BAD_CORRECTION or old
     n, z, y, correction = s.n, s.z, s.y, s.correction
     while True:

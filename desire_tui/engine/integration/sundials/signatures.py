@@ -59,6 +59,7 @@ CVODE: Signatures = {
     "CVodeSetLinearSolver": (_I, (_P, _P, _P)),
     "CVodeSetNonlinearSolver": (_I, (_P, _P)),
     "CVodeSetJacFn": (_I, (_P, _P)),
+    "CVodeSetJacEvalFrequency": (_I, (_P, _L)),
     "SUNDenseMatrix": (_P, (_INDEX, _INDEX, _P)),
     "SUNBandMatrix": (_P, (_INDEX, _INDEX, _INDEX, _P)),
     "SUNSparseMatrix": (_P, (_INDEX, _INDEX, _INDEX, _I, _P)),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.integration.problem import DOUBT_STEPS, JACOBIAN_SERVES_STEPS
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.linear import Attached, Linear
@@ -96,6 +97,8 @@ class Solver:
             self._set("CVodeSetNonlinConvCoef", MATRIX_CONVERGENCE)
         parts.attached = Attached(libraries(), context, self.memory, self.vector, n, linear)
         self._reached = ctypes.c_double()
+        self._has_matrix = linear.kind not in {"diagonal", "fixed-point"}
+        self._diverged = self._warned = self._doubted = 0
 
     def free(self) -> None:
         """Give everything back now (also done when the object goes)."""
@@ -111,13 +114,38 @@ class Solver:
         """Begin anew, order 1, from the states at `states`."""
         self._set("CVodeReInit", t, self.vector)
         self._set("CVodeSetInitStep", first_step)
+        self._diverged = self._warned = 0
+        self._trust()
 
     def step(self, t_stop: float) -> tuple[int, float]:
         """Take one step, never beyond `t_stop`; return CVODE's flag (< 0: failed) and the time reached."""
         self._set("CVodeSetStopTime", t_stop)
         reached = self._reached
         flag = self._library.CVode(self.memory, t_stop, self.vector, ctypes.byref(reached), ONE_STEP)
+        if self._has_matrix:
+            self._doubt()
         return flag, reached.value
+
+    def _doubt(self) -> None:
+        """Let a Jacobian serve for one step only where the corrector fails again (`integration.problem`)."""
+        diverged = self._count("CVodeGetNumStepSolveFails")
+        more, self._diverged = diverged - self._diverged, diverged
+        if more > 1 or (more and self._warned):
+            if not self._doubted:
+                self._set("CVodeSetJacEvalFrequency", 1)
+            self._doubted = DOUBT_STEPS
+        if more:
+            self._warned = DOUBT_STEPS
+        if self._doubted == 1:
+            self._trust()
+        self._doubted = max(self._doubted - 1, 0)
+        self._warned = max(self._warned - 1, 0)
+
+    def _trust(self) -> None:
+        """Let Jacobians serve as long as ever."""
+        if self._doubted:
+            self._set("CVodeSetJacEvalFrequency", JACOBIAN_SERVES_STEPS)
+            self._doubted = 0
 
     def interpolate(self, t: float) -> None:
         """Write the states at a time inside the last step to `between`."""
