@@ -42,6 +42,7 @@ _STARRED = frozenset({"drun", "drunr", "SHOW"})
 _OPEN = frozenset(OPENERS.values())
 _LOGICAL = frozenset({"and", "or", "not"})
 _OPERAND_STARTS = frozenset({NAME, NUMBER, OCTAL, "("})
+_SIGNS = frozenset("+-")
 
 # \x1a, Ctrl-Z, is what DOS ended a file with: a blank.
 _TOKEN = re.compile(
@@ -169,13 +170,17 @@ def scan(text: str) -> LogicalLine:
 def mark_logical_words(chunk: StatementTokens) -> bool:
     """Take `and`, `or` and `not` for what they are in an expression, `(t > 1 and t < 2)*x`; False: none is.
 
-    Asked where a statement cannot be read: in no other do these words stand where an operator could.
+    Asked where a statement cannot be read: in no other do these words stand where an operator could. A sign
+    may follow, `(t > 1 or -x > 0)`; behind `not` only where an `and` or `or` stands before it, since a
+    variable of that name can be subtracted from.
     """
     kinds, found = chunk.kinds, False
     for at, text in enumerate(chunk.texts):
-        if kinds[at] == NAME and text in _LOGICAL and at:
-            follows = at + 1 < len(kinds) and kinds[at + 1] in _OPERAND_STARTS
-            if follows and (kinds[at - 1] in OPERAND_END) == (text != "not"):
+        if kinds[at] == NAME and text in _LOGICAL and 0 < at < len(kinds) - 1:
+            before, behind = kinds[at - 1], kinds[at + 1]
+            is_plain = text != "not" or before in _LOGICAL
+            follows = behind in _OPERAND_STARTS or (is_plain and behind in _SIGNS)
+            if follows and (before in OPERAND_END) == (text != "not"):
                 kinds[at] = text
                 found = True
     return found
