@@ -24,13 +24,15 @@ CHATTER_STEPS, CHATTER_PART, CHATTER_FLAG = 50_000, 1e-3, -3
 and half as many were rejected besides: a relay that holds the solution on its jump would take for ever."""
 
 
-JACOBIAN_SERVES_STEPS, DOUBT_STEPS = 51, 50
-"""A Jacobian serves for so many steps [CVODE's msbj]; where the corrector fails twice within the second number
-of steps it serves for a single one, for as many steps.
+JACOBIAN_SERVES_STEPS = 51
+"""A Jacobian serves for so many steps [CVODE's msbj], but for a single one while the corrector is in doubt.
 
 Where it changes from step to step, and an old one is far larger than it should be, corrections come out as
 next to nothing, which passes for convergence: `d/dt y = -1/(2*y)` went through its singularity on a straight
 line, to 1e9, under rules 10, 11, 14 and 15, and no flag said so."""
+DOUBT_FAILURE, DOUBT_FROM, DOUBT_MOST = 20, 40, 100
+"""A failure of the corrector raises doubt by the first number, up to the last, each step lowers it by 1; from
+the second on it counts: three failures in a row, then one in twenty steps."""
 
 
 ERROR_SHARE = 0.02
@@ -196,8 +198,7 @@ class SolverProblem(ctypes.Structure):
         ("suspect", _INT),  # state whose derivative was not finite; -1: none
         ("restarts", _INT),
         ("diverged", _INT),  # how often the corrector has failed since the last restart …
-        ("warned", _INT),  # … whether it did in the last `DOUBT_STEPS` steps, that many and fewer to go …
-        ("doubted", _INT),  # … and for how many steps a Jacobian still serves for one only
+        ("doubt", _INT),  # … and how much is thought of that
         ("fresh", _INT),  # steps since the last restart
         ("stuck", _INT),  # steps in a row that were too small to change t
         ("watch_steps", _INT),  # steps since chattering was last looked for, and t and failures then

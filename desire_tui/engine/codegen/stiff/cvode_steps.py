@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.integration.problem import DOUBT_STEPS, JACOBIAN_SERVES_STEPS, Matrix
+from desire_tui.engine.integration.problem import (
+    DOUBT_FAILURE,
+    DOUBT_FROM,
+    DOUBT_MOST,
+    JACOBIAN_SERVES_STEPS,
+    Matrix,
+)
 from desire_tui.engine.integration.sundials.signatures import ONE_STEP
 
 if TYPE_CHECKING:
@@ -17,8 +23,9 @@ def begin(problem: SolverProblem, t: float, first_step: float) -> None:
     cvode.CVodeReInit(problem.solver, t, problem.vector)
     cvode.CVodeSetInitStep(problem.solver, first_step)
     problem.diverged = 0
-    problem.warned = 0
-    trust(problem)
+    if problem.doubt > DOUBT_FROM:
+        cvode.CVodeSetJacEvalFrequency(problem.solver, JACOBIAN_SERVES_STEPS)
+    problem.doubt = 0
 
 
 def take_step(problem: SolverProblem, t_next: float) -> int:
@@ -31,28 +38,17 @@ def take_step(problem: SolverProblem, t_next: float) -> int:
 
 
 def doubt(problem: SolverProblem) -> None:
-    """Let a Jacobian serve for one step only where the corrector fails again (`integration.problem`)."""
+    """Let a Jacobian serve for one step only while the corrector is in doubt (`integration.problem`)."""
     cvode.CVodeGetNumStepSolveFails(problem.solver, problem.count)
     diverged: int = problem.count[0]
-    more = diverged - problem.diverged
+    before: int = problem.doubt
+    doubt = min(before + DOUBT_FAILURE * (diverged - problem.diverged), DOUBT_MOST)
     problem.diverged = diverged
-    if more > 1 or (more > 0 and problem.warned > 0):
-        if problem.doubted == 0:
-            cvode.CVodeSetJacEvalFrequency(problem.solver, 1)
-        problem.doubted = DOUBT_STEPS
-    if more > 0:
-        problem.warned = DOUBT_STEPS
-    if problem.doubted == 1:
-        trust(problem)
-    problem.doubted -= problem.doubted > 0
-    problem.warned -= problem.warned > 0
-
-
-def trust(problem: SolverProblem) -> None:
-    """Let Jacobians serve as long as ever."""
-    if problem.doubted != 0:
+    if doubt > DOUBT_FROM and before <= DOUBT_FROM:
+        cvode.CVodeSetJacEvalFrequency(problem.solver, 1)
+    problem.doubt = max(doubt - 1, 0)
+    if problem.doubt <= DOUBT_FROM and doubt > DOUBT_FROM:
         cvode.CVodeSetJacEvalFrequency(problem.solver, JACOBIAN_SERVES_STEPS)
-        problem.doubted = 0
 
 
 def last_size(problem: SolverProblem) -> float:

@@ -61,9 +61,8 @@ class Bdf(ctypes.Structure):
         ("share", _REAL),  # [nlscoef]: part of the error test left to the corrector
         ("norm", _REAL),  # [acnrm]: of the correction
         ("steps", _INT), ("factored_at", _INT), ("jacobian_at", _INT),  # [nst, nstlp, nstlj]
-        ("warned", _INT),  # steps until a failure of the corrector is forgotten
-        ("doubted", _INT),  # for so many steps a Jacobian serves for one only: it has failed twice
         ("failed_tests", _INT), ("failed_corrections", _INT),  # since the restart
+        ("doubt", _INT),  # what failures of the corrector have left behind (`integration.problem`)
     )  # fmt: skip
 
 

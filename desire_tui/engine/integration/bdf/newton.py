@@ -6,7 +6,12 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.bdf.memory import SETUP_FAILED
-from desire_tui.engine.integration.problem import DOUBT_STEPS, JACOBIAN_SERVES_STEPS
+from desire_tui.engine.integration.problem import (
+    DOUBT_FAILURE,
+    DOUBT_FROM,
+    DOUBT_MOST,
+    JACOBIAN_SERVES_STEPS,
+)
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.bdf.memory import Bdf
@@ -38,11 +43,10 @@ def size(s: Bdf, place: int) -> float:
 def correct(s: Bdf, met: int) -> int:
     """Solve for the step's end [cvNls, SUNNonlinSolSolve_Newton]; `met`: what this step has met so far."""
     if met == BAD_CORRECTION:
-        s.doubted = DOUBT_STEPS if s.warned > 0 else 0
-        s.warned = DOUBT_STEPS
+        s.doubt = min(s.doubt + DOUBT_FAILURE, DOUBT_MOST)
     old = s.steps == 0 or s.steps >= s.factored_at + _FACTORS_SERVE_STEPS
     setup = met != NOTHING or old or abs(s.gamma / s.gamma_factored - 1.0) > _GAMMA_FACTORS
-    serve = 1 if s.doubted > 0 else JACOBIAN_SERVES_STEPS
+    serve = 1 if s.doubt > DOUBT_FROM else JACOBIAN_SERVES_STEPS
     old = s.steps == 0 or s.steps >= s.jacobian_at + serve
     renew = met == BAD_CORRECTION or old
     n, z, y, correction = s.n, s.z, s.y, s.correction

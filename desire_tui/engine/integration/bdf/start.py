@@ -31,8 +31,7 @@ def restart(s: Bdf, t: float, h_first: float) -> None:
     s.tq5_kept = 0.0
     s.l_order = 0
     s.rate = 1.0
-    s.warned = 0
-    s.doubted = 0
+    s.doubt = 0
 
 
 def start(s: Bdf, t_stop: float) -> int:

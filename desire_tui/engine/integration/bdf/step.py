@@ -119,8 +119,7 @@ def step(s: Bdf, t_stop: float) -> int:
         if flag != 0:
             return flag
     s.steps += 1
-    s.warned -= s.warned > 0
-    s.doubted -= s.doubted > 0
+    s.doubt -= s.doubt > 0
     s.h_last = s.h
     s.order_last = s.order
     for down in range(s.order - 1):
