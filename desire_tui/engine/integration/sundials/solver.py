@@ -37,7 +37,7 @@ MATRIX_CONVERGENCE = 1e-3
 """The same with a matrix. With 0.1 what the corrector leaves lets a state that decays toward 0 fall below
 it: Robertson's problem at ERMAX = 1e-6 then ran away to -5e7 by t = 1e11, and no flag said so. With 1e-3 the
 iterations cost little and the runs take as long or, the steps being longer, half as long. Under Adams there
-are up to 20 % fewer steps (four times fewer for Robertson's problem at 1e-4) with up to 45 % more evaluations;
+are up to 20 % fewer steps (four times fewer for Robertson's problem at 1e-4), up to 45 % more evaluations;
 with 0.1 solutions went through the singularity of `d/dt y = -1/(2*y)` unseen."""
 
 _ITERATION_CONVERGENCE = 2e-2
