@@ -1,5 +1,7 @@
 """Random statements give the same on the native and the reference back end."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -20,7 +22,9 @@ SETTINGS = settings(
 )
 
 
+@cache
 def expressions(names, *, draws=False):
+    """Return expressions over `names`, a tuple; made once for each, as making them costs more than drawing from them."""
     leaves = st.one_of(
         st.sampled_from(names),
         st.floats(0.1, 3.0).map(lambda x: f"{x:.4f}"),
@@ -55,12 +59,12 @@ def test_scalar_programs(data, rule):
     known = ["x", "y", "a", "t"]
     lines = []
     for number in range(data.draw(st.integers(0, 3))):
-        lines.append(f"u{number} = {data.draw(expressions(known, draws=True))}")
+        lines.append(f"u{number} = {data.draw(expressions(tuple(known), draws=True))}")
         known.append(f"u{number}")
-    lines += [f"d/dt {name} = sat({data.draw(expressions(known))}) - 0.5*{name}" for name in "xy"]
+    lines += [f"d/dt {name} = sat({data.draw(expressions(tuple(known)))}) - 0.5*{name}" for name in "xy"]
     lines += [
         "step",
-        f"z = z + 0.1*sat({data.draw(expressions(known))})",
+        f"z = z + 0.1*sat({data.draw(expressions(tuple(known)))})",
         "OUT",
         "w = x + z",
         "dispt x, y, w, z",
@@ -78,10 +82,10 @@ def test_vector_programs(data, n):
     known = ["p", "q", "x", "a", "p{1}", "x{-1}", "q{2}"]
     lines = []
     for target in data.draw(st.lists(st.sampled_from(["r", "s", "p"]), max_size=4)):
-        usable = [k for k in known if not k.startswith(f"{target}{{")]  # a shifted target is error 85
+        usable = tuple(k for k in known if not k.startswith(f"{target}{{"))  # a shifted target is error 85
         lines.append(f"Vector {target} = sat({data.draw(expressions(usable, draws=True))})")
         known += [name for name in (target, f"{target}{{-1}}") if name not in known]
-    lines.append(f"Vectr d/dt x = sat({data.draw(expressions(known))}) - 0.3*x")
+    lines.append(f"Vectr d/dt x = sat({data.draw(expressions(tuple(known)))}) - 0.3*x")
     lines += ["Vectr delta q = 0.01*x", "DOT d = p*x + q*1", "x1 = x[1]", "dispt d, x1"]
     body = "\n".join(lines)
     agree(

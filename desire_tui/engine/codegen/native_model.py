@@ -96,6 +96,7 @@ class NativeModel:
         self._use(self._store.quick([self._loop])[self._loop.name])
         self._better: Compiled | None = None
         self.improved = self._small = False
+        self._improver = improver
         improver.add(self)
 
     # ------------------------------------------------------------------ making
@@ -215,7 +216,8 @@ class NativeModel:
                 self._use(better)
                 if self._watcher is not None and self._small:
                     self._watcher.keep_box()
-            ended = Ended(self._run(at, context))
+            with self._improver.running(self):
+                ended = Ended(self._run(at, context))
             if ended is not Ended.RUNNING or memory.row >= memory.row_limit:
                 break
         memory.checked = checked

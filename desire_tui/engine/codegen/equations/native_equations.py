@@ -86,7 +86,7 @@ class NativeEquations:
         self._places = self._x.ctypes.data, self._derivatives.ctypes.data
         self._kept = (functions, ranges, room, sparse, tables, values)
         self._entries: tuple[int, int] | None = None
-        improver.add(functions)
+        improver.add_now(functions)  # whoever calls these calls them often
 
     @property
     def addresses(self) -> tuple[int, int]:

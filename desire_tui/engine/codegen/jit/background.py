@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import weakref
 from contextlib import contextmanager
+from time import process_time
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -12,6 +13,10 @@ if TYPE_CHECKING:
 
 _BREATH_SECONDS = 0.0005
 """Between two steps: LLVM's lock is not fair, and somebody may wait with quick code."""
+_PATIENCE_SECONDS = 0.002
+"""Of a model's runs, before its fast code is begun: shorter ones gain nothing from 15 ms of work."""
+_LOOK_SECONDS = 0.0005
+"""At least, before looking again whether they have lasted so long."""
 _END_SECONDS = 30.0
 _BEGUN_MOST = 3
 _QUIET_SECONDS = 0.02
@@ -32,10 +37,40 @@ class Remembering(Improvable, Protocol):
     improved: bool
 
 
+class Waiting:
+    """Work whose model has not run for long, and for how long, in seconds of this process's processor time.
+
+    While others have the processor, it does not run.
+    """
+
+    def __init__(self, work: Improvable) -> None:
+        self.work = weakref.ref(work)
+        self._before = 0.0
+        self._began: float | None = None
+
+    def begin(self) -> None:
+        """Count from now on."""
+        self._began = process_time()
+
+    def end(self) -> None:
+        """Count no further."""
+        self._before, self._began = self.seconds(), None
+
+    @property
+    def is_running(self) -> bool:
+        """Whether the model runs."""
+        return self._began is not None
+
+    def seconds(self) -> float:
+        """Return how long the model has run."""
+        return self._before + (process_time() - self._began if self._began is not None else 0.0)
+
+
 class Improver:
     """Works through what it was given, the newest first; what nobody holds any more is dropped."""
 
     def __init__(self) -> None:
+        self._waiting: list[Waiting] = []
         self._new: list[weakref.ref[Improvable]] = []
         self._begun: list[tuple[weakref.ref[Improvable], Iterator[None]]] = []
         self._something = threading.Condition()
@@ -45,19 +80,40 @@ class Improver:
         self._over = False
 
     def add(self, work: Improvable) -> None:
-        """Take up some work."""
+        """Take up some work as soon as its model's runs have gone on for a moment (`running`)."""
+        with self._something:
+            self._waiting = [known for known in self._waiting if known.work() is not None]
+            self._waiting.append(Waiting(work))
+
+    def add_now(self, work: Improvable) -> None:
+        """Take up some work at once."""
         with self._something:
             self._new.append(weakref.ref(work))
-            if self._thread is None or not (self._thread.is_alive() or self._over):
-                self._thread = threading.Thread(target=self._run, name="desire fast code", daemon=True)
-                self._thread.start()
-            self._something.notify()
+            self._wake()
+
+    @contextmanager
+    def running(self, *works: Improvable) -> Iterator[None]:
+        """Tell that the model runs to which these belong."""
+        with self._something:
+            begun = [known for known in self._waiting if known.work() in works]
+            for known in begun:
+                known.begin()
+            if begun:
+                self._wake()
+        try:
+            yield
+        finally:
+            if begun:
+                with self._something:
+                    for known in begun:
+                        known.end()
 
     def again(self, work: Remembering) -> None:
         """Take up work that may have been dropped for newer work."""
         with self._something:
             under_way = any(reference() is work for reference, _ in self._begun)
             under_way = under_way or any(reference() is work for reference in self._new)
+            under_way = under_way or any(known.work() is work for known in self._waiting)
         if not (work.improved or under_way):
             self.add(work)
 
@@ -87,11 +143,27 @@ class Improver:
         if thread is not None:
             thread.join(_END_SECONDS)
 
+    def _wake(self) -> None:
+        if self._thread is None or not (self._thread.is_alive() or self._over):
+            self._thread = threading.Thread(target=self._run, name="desire fast code", daemon=True)
+            self._thread.start()
+        self._something.notify()
+
+    def _take_what_is_due(self) -> float | None:
+        """Take over what has waited long enough; return in how many seconds there may be more."""
+        left = {known: _PATIENCE_SECONDS - known.seconds() for known in self._waiting if known.is_running}
+        due = {known for known, seconds in left.items() if seconds <= 0.0}
+        self._new += [known.work for known in self._waiting if known in due]
+        self._waiting = [known for known in self._waiting if known not in due]
+        return max(min(left.values()), _LOOK_SECONDS) if left else None
+
     def _run(self) -> None:
         while True:
             with self._something:
+                seconds = self._take_what_is_due()
                 while not (self._new or self._begun or self._over):
-                    self._something.wait()
+                    self._something.wait(seconds)
+                    seconds = self._take_what_is_due()
                 if self._over:
                     return
                 while self._urgent:

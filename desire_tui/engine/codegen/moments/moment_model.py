@@ -74,6 +74,7 @@ class MomentModel:
         loop = moment_loop(tableau)
         self._loop = code.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
+        self._improver = improver
         improver.add(self._tables)
         improver.add(functions)
 
@@ -123,8 +124,9 @@ class MomentModel:
                 return self._ended(memory, Ended.ZENO)
         checked = memory.checked
         memory.checked = checked_state(checked, self._numbers)
-        while (ended := Ended(self._run(at, ctypes.addressof(self.context)))) is Ended.FULL:
-            self._stepper.grow()
+        with self._improver.running(self._tables, self._functions):
+            while (ended := Ended(self._run(at, ctypes.addressof(self.context)))) is Ended.FULL:
+                self._stepper.grow()
         memory.checked = checked
         return self._ended(memory, ended)
 

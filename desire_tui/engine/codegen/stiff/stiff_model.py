@@ -138,10 +138,9 @@ class StiffModel:
         self._loop = code.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
         self._runs, self._improver = 0, improver
-        if self._series is not None:
-            improver.add(self._series)
-        improver.add(self._tables)
-        improver.add(functions)
+        self._parts = [work for work in (self._series, self._tables, functions) if work is not None]
+        for part in self._parts:
+            improver.add(part)
 
     def _use(self, natives: StiffFunctions) -> None:
         """Connect the solver's callbacks and the interval loop."""
@@ -241,11 +240,12 @@ class StiffModel:
                 self._watcher.begin(memory)
         system = self.system
         system.problem.memory = self.context.memory = ctypes.addressof(memory)
-        while (
-            ended := Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
-        ) is Ended.FULL:
-            assert moments is not None
-            moments.grow()
+        with self._improver.running(self, *self._parts):
+            while (
+                ended := Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
+            ) is Ended.FULL:
+                assert moments is not None
+                moments.grow()
         if self._array and self._given and ended is not Ended.RUNNING:
             fill_array(self._values, *self._given, self._array, self._numbers)
         system.report(memory)

@@ -1,0 +1,127 @@
+"""Fast code is begun when runs have lasted for a moment, alone or together; short ones cost no second thread's work."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+import pytest
+
+from desire_tui.engine.codegen.compiler_state import CompilerState
+from desire_tui.engine.codegen.jit import background
+from desire_tui.engine.codegen.jit.background import Improver
+from desire_tui.engine.session.session import Session
+from desire_tui.engine.source import Source
+
+SHORT = "TMAX = 1 | DT = 0.1 | NN = 3\ndrun\nDYNAMIC\nd/dt x = 1\ndispt x\n"
+ENOUGH = 60.0
+
+
+class Work:
+    def __init__(self):
+        self.begun = threading.Event()
+
+    def improve(self):
+        self.begun.set()
+        yield
+
+
+def busy(seconds):
+    end = time.process_time() + seconds
+    while time.process_time() < end:
+        pass
+
+
+def begun_in_a_run(improver, work):
+    """Run, using the processor, until the work is begun."""
+    end = time.monotonic() + ENOUGH
+    with improver.running(work):
+        while not work.begun.is_set() and time.monotonic() < end:
+            busy(0.001)
+    return work.begun.is_set()
+
+
+@pytest.fixture
+def improver():
+    made = Improver()
+    yield made
+    made.close()
+
+
+def test_not_without_a_run(improver):
+    work = Work()
+    improver.add(work)
+    busy(0.01)
+    assert not work.begun.is_set()
+    assert improver._thread is None
+
+
+def test_not_for_a_run_that_is_over(improver, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_SECONDS", ENOUGH)
+    work = Work()
+    improver.add(work)
+    with improver.running(work):
+        busy(0.01)
+    assert not work.begun.is_set()
+
+
+def test_while_its_run_goes_on(improver):
+    work, other = Work(), Work()
+    improver.add(other)
+    improver.add(work)
+    assert begun_in_a_run(improver, work)
+    assert not other.begun.is_set()
+
+
+def test_a_run_that_does_not_get_the_processor_is_not_long(improver, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_SECONDS", 0.05)
+    work = Work()
+    improver.add(work)
+    with improver.running(work):
+        assert not work.begun.wait(0.15)
+
+
+def test_short_runs_add_up(improver, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_SECONDS", 0.02)
+    work = Work()
+    improver.add(work)
+    end = time.monotonic() + ENOUGH
+    while not work.begun.is_set() and time.monotonic() < end:
+        with improver.running(work):
+            busy(0.001)
+    assert work.begun.is_set()
+
+
+def test_what_nobody_holds_is_dropped(improver):
+    dropped, work = Work(), Work()
+    begun = dropped.begun
+    improver.add(dropped)
+    del dropped
+    improver.add(work)
+    assert begun_in_a_run(improver, work)
+    assert not begun.is_set()
+    assert not improver._waiting
+
+
+def test_at_once_where_that_is_asked_for(improver):
+    work = Work()
+    improver.add_now(work)
+    assert work.begun.wait(ENOUGH)
+
+
+def test_models_wait_for_it():
+    """A program's short run is over on quick code; a long one goes over to fast code."""
+    state = CompilerState()
+    try:
+        session = Session(compiler=state)
+        session.erun(Source(SHORT))
+        (model,) = (known[2] for known in session._workspace.segments._backend._models.values())
+        assert not model.improved
+        assert state.improver._waiting
+        with state.improver.running(model):
+            end = time.monotonic() + ENOUGH
+            while not model.improved and time.monotonic() < end:
+                busy(0.001)
+        assert model.improved
+    finally:
+        state.close()
