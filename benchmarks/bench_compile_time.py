@@ -27,7 +27,8 @@ from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import shapes
-from desire_tui.engine.syntax.parse import forget_lines, parse
+from desire_tui.engine.syntax.parse import parse
+from desire_tui.engine.syntax.parsed_lines import forget_lines
 from desire_tui.engine.values import DT, T, Values
 
 Program = tuple[str, tuple[str, ...], tuple[str, ...]]

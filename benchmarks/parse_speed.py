@@ -11,7 +11,8 @@ from time import process_time
 
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import shapes
-from desire_tui.engine.syntax.parse import forget_lines, parse
+from desire_tui.engine.syntax.parse import parse
+from desire_tui.engine.syntax.parsed_lines import forget_lines
 
 REPEATS = 15
 

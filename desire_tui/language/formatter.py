@@ -15,7 +15,8 @@ from desire_tui.engine.nodes.segment import Event, Every
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.blocks import MISMATCHES
 from desire_tui.engine.structure.structure import structure
-from desire_tui.engine.syntax.parse import is_header, logical_lines, numbered, parse
+from desire_tui.engine.syntax.logical_lines import is_header, logical_lines, numbered
+from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.syntax.statement_tokens import CLASSES, RAW, STRING, TokenFault
 from desire_tui.engine.syntax.tokens import mark_logical_words, scan
 from desire_tui.language.spacing import blanks_before

@@ -41,7 +41,7 @@ class LineTokens(NamedTuple):
 @lru_cache(maxsize=4096)
 def tokens_of(line: str) -> LineTokens:
     """Return the statements of a line and its comments."""
-    from desire_tui.engine.syntax.parse import numbered
+    from desire_tui.engine.syntax.logical_lines import numbered
     from desire_tui.engine.syntax.tokens import scan
 
     skipped = numbered(line)

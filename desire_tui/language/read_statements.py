@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.recently_used import RecentlyUsed
-from desire_tui.engine.syntax.parse import logical_lines, parse
+from desire_tui.engine.syntax.logical_lines import logical_lines
+from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.syntax.tokens import mark_logical_words, scan
 
 if TYPE_CHECKING:

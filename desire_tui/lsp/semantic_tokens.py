@@ -8,7 +8,7 @@ from lsprotocol import types
 
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.syntax.highlighting import highlight
-from desire_tui.engine.syntax.parse import logical_lines
+from desire_tui.engine.syntax.logical_lines import logical_lines
 from desire_tui.lsp.positions import units
 
 if TYPE_CHECKING:

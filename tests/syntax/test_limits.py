@@ -15,7 +15,8 @@ from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.source import Source
 from desire_tui.engine.structure.structure import structure
 from desire_tui.engine.syntax import lalr_tables as tables_module
-from desire_tui.engine.syntax.parse import forget_lines, parse
+from desire_tui.engine.syntax.parse import parse
+from desire_tui.engine.syntax.parsed_lines import forget_lines
 from tests.syntax.format.statements import format_statement
 
 WRONG = disk_cache._check(marshal.dumps({"start": 1})) + marshal.dumps({"start": 1})

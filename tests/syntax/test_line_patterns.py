@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import line_patterns
-from desire_tui.engine.syntax.parse import forget_lines, parse
+from desire_tui.engine.syntax.parse import parse
+from desire_tui.engine.syntax.parsed_lines import forget_lines
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = sorted(p for folder in ("examples", "tests/programs") for p in (ROOT / folder).rglob("*.src"))

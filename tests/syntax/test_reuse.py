@@ -7,7 +7,8 @@ import pytest
 from desire_tui.engine.source import Source
 from desire_tui.engine.syntax import shapes
 from desire_tui.engine.syntax.automaton import derive
-from desire_tui.engine.syntax.parse import forget_lines, parse
+from desire_tui.engine.syntax.parse import parse
+from desire_tui.engine.syntax.parsed_lines import forget_lines
 
 
 @pytest.fixture

@@ -69,7 +69,7 @@ def test_any_text_is_survived(text) -> None:
 @given(broken_texts)
 def test_the_generated_function_agrees_with_the_grammar(text) -> None:
     """Parsing a text anew from the grammar gives nodes at the same places as the shape's function does."""
-    from desire_tui.engine.syntax.parse import forget_lines
+    from desire_tui.engine.syntax.parsed_lines import forget_lines
 
     results = []
     forget()

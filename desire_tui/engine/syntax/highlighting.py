@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import Literal
 
-from desire_tui.engine.syntax.parse import numbered
+from desire_tui.engine.syntax.logical_lines import numbered
 from desire_tui.engine.syntax.statement_tokens import (
     LETTER,
     MATFUN,

@@ -9,10 +9,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.parse import logical_lines, numbered_lines
+from desire_tui.engine.syntax.logical_lines import logical_lines, numbered_lines
 
 if TYPE_CHECKING:
-    from desire_tui.engine.syntax.parse import NumberedLine
+    from desire_tui.engine.syntax.logical_lines import NumberedLine
 
 _RANGE = re.compile(r"([0-9]+)(?:[ \t]*-[ \t]*([0-9]+))?")
 

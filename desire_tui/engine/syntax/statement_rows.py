@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.syntax.parse import goes_on, numbered, would_spoil
+from desire_tui.engine.syntax.logical_lines import goes_on, numbered, would_spoil
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
