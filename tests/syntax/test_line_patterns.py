@@ -95,6 +95,15 @@ def test_odd_lines(line, unlearned):
     assert meaning(text) == expected
 
 
+def test_a_line_that_is_too_long_looks_like_none(unlearned):
+    text = "\n".join(["x = a", "x = bb", "x = " + "y" * 1_000_001])
+    expected = unlearned(text)
+    forget_lines()
+    found = meaning(text)
+    assert found == expected
+    assert [key for key, _, _ in found[1]] == ["line-too-long"]
+
+
 @given(
     st.lists(
         st.sampled_from(

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 PATTERNS_ROOM = 500
 """Patterns of earlier programs."""
+LENGTH_MOST = 1000
+"""Characters: longer lines are few, and some are too long."""
 _DERIVATIVE = "d/dt "
 _NAME_TEXT = r"(?<![A-Za-z0-9$_.])[A-Za-z][A-Za-z0-9$_]*"
 _NUMBER_TEXT = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
@@ -54,7 +56,7 @@ _seen: RecentlyUsed[str, bool] = RecentlyUsed(PATTERNS_ROOM)
 
 def read(line: str) -> tuple[Statement, int] | None:
     """Return the statement of a line, and where it begins, if the line's pattern is known."""
-    pattern = _patterns[_skeleton(line)]
+    pattern = _patterns[_skeleton(line)] if len(line) <= LENGTH_MOST else None
     if pattern is None:
         return None
     words = _WORDS.findall(line)
@@ -71,6 +73,8 @@ def learn(line: str, chunk: StatementTokens) -> None:
 
     The second line of a kind is worth it.
     """
+    if len(line) > LENGTH_MOST:
+        return
     skeleton = _skeleton(line)
     if not _seen[skeleton]:
         _seen.keep(skeleton, True)
