@@ -61,17 +61,40 @@ class Candidates:
         ) = self._notes  # fmt: skip
 
 
+class StyleTables:
+    """What follows from rules alone, whatever the node; rules never change, other colours make new ones."""
+
+    def __init__(self) -> None:
+        self._numbered: dict[RuleSet, list[NumberedSelector]] = {}
+        self._numbers = count()
+        self._of_rules: dict[tuple[RuleSet, ...], dict[frozenset[str], Candidates]] = {}
+        self.of_selectors: dict[tuple[int, ...], RulesMap] = {}
+        """By the numbers of selectors, what they say together."""
+        self.as_stored: dict[tuple[int, ...], RulesMap] = {}
+        """The same as nodes keep it: in a rule `text_style` is a word."""
+
+    def of_names(self, rules: Iterable[RuleSet]) -> dict[frozenset[str], Candidates]:
+        """Return what was found among these rules for nodes of certain names, to be read and added to."""
+        return self._of_rules.setdefault(tuple(rules), {})
+
+    def selectors(self, rule: RuleSet) -> list[NumberedSelector]:
+        """Return a rule's selectors, the same objects whenever it is asked for."""
+        found = self._numbered.get(rule)
+        if found is None:
+            found = self._numbered[rule] = [
+                NumberedSelector(next(self._numbers), rule, selectors.selectors, selectors.specificity)
+                for selectors in rule.selector_set
+            ]
+        return found
+
+
 class QuickStylesheet(Stylesheet):
     """Textual's style sheet with a quicker `apply`; the styles are the same."""
 
     def __init__(self, *, variables: dict[str, str] | None = None) -> None:
         super().__init__(variables=variables)
-        self._numbered: dict[RuleSet, list[NumberedSelector]] = {}
-        self._numbers = count()
+        self._tables = StyleTables()
         self._of_names: dict[frozenset[str], Candidates] = {}
-        self._of_selectors: dict[tuple[int, ...], RulesMap] = {}
-        self._as_stored: dict[tuple[int, ...], RulesMap] = {}
-        """As nodes keep them: in a rule `text_style` is a word."""
         self._given: WeakKeyDictionary[DOMNode, tuple[tuple[int, ...], int]] = WeakKeyDictionary()
         """The selectors by which a node has its styles, and their count of changes then."""
         self._seen: list[RuleSet] | None = None
@@ -87,9 +110,7 @@ class QuickStylesheet(Stylesheet):
         """Take other colours: all rules will be parsed anew."""
         super().set_variables(variables)
         self._seen = None
-        self._numbered.clear()
-        self._of_selectors.clear()
-        self._as_stored.clear()
+        self._tables = StyleTables()
 
     def apply(
         self, node: DOMNode, *, animate: bool = False, cache: dict[tuple[object, ...], RulesMap] | None = None
@@ -112,19 +133,20 @@ class QuickStylesheet(Stylesheet):
         self._process_component_classes(node)
 
     def _styles(self, key: tuple[int, ...], chosen: list[NumberedSelector]) -> RulesMap:
-        if key not in self._of_selectors:
-            self._of_selectors[key] = prevailing(chosen)
-        return self._of_selectors[key]
+        said = self._tables.of_selectors.get(key)
+        if said is None:
+            said = self._tables.of_selectors[key] = prevailing(chosen)
+        return said
 
     def _give_first(self, node: DOMNode, key: tuple[int, ...], chosen: list[NumberedSelector]) -> None:
         """Give a new node its styles, at once: one by one each asks for a new layout."""
         base, styles = node.styles.base, self._styles(key, chosen)
-        as_stored = self._as_stored.get(key)
+        as_stored = self._tables.as_stored.get(key)
         if as_stored is None:
             self.replace_rules(node, styles)
             as_stored = base.get_rules()
             as_stored.pop("layout", None)  # an object for each node
-            self._as_stored[key] = as_stored
+            self._tables.as_stored[key] = as_stored
             return
         base.merge_rules(as_stored)
         if "layout" in styles:
@@ -136,24 +158,15 @@ class QuickStylesheet(Stylesheet):
         rules_map = self.rules_map
         if self._seen is not self._rules:
             self._seen = self._rules
-            self._of_names.clear()
-            for rule in self._rules:
-                if rule not in self._numbered:
-                    self._number(rule)
+            self._of_names = self._tables.of_names(self._rules)
         names = frozenset(rules_map.keys() & node._selector_names)
         found = self._of_names.get(names)
         if found is None:
             possible = {id(rule) for name in names for rule in rules_map[name]}
             rules = (rule for rule in reversed(self._rules) if id(rule) in possible)
-            found = Candidates([selector for rule in rules for selector in self._numbered[rule]])
+            found = Candidates([selector for rule in rules for selector in self._tables.selectors(rule)])
             self._of_names[names] = found
         return found
-
-    def _number(self, rule: RuleSet) -> None:
-        self._numbered[rule] = [
-            NumberedSelector(next(self._numbers), rule, selectors.selectors, selectors.specificity)
-            for selectors in rule.selector_set
-        ]
 
 
 def prevailing(selectors: Iterable[NumberedSelector]) -> RulesMap:

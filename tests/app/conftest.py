@@ -12,6 +12,7 @@ from textual._context import active_app
 from textual.css.stylesheet import Stylesheet
 
 from desire_tui.app import DesireApp
+from desire_tui.desktop.quick_stylesheet import StyleTables
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
@@ -52,8 +53,11 @@ def own_places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(f"textual.{module}.wait_for_idle", settled)
     monkeypatch.setattr("textual.pilot.Pilot._wait_for_screen", messages_read)
     monkeypatch.setattr(Stylesheet, "_parse_rules", parsed_once)
+    monkeypatch.setattr("desire_tui.desktop.quick_stylesheet.StyleTables", lambda: STYLE_TABLES)
 
 
+STYLE_TABLES = StyleTables()
+"""For all desktops of the process, whose rules are the same objects: an eighth of their start."""
 _parse_rules = Stylesheet._parse_rules
 _parsed: dict[object, list[RuleSet]] = {}
 
