@@ -1,7 +1,8 @@
 """A run against time, for a negative TMAX: the same segment over s = -t.
 
 Loops, rules and solvers always go forward. Where the segment reads t it reads -s, and dx/ds = -dx/dt; whoever
-shows times turns them round (`runtime.simulator`).
+shows times turns them round (`runtime.simulator`). An event comes where its expression rises through 0 along
+the run, and a clock's moments are the same times as forward, the latest first (`runtime.event_times`).
 """
 
 from __future__ import annotations
@@ -10,7 +11,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.lowered.expressions import Const, Load, Op
-from desire_tui.engine.lowered.statements import Deriv, DerivVec, Set, StoreHistory
+from desire_tui.engine.lowered.segment import Event
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, StoreHistory
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
@@ -25,7 +27,8 @@ def backward(segment: Segment, spare: int) -> Segment:
     """
     turned = _Turned(spare)
     body, faults = turned.of(segment.body), turned.of(segment.faults)
-    return replace(segment, body=body, faults=faults, jacobian=None)
+    events = tuple(turned.event(event) for event in segment.events)
+    return replace(segment, body=body, faults=faults, events=events, jacobian=None)
 
 
 class _Turned:
@@ -59,6 +62,18 @@ class _Turned:
         if known is None:
             known = self._known[id(part)] = part, self._copy(part, names)
         return known[1]
+
+    def event(self, event: Event) -> Event:
+        """Return an event over -t; a clock's times stay the program's, and it ends with its first moment."""
+        body = self.of(event.body)
+        if event.condition is not None:
+            return Event(body, event.where, self.of(event.condition))
+        assert event.period is not None
+        assert event.start is not None
+        early = Op("sub", (self._time, self.of(event.start)))
+        is_due = Op("add", (early, Op("mul", (Const(0.5), self.of(event.period)))))
+        body = (Guard("if", body, event.where, is_due),)
+        return Event(body, event.where, period=event.period, start=event.start)
 
     def _copy(self, part: Any, names: tuple[str, ...]) -> Any:
         if isinstance(part, Load):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import floor, isfinite
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.diagnostics import DesireError
@@ -19,8 +19,18 @@ if TYPE_CHECKING:
     from desire_tui.engine.values import Values
 
 
-def event_times(segment: Segment, values: Values) -> list[tuple[float, float]]:
-    """Return period and start of each event, 0 and 0 for a condition. DesireError 487."""
+_NEAR = 1e-12
+"""A moment so near behind a run's start, in periods, is at it."""
+
+
+def event_times(
+    segment: Segment, values: Values, *, backward_from: float | None = None
+) -> list[tuple[float, float]]:
+    """Return period and start of each event, 0 and 0 for a condition. DesireError 487.
+
+    `backward_from`: where a run against time starts. Its clocks are those of -t, and start at their latest
+    moment before that time or at it.
+    """
     if not segment.events:
         return []
     sets = [action for action in segment.body if isinstance(action, Set)]
@@ -33,6 +43,8 @@ def event_times(segment: Segment, values: Values) -> list[tuple[float, float]]:
         if not (isfinite(period) and period > 0.0 and isfinite(start)):
             facts: dict[str, object] = {"period": f"{period:g}", "start": f"{start:g}"}
             raise DesireError(at_statement("every-not-positive", facts, segment, event.where))
+        if backward_from is not None:
+            start = 0.0 - (start + period * floor((backward_from - start) / period + _NEAR))
         found.append((period, start))
     return found
 

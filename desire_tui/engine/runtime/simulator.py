@@ -98,7 +98,9 @@ class Simulator:
         lag = np.zeros(max(segment.counters, 1), dtype=np.int64)
         for counter, records in self._delays.lags(segment, plan, self._values).items():
             lag[counter] = records
-        times, taus = event_times(segment, self._values), delay_times(segment, self._values)
+        start = plan.t0 if plan.backward else None
+        times = event_times(segment, self._values, backward_from=start)
+        taus = delay_times(segment, self._values)
         record.rows = _rows(plan, record)
         self._began = perf_counter()
         positions = self.history.begin(segment)

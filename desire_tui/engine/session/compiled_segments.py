@@ -114,8 +114,8 @@ class CompiledSegments:
         """Return the segment that a run follows: for a negative TMAX, the one over -t. DesireError 483."""
         if not plan.backward:
             return segment
-        for where in [moment.where for moment in segment.events] + [value.where for value in segment.delays]:
-            raise DesireError(at_statement("moments-backward", {}, segment, where))
+        for delayed in segment.delays:
+            raise DesireError(at_statement("delay-backward", {}, segment, delayed.where))
         known = self._backward.get(id(segment))
         if known is None:
             from desire_tui.engine.passes.backward import backward

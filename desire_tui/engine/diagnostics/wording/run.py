@@ -131,8 +131,10 @@ MESSAGES: dict[str, Wording] = {
         "A warning: another DT is another process. Rules 4 and 7 to 16 cannot be used.",
         warning=True,
     ),
-    "moments-backward": Wording(
-        483, "events and delays cannot be followed backward in time", "run forward: let TMAX be positive"
+    "delay-backward": Wording(
+        483,
+        "a delay cannot be followed backward in time: it would need what is still to come",
+        "run forward: let TMAX be positive",
     ),
     "events-too-fast": Wording(
         486,
