@@ -19,6 +19,7 @@ _TOKEN = re.compile(
     r"\s*(?:(?P<text>'[^']*'|\"[^\"]*\")|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
     r"|(?P<name>[A-Za-z_$][\w$]*(?:\[[^\]\n]*\])?)|(?P<mark>->|[^\s\w]))"
 )
+_BARE_FILE = re.compile(r"[^\s,'\"]+")
 _OPEN, _CLOSE = "([{", ")]}"
 
 
@@ -80,6 +81,18 @@ class Request:
         found = self.peek().strip("'\"")
         self._at += 1
         return found
+
+    def file(self) -> str:
+        """Read a file's name, with or without quotes; without, it ends at a blank or a comma."""
+        if self.is_done or self._tokens[self._at].lastgroup == "text":
+            return self.text("a file's name")
+        begin = self.span.start
+        found = _BARE_FILE.match(self.source.text, begin)
+        if found is None:
+            self.fail(f"{self._seen()} where a file's name is expected")
+        while not self.is_done and self.span.start < found.end():
+            self._at += 1
+        return found[0]
 
     def number(self, what: str = "a number") -> float:
         """Read a number with its sign."""

@@ -37,6 +37,18 @@ def test_names_numbers_and_intervals():
     asked.end()
 
 
+def test_files_with_and_without_quotes():
+    asked = Request("swing.csv, data/run-2.csv,'my file.csv' , c loss huber", EXAMPLE)
+    files = [asked.file()]
+    while asked.take(","):
+        files.append(asked.file())
+    assert files == ["swing.csv", "data/run-2.csv", "my file.csv", "c"]
+    assert asked.take("loss")
+    with pytest.raises(DesireError) as error:
+        Request("", EXAMPLE).file()
+    assert problem(error)[0] == "the request ends where a file's name is expected"
+
+
 @pytest.mark.parametrize(
     ("text", "read", "wanted"),
     [

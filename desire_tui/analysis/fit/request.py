@@ -90,7 +90,7 @@ def _pairs(asked: Request) -> list[Pair]:
 
 
 def _files(asked: Request) -> list[str]:
-    found = [asked.text("a file's name in quotes")]
+    found = [asked.file()]
     while asked.take(","):
-        found.append(asked.text("a file's name in quotes"))
+        found.append(asked.file())
     return found
