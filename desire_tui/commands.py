@@ -6,11 +6,10 @@ the method `action` of the app's controller `part` carries it out (see `actions/
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from textual.binding import Binding
 
 from desire_tui.analysis.registry import ANALYSES
+from desire_tui.engine.data_classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from desire_tui.api.instance import LoadOptions
 from desire_tui.api.model import Model
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.studies.task import Task
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +18,7 @@ from desire_tui.api.interrupts import Interrupts
 from desire_tui.api.one_run import one_run
 from desire_tui.api.program_source import program_source
 from desire_tui.api.run_start import RunStarts
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.session.parameters import parameters
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +9,7 @@ from desire_tui.api.arguments import checked_function, checked_names, checked_ti
 from desire_tui.api.interrupts import Interrupts, watch
 from desire_tui.api.one_run import one_run
 from desire_tui.api.settings import way_of
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.session.prepared_run import RunStart
 from desire_tui.engine.values import T
 

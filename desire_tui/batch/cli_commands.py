@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ from desire_tui.batch.console import Console
 from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.batch.progress import Progress
 from desire_tui.batch.runner import Runner, RunOptions
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError, internal_error, render_all
 from desire_tui.engine.files import decoded, read_source
 from desire_tui.engine.session import process_groups

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, internal_error
 from desire_tui.engine.files import write_bytes, write_file
 from desire_tui.engine.outputs.formats import DATA, PICTURES

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.batch.output_files import STANDARD_OUTPUT
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.outputs.formats import FORMATS
 from desire_tui.engine.program_files import is_folder
 

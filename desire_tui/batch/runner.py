@@ -6,11 +6,11 @@ import os
 import signal
 import threading
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from math import inf
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, internal_error
 from desire_tui.engine.session.permissions import Permissions
 from desire_tui.engine.session.process_groups import end_all

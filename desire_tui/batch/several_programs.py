@@ -14,12 +14,12 @@ import shutil
 import signal
 import sys
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.batch.cli_commands import DONE, FAILED, LIMIT, report, run_file
 from desire_tui.batch.output_names import named_for
 from desire_tui.batch.program_voice import Voice
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.diagnostics import internal_error
 from desire_tui.engine.visible_text import visible_line
 

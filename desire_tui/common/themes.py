@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from rich.style import Style
 from textual.color import Color
 from textual.theme import Theme
 from textual.widgets.text_area import TextAreaTheme
+
+from desire_tui.engine.data_classes import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable

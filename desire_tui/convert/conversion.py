@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.ordering import CircularError
 from desire_tui.convert.program_text import program_text
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.source import Source, Span
 

@@ -6,10 +6,10 @@ writer (`names`). Every part knows the comment that stood above it in the file.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.expressions import ZERO, Expression
+from desire_tui.engine.data_classes import dataclass, field
 
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
+
+from desire_tui.engine.data_classes import dataclass
 
 Pane = Literal["editor", "command", "graph", "side"]
 Order = Literal["columns", "rows", "one"]

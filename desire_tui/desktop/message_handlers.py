@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import singledispatchmethod
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,7 @@ from desire_tui.common.dialogs import Choice
 from desire_tui.common.key_names import key_names
 from desire_tui.desktop import engine_messages
 from desire_tui.desktop.engine_thread import STOPPED_BY_USER
+from desire_tui.engine.data_classes import replace
 from desire_tui.language.problem_marks import mark_of
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 from stat import S_ISCHR, S_ISFIFO
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.editor.line_ends import ends_of, kind, with_line_feeds
 from desire_tui.engine import text_encoding
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.text_encoding import UTF_8, TextEncoding, decode
 
 if TYPE_CHECKING:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.editor.text_search import SearchRequest, Unsearchable, span
+from desire_tui.engine.data_classes import replace
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

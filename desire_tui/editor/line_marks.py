@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass, field, replace
 from desire_tui.language.problem_marks import mark_of
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rich.segment import Segment
@@ -12,6 +11,7 @@ from textual.reactive import reactive
 
 from desire_tui.common import themes
 from desire_tui.common.frame_top import FrameTop
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 import warnings
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.editor.time_limit import TookTooLong, at_most
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -13,8 +13,9 @@ import math
 from bisect import bisect_right
 from cmath import exp as _cexp
 from cmath import phase
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
+
+from desire_tui.engine.data_classes import dataclass, field
 
 if TYPE_CHECKING:
     from pathlib import Path

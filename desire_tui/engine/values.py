@@ -13,7 +13,6 @@ import gc
 import mmap
 import os
 import resource
-from dataclasses import dataclass
 from enum import Enum
 from math import prod
 from pathlib import Path
@@ -21,6 +20,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
 if TYPE_CHECKING:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from importlib import import_module
 from typing import TYPE_CHECKING
+
+from desire_tui.engine.data_classes import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.api.instance import Instance, LoadOptions
 from desire_tui.api.settings import way_of
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.runtime.delays import Delays
 from desire_tui.engine.session.prepared_run import RunStart
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.help.page_catalogue import find, topics
 
 if TYPE_CHECKING:

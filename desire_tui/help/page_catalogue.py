@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 import tomllib
-from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import Any, Literal
+
+from desire_tui.engine.data_classes import dataclass
 
 Kind = Literal["script", "DYNAMIC", "dialogue", "command", "variable", "function", "desktop", "error"]
 """Where a topic belongs. `script` statements are commands too; `dialogue` ones talk to files or the user."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.language.line_tokens import words_in
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ changes: a row whose tokens would be others is left alone.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.nodes.commands import Simple
 from desire_tui.engine.nodes.segment import Event, Every
 from desire_tui.engine.source import Source

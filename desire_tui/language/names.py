@@ -8,11 +8,11 @@ declaration belongs to the argument.
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from desire_tui.engine.check.declared import DeclaredNames
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.graph.units import named_in
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.nodes.control import Label, Procedure

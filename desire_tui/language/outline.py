@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.nodes.control import Procedure
 from desire_tui.engine.nodes.declarations import Submodel
 from desire_tui.engine.nodes.segment import Derivative, VectorDerivative

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import tempfile
 import threading
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.session.listener import Listener
 
 if TYPE_CHECKING:

@@ -6,13 +6,13 @@ so the many blank ones are worked on once, and a piece that is the same object a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rich.segment import Segment
 from rich.style import Style
 from textual.strip import Strip
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.panes.graph_styles import NO_COLOR, curve_style
 
 if TYPE_CHECKING:

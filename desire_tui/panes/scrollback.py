@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import islice
 from typing import Literal, NamedTuple
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.visible_text import visible
 
 Kind = Literal["output", "command", "error", "warning", "notice", "code"]

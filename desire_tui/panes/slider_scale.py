@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import floor, isfinite, log10
+
+from desire_tui.engine.data_classes import dataclass
 
 STEPS = 100
 LOG_STEPS = 50

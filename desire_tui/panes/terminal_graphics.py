@@ -10,11 +10,12 @@ from __future__ import annotations
 import os
 import re
 import sys
-from dataclasses import dataclass
 from select import select
 from threading import Thread
 from time import monotonic
 from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from textual.driver import Driver

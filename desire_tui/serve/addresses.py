@@ -7,8 +7,9 @@ the address 127.0.0.1 once it is loaded (DNS rebinding), which makes the Host it
 from __future__ import annotations
 
 import ipaddress
-from dataclasses import dataclass
 from urllib.parse import urlsplit
+
+from desire_tui.engine.data_classes import dataclass
 
 _DEFAULT_PORTS = {"http": 80, "https": 443}
 _LOOPBACK_NAMES = ("127.0.0.1", "localhost", "[::1]")

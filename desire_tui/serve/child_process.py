@@ -10,11 +10,11 @@ import signal
 import site
 import sys
 from asyncio.subprocess import PIPE, Process
-from dataclasses import dataclass
 from pathlib import Path
 
 import desire_tui
 from desire_tui.common.paths import state_folder
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.user_folders import STATE_VARIABLE
 
 DRIVER = "desire_tui.desktop.served_driver:ServedWebDriver"

@@ -6,8 +6,9 @@ import asyncio
 import hmac
 import secrets
 from contextlib import asynccontextmanager
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+from desire_tui.engine.data_classes import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.graph.chart_page import KEYS_MOST, MARGIN, limits_of
 from desire_tui.engine.graph.colors import ramp_color
 from desire_tui.engine.graph.curve import Curve, Frame

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.session.kept_expressions import Expression, KeptExpressions
 from desire_tui.studies.texts import number, outside, split, whole

@@ -566,7 +566,8 @@ def test_headless_runs_load_neither_textual_nor_matplotlib(decay):
     code = (
         "import sys\nfrom desire_tui.__main__ import main\n"
         f"try: main(['run', {str(decay)!r}])\nexcept SystemExit: pass\n"
-        "bad = [m for m in ('textual', 'rich', 'matplotlib', 'plotext', 'scipy') if m in sys.modules]\n"
+        "unwanted = 'textual', 'rich', 'matplotlib', 'plotext', 'scipy'\n"
+        "bad = [m for m in unwanted if m in sys.modules]\n"
         "sys.exit(repr(bad) if bad else 0)"
     )
     done = subprocess.run(
@@ -574,6 +575,29 @@ def test_headless_runs_load_neither_textual_nor_matplotlib(decay):
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
+
+
+def test_a_process_ends_with_its_status_and_is_not_taken_apart(tmp_path):
+    """Who asked to be told of the end is told; Python's clearing up takes longer than a small program."""
+    program = tmp_path / "p.src"
+    program.write_text("x = = 1\n")
+    code = (
+        "import atexit, sys\n"
+        "from desire_tui.__main__ import main\n"
+        "class Kept:\n  def __del__(self): print('taken apart')\n"
+        "kept = Kept()\n"
+        f"sys.argv = ['desire', 'check', {str(program)!r}]\n"
+        "start = sys.modules['desire_tui.__main__']._QuickEnd.__init__\n"
+        "def then_tell(self): start(self); atexit.register(print, 'told')\n"
+        "sys.modules['desire_tui.__main__']._QuickEnd.__init__ = then_tell\n"
+        "main()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert (done.returncode, done.stdout) == (1, "told\n")
+    assert "p.src:1" in done.stderr
 
 
 def test_the_quick_way_into_the_desktop_knows_all_commands():

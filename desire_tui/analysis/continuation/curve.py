@@ -7,10 +7,11 @@ predicted along the tangent and corrected across it, so that the curve may turn 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+
+from desire_tui.engine.data_classes import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -5,7 +5,6 @@ E. J. Doedel, AUTO: a program for the automatic bifurcation analysis of autonomo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -21,6 +20,7 @@ from desire_tui.analysis.continuation.collocation import (
 )
 from desire_tui.analysis.continuation.curve import Curve, Point, unit
 from desire_tui.analysis.continuation.multipliers import Multipliers, multipliers, tests_of
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +13,7 @@ from desire_tui.analysis.continuation.lyapunov import first_lyapunov
 from desire_tui.analysis.continuation.switching import exact_branch_point, other_tangent
 from desire_tui.analysis.continuation.walk import walk
 from desire_tui.analysis.equilibria.search import is_same
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from desire_tui.analysis.continuation.curve import Curve
 from desire_tui.analysis.equilibria.kinds import eigenvalues, unstable_count
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

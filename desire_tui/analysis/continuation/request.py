@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.analysis.continuation.equilibrium_curve import Range
 from desire_tui.analysis.request import Request
+from desire_tui.engine.data_classes import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

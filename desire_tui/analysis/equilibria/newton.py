@@ -6,10 +6,11 @@ simplified Newton correction is shorter, which no scaling of the equations chang
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

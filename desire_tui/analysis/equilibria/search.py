@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from desire_tui.analysis.equilibria.kinds import eigenvalues, kind
 from desire_tui.analysis.equilibria.newton import newton
+from desire_tui.engine.data_classes import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

@@ -6,12 +6,12 @@ robust loss the sandwich H⁻¹·Jᵀ·diag(ψ²)·J·H⁻¹ (Huber and Ronchett
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from desire_tui.analysis.libraries import needed
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

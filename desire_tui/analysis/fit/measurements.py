@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.data_files.data_file import read_data_file
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.session.permissions import Asker, Permissions

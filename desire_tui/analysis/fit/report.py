@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from desire_tui.analysis.fit.estimates import LEVEL
 from desire_tui.analysis.result import Result, Table
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.graph.chart import Chart, Series
 
 if TYPE_CHECKING:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.unknowns import read_unknowns
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from desire_tui.analysis.unknowns import Unknown

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +14,7 @@ from desire_tui.analysis.linear.state_space import Place, StateSpace, state_spac
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.result import Result, Table
 from desire_tui.analysis.samples import sampled
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.chart import Chart, Series
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +11,7 @@ from desire_tui.analysis.optimise.objective import Objective
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.result import Result, Table
 from desire_tui.analysis.unknowns import Scale, Unknown, read_unknowns, start_values
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.chart import Chart, Series
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from desire_tui.engine.data_classes import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

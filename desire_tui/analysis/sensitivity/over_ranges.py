@@ -6,7 +6,6 @@ Sobol' indices (Saltelli et al., Comput. Phys. Commun. 181, 2010) or the element
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from desire_tui.analysis.libraries import needed
 from desire_tui.analysis.result import Result, Table
 from desire_tui.analysis.sensitivity.bars import bars
 from desire_tui.analysis.unknowns import read_unknowns
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.chart import Chart, Series
 from desire_tui.studies.design import Design

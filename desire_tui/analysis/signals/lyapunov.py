@@ -7,13 +7,13 @@ Giorgilli & Strelcyn 1980; the QR form of Eckmann & Ruelle 1985).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.result import Result, Table
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.chart import Chart, Series
 

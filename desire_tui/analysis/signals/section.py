@@ -6,7 +6,6 @@ Hairer, Nørsett & Wanner 1993, II.5) to the moment at which the state has its v
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from desire_tui.analysis.libraries import needed
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.result import Result, Table
 from desire_tui.analysis.signals import read
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.graph.chart import Chart, Series
 

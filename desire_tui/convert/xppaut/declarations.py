@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
+
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from desire_tui.convert.xppaut.logical_lines import Line

@@ -7,11 +7,11 @@ neighbour; `%[1..3]` repeats all lines up to the next `%`.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.problem import placed
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.files import read_source
 from desire_tui.engine.source import Source, Span

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.model import Model
@@ -14,6 +13,7 @@ from desire_tui.convert.xppaut.flags import events
 from desire_tui.convert.xppaut.logical_lines import logical_lines
 from desire_tui.convert.xppaut.presets import presets, read_options, settings
 from desire_tui.convert.xppaut.quantities import quantities
+from desire_tui.engine.data_classes import replace
 
 if TYPE_CHECKING:
     from desire_tui.convert.xppaut.logical_lines import Line

@@ -6,13 +6,13 @@ known beforehand: bounds and places made of numbers, constants, or parameters at
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.convert.expressions import Call, Name, number, substituted, total, with_parts
 from desire_tui.convert.xppaut.constants import constant
 from desire_tui.convert.xppaut.expression_parser import INDEX, SUM
 from desire_tui.convert.xppaut.vocabulary import NotConvertibleError
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.data_files.data_file import time_column
 from desire_tui.engine.data_files.table_names import columns_beside, table_names
 from desire_tui.engine.diagnostics import Diagnostic

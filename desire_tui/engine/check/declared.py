@@ -7,11 +7,11 @@ counts.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.check.data_columns import data_columns
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.lowering.constant_values import evaluate
 from desire_tui.engine.lowering.scope import UNKNOWN, StaticScope
 from desire_tui.engine.nodes.assignments import Assign

@@ -7,12 +7,12 @@ names or on a line of their own; Excel files through pandas.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 from io import BytesIO
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.data_files.data_table import (
     cells_of,
     column_names,

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
+from desire_tui.engine.data_classes import dataclass, field, replace
 from desire_tui.engine.diagnostics.wording import wording_of
 
 if TYPE_CHECKING:

@@ -5,12 +5,12 @@ A logarithmic axis shows the logarithms: frames, windows and limits are those of
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import log10
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.graph.polylines import to_unit
 
 if TYPE_CHECKING:

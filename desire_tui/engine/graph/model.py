@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.graph.axes import Axes
 from desire_tui.engine.graph.color_keys import color_keys
 from desire_tui.engine.graph.measured_curve import without_known

@@ -6,10 +6,10 @@ and when the program is over.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.graph.colors import ramp_color
 
 if TYPE_CHECKING:

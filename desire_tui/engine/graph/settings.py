@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.graph.axes import AXIS_WORDS, Axes
 from desire_tui.engine.graph.colors import BLACK, WHITE
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.integration.problem import Matrix
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.sundials.library import is_there, superlu

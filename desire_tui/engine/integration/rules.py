@@ -6,9 +6,9 @@ from here. Imports nothing heavy: front ends read it at their start.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
 Kind = Literal["dummy", "fixed", "variable", "multistep", "series"]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass, replace
 from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.integration.bdf.solver import OwnSolver
 from desire_tui.engine.integration.problem import (
     ERROR_SHARE,

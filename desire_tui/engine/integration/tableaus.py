@@ -11,11 +11,11 @@ k's (`whole_multiples`), so that all give the same bits.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from math import lcm
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.integration.rules import RULES, Rule
 
 Row = tuple[Fraction, ...]

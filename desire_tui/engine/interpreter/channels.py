@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Literal
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.data_files.data_table import DataTable, begins_with_number, column_names, separator_of
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.program_files import open_for_program

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.data_files.data_file import read_program_data
 from desire_tui.engine.data_files.table_names import table_names
 from desire_tui.engine.diagnostics import DesireError, Diagnostic

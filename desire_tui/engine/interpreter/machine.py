@@ -7,10 +7,10 @@ kind of arguments), then the command line being executed. A call pushes the addr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.interpreter.code_table import CodeTable, Finished, Operation, ScriptCode, StatementList
 from desire_tui.engine.interpreter.compile_python import PythonCompiler

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.library import LIBRARY

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.interpreter.number_text import scalar_text
 from desire_tui.engine.values import Kind
 

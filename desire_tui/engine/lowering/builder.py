@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from math import prod
 from typing import TYPE_CHECKING, Literal
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Vec
 from desire_tui.engine.lowered.segment import Event
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetVec, Terminate

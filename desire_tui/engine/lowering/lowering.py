@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.diagnostics.spelling import few_hints
 from desire_tui.engine.gc_pause import undisturbed_allocation

@@ -8,9 +8,9 @@ must be carried out in every pass it belongs to (language.md 9.1, 9.2; book, sec
 from __future__ import annotations
 
 from bisect import bisect_left
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.lowered.statements import Set, SetDot, SetMat, SetVec
 from desire_tui.engine.passes.intervals import Intervals
 from desire_tui.engine.values import SYSTEM_SLOTS

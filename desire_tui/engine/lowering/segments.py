@@ -6,10 +6,10 @@ learning) → persistence (flow) → `lowered.Segment`. All problems of the segm
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, assert_never, get_args
 
 from desire_tui.engine.cancellation import cancellation_point, handing_over
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.integration.rules import RULES
 from desire_tui.engine.lowered.effects import writes

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.nodes.record import node
 from desire_tui.engine.source import Source, Span
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import replace
 from io import BytesIO
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
 from desire_tui.engine.graph.fit import WHOLE, Extent, limits, notice
 from desire_tui.engine.graph.model import FEW_POINTS

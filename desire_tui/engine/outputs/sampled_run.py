@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import closest
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ limits change.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from threading import Lock
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.graph.axes import equalized
 from desire_tui.engine.graph.fit import WHOLE, limits
 from desire_tui.engine.graph.ticks import log_ticks, minor_log_ticks, minor_ticks, round_ticks, tick_labels

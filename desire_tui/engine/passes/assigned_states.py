@@ -8,10 +8,10 @@ it from t, parameters and states before it is read.
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.effects import count_draws, expressions, reads, writes
 from desire_tui.engine.lowered.expressions import Load, Vec
 from desire_tui.engine.lowered.segment import JacobianEntry, StateRange

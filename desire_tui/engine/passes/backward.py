@@ -7,9 +7,9 @@ the run, and a clock's moments are the same times as forward, the latest first (
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowered.segment import Event
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, StoreHistory

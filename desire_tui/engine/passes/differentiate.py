@@ -9,9 +9,9 @@ once for each column (or group of columns, `integration.pattern`) of the Jacobia
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, assert_never
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.lowered.effects import reads_replaced, role, writes
 from desire_tui.engine.lowered.expressions import (
     Const,

@@ -8,9 +8,9 @@ tangent, so S+ = S- + (f- - f+)·t*').
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.lowered.segment import Event
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetMat, SetVec

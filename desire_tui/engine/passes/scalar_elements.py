@@ -5,9 +5,9 @@ The operations of each element, and their order, are those of the loops in `code
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.effects import reads_replaced
 from desire_tui.engine.lowered.expressions import (
     Const,

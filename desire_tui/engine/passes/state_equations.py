@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.lowered.effects import count_draws, expressions, reads, writes
 from desire_tui.engine.lowered.expressions import Const, Op

@@ -8,9 +8,9 @@ it switches. `term` is a mode that only has to be located. Kinks by states are l
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.effects import count_draws, expressions, role, writes
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetMat, SetVec, Terminate

@@ -10,9 +10,9 @@ What happens at moments that depend on parameters themselves is the matter of `m
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.lowered.segment import SampleColumn, StateRange
 from desire_tui.engine.passes.delay_tangents import DelayTangents
 from desire_tui.engine.passes.differentiate import Differentiator, with_tangents

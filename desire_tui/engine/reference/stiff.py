@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.bdf.solver import OwnSolver
 from desire_tui.engine.integration.callbacks import PythonCallbacks

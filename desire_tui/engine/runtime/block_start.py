@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     import numpy as np

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from math import inf, isfinite, isnan, ulp
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY, RULES, rule_numbered
 from desire_tui.engine.runtime.plan import ROUNDING, RunPlan

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import weakref
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, assert_never
 
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import DUMMY, RULES
 from desire_tui.engine.lowered.problems import at_statement

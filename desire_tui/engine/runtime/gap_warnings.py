@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.runtime.run_faults import defining, described
 

@@ -8,12 +8,12 @@ span to span, so that t comes to an end of its own long before the run's (the sp
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.integration.rules import rule_numbered
 
 if TYPE_CHECKING:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass, field, replace
 from desire_tui.engine.values import DT, T
 
 if TYPE_CHECKING:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.integration.rules import RULES
 
 ROUNDING = 1e-9

@@ -6,11 +6,11 @@ one.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import write_bytes
 from desire_tui.engine.lowered.statements import GetHistory

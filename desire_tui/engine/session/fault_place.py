@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import isnan
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.lowered.expressions import Op
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Set, SetVec

@@ -7,9 +7,9 @@ program displays. Nothing else reads them, so passes at steps leave them out: th
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.lowered.segment import SampleColumn, SampleRequest
 from desire_tui.engine.lowered.statements import Guard, Set, Where

@@ -8,9 +8,9 @@ give it or its array a value (ARRAY, read, input, MATRIX, call …) stands an as
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import Diagnostic, closest
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.control import For

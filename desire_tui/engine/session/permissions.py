@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.program_files import exists, irregular_kind, is_folder
 from desire_tui.engine.session.made_files import MadeFiles

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, closest
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import SampleColumn

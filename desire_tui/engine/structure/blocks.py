@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.cancellation import cancellation_point
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple

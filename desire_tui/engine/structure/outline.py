@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+from desire_tui.engine.data_classes import dataclass, field
 
 if TYPE_CHECKING:
     from desire_tui.engine.diagnostics import Diagnostic

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from textwrap import dedent
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.export.c import rule as steps
 from desire_tui.export.c.expressions import number
 

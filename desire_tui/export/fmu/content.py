@@ -6,7 +6,6 @@ import platform
 import re
 import subprocess
 import sys
-from dataclasses import replace
 from hashlib import blake2b
 from importlib.resources import files
 from io import BytesIO
@@ -15,6 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 from zipfile import ZIP_DEFLATED, ZipFile
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic, closest
 from desire_tui.export.c.model_file import ModelFile
 from desire_tui.export.fmu.description import Description

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.left_chains import chain
 from desire_tui.engine.nodes.assignments import Assign, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Simple

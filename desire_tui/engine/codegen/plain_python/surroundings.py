@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import builtins
 import math
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.codegen.plain_python import library
 from desire_tui.engine.codegen.plain_python.kinds import ANNOTATIONS, Kind
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.integration.switching import mathematics
 
 if TYPE_CHECKING:

@@ -8,12 +8,12 @@ have other last bits in vectors than alone, and results must not depend on a nei
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.ir.functions import C_FUNCTIONS
 from desire_tui.engine.codegen.scalar.templates import NotPlainError, shape
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.lowered.statements import Deriv, Set
 from desire_tui.engine.recently_used import RecentlyUsed
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.lowered.effects import memory, own_reads, writes
 from desire_tui.engine.lowered.expressions import Vec
 from desire_tui.engine.lowered.statements import DerivVec, SetVec

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.counted_loops import loop
+from desire_tui.engine.data_classes import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics.wording.entry import Wording
 
 _FOR = "write: for i = 1 to 10 step 2"

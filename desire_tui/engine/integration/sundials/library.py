@@ -8,11 +8,11 @@ vector made by it.
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.sundials.signatures import CORE, CVODE, SUPERLU, declare
 

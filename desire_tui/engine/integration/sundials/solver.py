@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ctypes
 import weakref
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.integration.problem import (
     DOUBT_FAILURE,
     DOUBT_FROM,

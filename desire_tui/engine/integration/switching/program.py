@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.integration.switching.operations import BY_NAME, Operation
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
 from desire_tui.engine.values import T

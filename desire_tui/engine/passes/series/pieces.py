@@ -5,9 +5,9 @@ Under other rules error control sees to kinks by states; a Taylor series must kn
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetMat, SetVec
 from desire_tui.engine.lowered.walk import simple_actions, walk_values, with_bodies

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
 from math import ceil
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.integration.tableaus import whole_multiples
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.runtime.moments.memory import Moments
