@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from desire_tui.analysis.registry import ANALYSES
-from desire_tui.cli.ending import guarded
+from desire_tui.batch.ending import guarded
 from desire_tui.cli.group import PROGRAMS
 from desire_tui.cli.run_command import settings
 

@@ -6,7 +6,7 @@ import sys
 
 import click
 
-from desire_tui.cli.ending import guarded
+from desire_tui.batch.ending import guarded
 from desire_tui.cli.group import PROGRAMS
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from desire_tui.cli.ending import guarded
+from desire_tui.batch.ending import guarded
 
 
 @click.command()

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 
 import click
 
-from desire_tui.cli.ending import guarded
+from desire_tui.batch.ending import guarded
 
 
 @click.command()

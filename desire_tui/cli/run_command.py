@@ -1,4 +1,4 @@
-"""`desire run`: its options, and what is refused before a program runs."""
+"""`desire run`: its options. `plain_words` reads the same ones: a new option has its line there too."""
 
 from __future__ import annotations
 
@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from desire_tui.cli.ending import guarded
+from desire_tui.batch.ending import WrongUsage, guarded
 from desire_tui.cli.group import PROGRAMS
-from desire_tui.engine.outputs.formats import FORMATS, DataFormat, OutputFormat
-from desire_tui.engine.outputs.picture_options import DPI_LEAST, DPI_MOST, INCHES_MOST, PictureOptions, inches
+from desire_tui.engine.outputs.formats import FORMATS
+from desire_tui.engine.outputs.picture_options import DPI_LEAST, DPI_MOST, INCHES_MOST, inches
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    from desire_tui.batch.output_files import OutputFiles
 
 _OUTPUT = click.Path(writable=False, readable=False, allow_dash=True)
 _Command = TypeVar("_Command", bound="Callable[..., Any]")
@@ -86,65 +84,9 @@ def run(files: tuple[str, ...], **options: Any) -> None:
     name with {}, which stands for the program's name. Exit status: 0 done, 1 a program failed, 2 wrong usage,
     3 stopped by a limit or Ctrl-C.
     """
-    sys.exit(guarded(lambda: _run(files, **options)))
+    from desire_tui.batch.run_programs import run_programs
 
-
-def _run(programs: tuple[str, ...], **options: Any) -> int:
-    from desire_tui.batch.output_files import OutputFiles
-    from desire_tui.batch.output_names import make_folders, named_for
-    from desire_tui.batch.runner import RunOptions
-
-    files = {known.name: options[known.name] for known in FORMATS if options[known.name] is not None}
-    picture = PictureOptions(options["size"] or PictureOptions().inches, options["dpi"], options["style"])
-    outputs = OutputFiles(files, plot=options["plot"], picture=picture)
-    _check_outputs(outputs, programs)
-    run_options = RunOptions(
-        settings=options["settings"], answer_stops=options["go"], timeout=options["timeout"],
-        backend=options["backend"], allow_shell=options["allow_shell"], allow_write=options["allow_write"],
-    )  # fmt: skip
-    make_folders(outputs)
-    answers, quiet, raw = options["answers"], options["quiet"], options["raw"]
-    if len(programs) == 1:
-        from desire_tui.batch.cli_commands import run_file
-
-        outputs = named_for(outputs, programs[0])
-        return run_file(programs[0], run_options, outputs, answers, quiet=quiet, raw=raw)
-    import os
-
-    from desire_tui.batch.several_programs import HowToRun, run_files
-
-    how = HowToRun(run_options, outputs, answers, quiet, raw)
-    return run_files(programs, how, options["jobs"] or os.cpu_count() or 1)
-
-
-def _check_outputs(outputs: OutputFiles, programs: tuple[str, ...]) -> None:
-    """Refuse what cannot be written before anything runs. UsageError."""
-    from desire_tui.batch.output_files import STANDARD_OUTPUT
-    from desire_tui.batch.output_names import clash
-
-    files = outputs.files
-    if sum(name == STANDARD_OUTPUT for name in files.values()) > 1:
-        raise click.UsageError("only one file can go to standard output")
-    if len(programs) > 1:
-        if STANDARD_OUTPUT in programs:
-            raise click.UsageError("- (standard input) is one program, and runs alone")
-        if reason := clash(outputs, programs):
-            raise click.UsageError(reason)
-    for known in FORMATS:
-        if known.name in files:
-            _check_library(known)
-        is_text = isinstance(known, DataFormat) and known.is_text
-        if files.get(known.name) == STANDARD_OUTPUT and not is_text and sys.stdout.isatty():
-            raise click.UsageError(
-                f"--{known.name} - is nothing that a terminal shows: name a file, or send the output to one"
-            )
-
-
-def _check_library(known: OutputFormat) -> None:
-    """Say before the program runs that a format's library is missing, not after an hour of it."""
-    from importlib.util import find_spec
-
-    if isinstance(known, DataFormat) and known.needs is not None and find_spec(known.needs) is None:
-        raise click.UsageError(
-            f"--{known.name} needs the library {known.needs}: pip install 'desire-tui[data]'"
-        )
+    try:
+        sys.exit(guarded(lambda: run_programs(files, options)))
+    except WrongUsage as wrong:
+        raise click.UsageError(str(wrong)) from None

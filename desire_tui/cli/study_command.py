@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from desire_tui.cli.ending import guarded
+from desire_tui.batch.ending import guarded
 from desire_tui.cli.group import PROGRAMS
 from desire_tui.cli.run_command import settings
 

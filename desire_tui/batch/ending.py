@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
+class WrongUsage(ValueError):  # noqa: N818 - what click calls UsageError
+    """Words that cannot be meant so together; the text says why."""
+
+
 def guarded(work: Callable[[], int]) -> int:
     """Run a command; what the machine refuses (a closed pipe, a full disk) is a message, not a traceback."""
     for sentence in ignored_variables():
