@@ -9,21 +9,14 @@ import numpy as np
 
 from desire_tui.engine.codegen.ir.shared_loops import BLOCK, is_large
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
-from desire_tui.engine.codegen.lanes.replica_steps import replica_steps
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
-from desire_tui.engine.codegen.loop.looks import looks
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
-from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.codegen.scalar.slot_usage import survey
-from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.integration.rules import rule_numbered
-from desire_tui.engine.integration.switching.memory import Watch
-from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
-from desire_tui.engine.passes.replicas import replicated
 from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
@@ -35,6 +28,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.background import Improver
     from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
     from desire_tui.engine.codegen.loop.looks import Looks
+    from desire_tui.engine.integration.switching.setup import Watcher
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.switching import Switching
     from desire_tui.engine.values import Values
@@ -134,7 +128,13 @@ class NativeModel:
         return thread_pool().share
 
     def _watch(self, switching: Switching) -> None:
-        """Prepare what sees to the segment's switches."""
+        """Prepare what sees to the segment's switches, with modules that few programs need."""
+        from desire_tui.engine.codegen.loop.looks import looks
+        from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
+        from desire_tui.engine.codegen.switching.watch_routines import watch_functions
+        from desire_tui.engine.integration.switching.memory import Watch
+        from desire_tui.engine.integration.switching.setup import Watcher
+
         values, segment, context = self._values, self._segment, self.context
         self._watched = Watched(bool(switching.clocks), bool(switching.modes))
         slots = switching.slots
@@ -180,9 +180,13 @@ class NativeModel:
         """Compile the whole step of a model of replicas, and put it in the place of passes."""
         if self._segment.order == 0 or rule_numbered(self._rule).kind != "fixed":
             return
+        from desire_tui.engine.passes.replicas import replicated
+
         model = replicated(self._passes, self._segment.states)
         if model is None:
             return
+        from desire_tui.engine.codegen.lanes.replica_steps import replica_steps
+
         step = self._store.fast(replica_steps(model, TABLEAUS[self._rule]), slp=False)
         self._kept.append(step)
         self.context.whole_step = (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from difflib import unified_diff
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.session.report import WHY
@@ -37,6 +36,8 @@ def program_page(name: str, version: int, text: str, before: str | None) -> str:
     head = f"**{plain(name)}**, version {version}\n\n"
     if before is None:
         return head + block("desire", text)
+    from difflib import unified_diff  # 1 ms at every start
+
     old, new = (version_text.rstrip("\n").split("\n") for version_text in (before, text))
     names = (f"{name} version {version - 1}", f"{name} version {version}")
     difference = list(unified_diff(old, new, *names, lineterm=""))

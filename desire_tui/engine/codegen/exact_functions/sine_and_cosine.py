@@ -11,6 +11,7 @@ below 1/8, glibc says 0.501 units of the last place.
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 from math import factorial
 from typing import TYPE_CHECKING
 
@@ -52,16 +53,16 @@ def _economized(terms: list[Fraction], most: Fraction) -> list[Fraction]:
     return [term - part * c for term, c in zip(terms[:-1], now[:-1], strict=True)]
 
 
-_SQUARE_MOST = (half_pi() / 2) ** 2
-_SINE = _economized([_term(n) for n in range(5, 18, 2)], _SQUARE_MOST)
-_COSINE = _economized([_term(n) for n in range(6, 19, 2)], _SQUARE_MOST)
-"""Taylor's series behind x³ and x⁴, in powers of x²: 2⁻⁶⁴ off."""
+@cache
+def _series(least: int) -> list[Fraction]:
+    """Return Taylor's series from x⁵ or x⁶ on, in powers of x²: 2⁻⁶⁴ off."""
+    return _economized([_term(n) for n in range(least, least + 13, 2)], (half_pi() / 2) ** 2)
 
 
 def sine(pairs: Pairs, r: Pair, square: Pair) -> Pair:
     """Return sin r for |r| ≤ π/4."""
     lanes = pairs.lanes
-    factor = pairs.by(square, pairs.series(square.high, _term(3), _SINE))
+    factor = pairs.by(square, pairs.series(square.high, _term(3), _series(5)))
     change = pairs.by(r, factor)
     total = pairs.sum(r.high, change.high)
     return Pair(total.high, lanes.add(total.low, lanes.add(change.low, r.low)))
@@ -69,7 +70,7 @@ def sine(pairs: Pairs, r: Pair, square: Pair) -> Pair:
 
 def cosine(pairs: Pairs, square: Pair) -> Pair:
     """Return cos r for |r| ≤ π/4."""
-    inner = pairs.by(square, pairs.series(square.high, _term(4), _COSINE))
+    inner = pairs.by(square, pairs.series(square.high, _term(4), _series(6)))
     return pairs.constant_plus(Fraction(1), pairs.by(square, pairs.constant_plus(_term(2), inner)))
 
 

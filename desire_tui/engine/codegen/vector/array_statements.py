@@ -10,7 +10,6 @@ from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions, is_separable
 from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_footprint
 from desire_tui.engine.codegen.vector.in_place import write_in_place
-from desire_tui.engine.codegen.vector.learning import write_learning
 from desire_tui.engine.codegen.vector.matrices import write_dot, write_matrix
 from desire_tui.engine.codegen.vector.operands import ArrayOperands
 from desire_tui.engine.codegen.vector.rerolled_loops import write_rolled
@@ -50,6 +49,8 @@ class ArrayStatements(ArrayOperands):
             case SetDot():
                 write_dot(self, action)
             case LearningStep():
+                from desire_tui.engine.codegen.vector.learning import write_learning  # few programs learn
+
                 write_learning(self, action)
                 self.cells.forget()
             case SetVec() | DerivVec():
