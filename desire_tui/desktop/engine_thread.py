@@ -142,7 +142,7 @@ class EngineThread:
 
 
 def warm_up() -> None:
-    """Compile and run a small program for nobody and frame its graph.
+    """Compile and run a small program for nobody, frame its graph, compile the loops of the other rules.
 
     What this imports, the first `zz` need not.
     """
@@ -157,3 +157,6 @@ def warm_up() -> None:
     if session.graph is not None:
         text_frame(session.graph, 40, 12)
         Painter(Canvas(40, 12), session.graph).update()
+    from desire_tui.engine.codegen.compiler_state import shared_state
+
+    shared_state().prepare_loops()

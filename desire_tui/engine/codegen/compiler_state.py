@@ -17,8 +17,6 @@ from desire_tui.engine.integration.rules import MOST_USED_FIRST
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.stiff.solver_routines import SolverRoutines
 
-_SETTLED_SECONDS = 0.4
-"""A process that lives longer than this may run more programs: a headless run is over by then."""
 _END_SECONDS = 1.0
 _ABANDONED_SECONDS = 30.0
 """For a compilation that nobody waits for any more."""
@@ -61,16 +59,14 @@ class CompilerState:
         llvm_turn.wait(_ABANDONED_SECONDS)
 
     def _warm_up(self) -> None:
-        """Load LLVM; later compile every rule's loop, so that the next program need not."""
+        """Load LLVM."""
         try:
-            self._load()
+            machine()
         except Exception:  # noqa: BLE001 - the engine meets the same fault when it compiles, and reports it there
             return
 
-    def _load(self) -> None:
-        machine()
-        if self._ending.wait(_SETTLED_SECONDS):
-            return
+    def prepare_loops(self) -> None:
+        """Compile every rule's loop, so that the next program need not: where more programs will be run."""
         for rule in MOST_USED_FIRST:
             if self._ending.is_set():
                 return
