@@ -18,7 +18,7 @@ COMMANDS = frozenset({
 """As in `cli`, which takes 30 ms to import; a test holds them together."""
 
 
-YOUNG_MOST = 50_000
+YOUNG_MOST = 200_000
 """New objects after which the garbage collector of a headless process looks at them. Python's own 700 are a
 tenth of a short run: modules stay, and Desire's own garbage holds no cycles."""
 BLAS_IDLE = "20"
