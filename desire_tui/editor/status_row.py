@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from desire_tui.editor.code_area import CodeArea
 
 
-ROWS_MOST = 4
-"""A problem takes no more rows from the text."""
+ROWS_ALWAYS = 4
+"""A problem may have so many rows; more if the text keeps half of the height."""
 
 
 class StatusRow(Horizontal):
@@ -80,7 +80,8 @@ class StatusRow(Horizontal):
         """Show a problem whole: over several rows where one is too short."""
         rows, place = 1, (area, area.cursor_location[0])
         if width and cell_len(sentence) > width:
-            rows = min(len(wrap(sentence, width)), ROWS_MOST)
+            half = (area.size.height + self.rows) // 2
+            rows = min(len(wrap(sentence, width)), max(ROWS_ALWAYS, half))
         if rows > self.rows:
             self._grown_at = place
         elif rows == self.rows or (not checked and place == self._grown_at):

@@ -74,7 +74,7 @@ def a_folder() -> Iterator[Path]:
 async def main() -> None:
     """Play every scene and keep its last picture."""
     from .scenes import PICTURES, app_for, play
-    from .svg import tidy
+    from .svg import smaller, tidy
 
     FOLDER.mkdir(parents=True, exist_ok=True)
     KEYS.write_text(keys_page())
@@ -85,7 +85,9 @@ async def main() -> None:
                 os.utime(path, (NOON, NOON))
             async with app.run_test(size=scene.size) as pilot:
                 await play(app, pilot, scene)
-                (FOLDER / f"{scene.name}.svg").write_text(tidy(app.export_screenshot(title="Desire")))
+                (FOLDER / f"{scene.name}.svg").write_text(
+                    smaller(tidy(app.export_screenshot(title="Desire")))
+                )
         print(FOLDER / f"{scene.name}.svg")  # noqa: T201 - a tool of the command line
 
 

@@ -71,3 +71,44 @@ def _dots(run: str, at: float, y: float, wide: float, colour: str) -> str:
     ]
     style = f'stroke="{colour}" stroke-width="{_DOT_SIZE}" stroke-linecap="round" fill="none"'
     return f'<path d="{"".join(path)}" {style}/>' if path else ""
+
+
+_CLIPS = re.compile(r'\s*<clipPath id="[^"]*-line-\d+">.*?</clipPath>', re.DOTALL)
+_CLIP = re.compile(r' clip-path="url\([^"]*-line-\d+\)"')
+_FACE = re.compile(r"\s*@font-face \{.*?\}", re.DOTALL)
+_RECT = re.compile(
+    r'<rect fill="(?P<fill>[^"]+)" x="(?P<x>[\d.]+)" y="(?P<y>[\d.]+)" width="(?P<width>[\d.]+)"'
+    r' height="(?P<height>[\d.]+)" shape-rendering="crispEdges"/>'
+)
+
+
+def smaller(svg: str) -> str:
+    """Return a tidy screenshot without what shows nothing: clips of whole rows, fonts of the web, long names.
+
+    Neighbours of one colour become one.
+    """
+    svg = re.sub(r"terminal-\d+-", "t-", _FACE.sub("", _CLIP.sub("", _CLIPS.sub("", svg))))
+    kept: list[str] = []
+    last: re.Match[str] | None = None
+    start = end = 0.0
+    at = 0
+
+    def close() -> None:
+        if last is not None:
+            wide = f'width="{end - start:.1f}"'
+            kept.append(
+                f'<rect fill="{last["fill"]}" x="{start:.1f}" y="{last["y"]}" {wide} height="{last["height"]}"'
+                ' shape-rendering="crispEdges"/>'
+            )
+
+    for found in _RECT.finditer(svg):
+        x, width = float(found["x"]), float(found["width"])
+        same = last is not None and (last["fill"], last["y"]) == (found["fill"], found["y"])
+        between = svg[at : found.start()]
+        if not (same and abs(x - end) < 0.2 and not between.strip()):
+            close()
+            kept.append(between)
+            last, start = found, x
+        end, at = x + width, found.end()
+    close()
+    return "".join((*kept, svg[at:]))

@@ -10,7 +10,7 @@ from xml.etree import ElementTree as ET
 from rich.console import Console
 from rich.text import Text
 
-from .svg import tidy
+from .svg import smaller, tidy
 
 
 def shot(text: Text) -> str:
@@ -51,3 +51,30 @@ def test_blanks_around_words_become_their_place():
 
 def test_it_stays_well_formed():
     ET.fromstring(tidy(shot(Text("x < 1 & y > 2  \u28c0"))))
+
+
+def test_smaller_pictures_show_the_same():
+    text = Text.assemble(
+        ("ab", "on #112233"), (" cd", "on #112233"), (" \u28ff", "#abcdef on #223344"), "\nnext"
+    )
+    svg = tidy(shot(text))
+    small = smaller(svg)
+    assert len(small) < 0.6 * len(svg)
+    ET.fromstring(small)
+    rects = [
+        re.findall(r'<rect fill="(#112233|#223344)" x="([\d.]+)" y="([\d.]+)" width="([\d.]+)"', s)
+        for s in (svg, small)
+    ]
+    covered = [
+        {(fill, y): (min(float(x) for f, x, v, _ in found if (f, v) == (fill, y)),
+                     sum(float(w) for f, _, v, w in found if (f, v) == (fill, y))) for fill, _, y, _ in found}
+        for found in rects
+    ]  # fmt: skip
+    assert len(rects[1]) == 2 < len(rects[0])
+    assert covered[0].keys() == covered[1].keys()
+    for place, (start, width) in covered[0].items():
+        assert abs(covered[1][place][0] - start) < 0.11
+        assert abs(covered[1][place][1] - width) < 0.11
+    for pattern in (r"<text[^>]*>([^<]*)<", r'<path d="([^"]*)"', r'textLength="([\d.]+)"'):
+        assert re.findall(pattern, small) == re.findall(pattern, svg)
+    assert "url(http" not in small
