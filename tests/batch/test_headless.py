@@ -405,7 +405,8 @@ def test_ctrl_c_ends_with_status_3(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "module", ["click", "numpy", "desire_tui.batch.cli_commands", "desire_tui.engine.session"]
+    "module",
+    ["desire_tui.plain_words", "numpy", "desire_tui.batch.cli_commands", "desire_tui.engine.session"],
 )
 @pytest.mark.parametrize("command", ["run", "check"])
 def test_ctrl_c_while_the_program_is_still_loading(decay, command, module):
