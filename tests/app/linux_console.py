@@ -7,7 +7,8 @@
 
 Words behind `--`: a key in QEMU's names (`f5`, `ctrl-p`, `shift-f1`), a number of seconds to wait, `=NAME` for a
 picture `pictures/NAME.ppm`. The machine boots a kernel of Debian without KVM (30 s; Python is 20 times slower
-than outside), takes this machine's files by 9p, read only, and starts the desktop on tty1 with TERM=linux.
+than outside), takes this machine's files by 9p, read only, and starts the desktop on tty1 with TERM=linux. A
+program FILE.out is what a desktop wrote elsewhere to a terminal of TERM=linux and that size: it is shown at once.
 `--font Lat15-Fixed16` loads a font of console-setup's, as Debian does; else the kernel's own is there;
 `--vga 791` is a framebuffer of 128 x 48 characters, else VGA's text mode of 80 x 25.
 """
@@ -36,17 +37,18 @@ INIT = """#!/bin/busybox sh
 export PATH=/bin
 /bin/busybox --install -s /bin
 mount -t devtmpfs dev /dev; mount -t proc proc /proc; mount -t sysfs sys /sys
+ip link set lo up
+[ -f /font ] && setfont /font -C /dev/tty1
+[ -f /recording ] && {{ cat /recording >/dev/tty1; sleep 10000; }}
 for module in {modules}; do insmod /modules/$module.ko; done
-mount -t 9p -o trans=virtio,version=9p2000.L,ro,cache=loose,msize=524288 host /host
+mount -t 9p -o trans=virtio,version=9p2000.L,ro,cache=loose,msize=512000 host /host
 for place in dev proc sys; do mount --bind /$place /host/$place; done
 mount -t tmpfs tmp /host/tmp; mkdir /host/tmp/home /host/tmp/work
-cp /{program} /host/tmp/work/
-[ -f /font ] && setfont /font -C /dev/tty1
-ip link set lo up
+cp /program.src /host/tmp/work/
 cat > /host/tmp/start <<'END'
 cd /tmp/work
 export HOME=/tmp/home TERM=linux LANG=C.UTF-8 PYTHONPATH={tree} PYTHONDONTWRITEBYTECODE=1
-{python} -m desire_tui {program}
+{python} -m desire_tui program.src
 echo "ended: $?"
 exec sh
 END
@@ -85,7 +87,8 @@ def _first_files(folder: Path, given: argparse.Namespace) -> Path:
     for name in ("bin", "dev", "proc", "sys", "host", "modules"):
         (files / name).mkdir(parents=True)
     shutil.copy(given.system / "bin" / "busybox", files / "bin")
-    shutil.copy(given.program, files)
+    recorded = given.program.suffix == ".out"
+    shutil.copy(given.program, files / ("recording" if recorded else "program.src"))
     (kernel,) = (given.system / "lib" / "modules").iterdir()
     found = []
     for module in MODULES:

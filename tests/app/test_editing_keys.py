@@ -124,13 +124,15 @@ async def test_a_problem_is_shown_whole_at_the_cursor_and_the_cursor_stays_in_si
 async def test_a_problem_of_five_rows_is_shown_whole_where_half_of_the_editor_is_left(program):
     text = OSCILLATOR.replace("d/dt v = -x", "d/dt v = -x*sqrt(0.5 - x)/3")
     async with desktop(program(text), size=(100, 30)) as desk:
-        area, row = desk.app.editor.front, desk.app.editor.query_one(StatusRow)
+        area, label = desk.app.editor.front, desk.app.editor.query_one(StatusRow).query_one("#problem")
+
+        def shown() -> list[str]:
+            lines = [label.render_line(y).text.strip() for y in range(label.size.height)]
+            return " ".join(lines).split() if len(lines) == 5 else []
+
         await desk.press("f5")
-        await desk.until(lambda: row.size.height > 1)
-        label = row.query_one("#problem")
-        lines = [label.render_line(y).text.strip() for y in range(label.size.height)]
-        assert len(lines) == 5
-        assert " ".join(lines).split() == area.marks.all_problems()[0].text.split()
+        await desk.until(lambda: area.marks.problems)
+        await desk.until(lambda: shown() == area.marks.all_problems()[0].text.split())
 
 
 async def test_a_problem_keeps_its_room_while_its_line_is_typed(program):
