@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
     from textual.message import Message
 
+CONSOLE_KEYS = {f"f{12 + number}": f"shift+f{number}" for number in range(1, 9)}
+"""The Linux console calls the function keys with Shift so; those from F9 on send nothing there."""
 _TICK_S = 0.1
 """A lone Escape is told from the beginning of a sequence by the time that passes behind it."""
 
@@ -33,6 +35,7 @@ class TerminalDriver(LinuxDriver):
         super().__init__(*arguments, **options)
         self._file: Any = _Output(self._file, self._lost)
         self._is_lost = False
+        self._names = CONSOLE_KEYS if os.environ.get("TERM") == "linux" else {}
         self.exit_event: Any = _WakingEvent()
 
     def start_application_mode(self) -> None:
@@ -63,6 +66,8 @@ class TerminalDriver(LinuxDriver):
         """Pass a message on; a line feed is Enter: text that a script types ends its lines so."""
         if isinstance(message, Key) and message.key == "ctrl+j":
             message = Key("enter", "\r")
+        elif isinstance(message, Key) and message.key in self._names:
+            message = Key(self._names[message.key], None)
         super().process_message(message)
 
     def _lost(self) -> None:

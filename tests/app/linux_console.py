@@ -7,8 +7,9 @@
 
 Words behind `--`: a key in QEMU's names (`f5`, `ctrl-p`, `shift-f1`), a number of seconds to wait, `=NAME` for a
 picture `pictures/NAME.ppm`. The machine boots a kernel of Debian without KVM (30 s; Python is 20 times slower
-than outside), takes this machine's files by 9p, read only, and starts the desktop on tty1 with TERM=linux. A
-program FILE.out is what a desktop wrote elsewhere to a terminal of TERM=linux and that size: it is shown at once.
+than outside), takes this machine's files by 9p, read only, and starts the desktop on tty1 with TERM=linux. If
+the program is a folder, its files are what a desktop wrote elsewhere to a terminal of TERM=linux and that size:
+they are shown one after the other, at each `ret`.
 `--font Lat15-Fixed16` loads a font of console-setup's, as Debian does; else the kernel's own is there;
 `--vga 791` is a framebuffer of 128 x 48 characters, else VGA's text mode of 80 x 25.
 """
@@ -39,7 +40,7 @@ export PATH=/bin
 mount -t devtmpfs dev /dev; mount -t proc proc /proc; mount -t sysfs sys /sys
 ip link set lo up
 [ -f /font ] && setfont /font -C /dev/tty1
-[ -f /recording ] && {{ cat /recording >/dev/tty1; sleep 10000; }}
+for recording in /recordings/*; do [ -f $recording ] && {{ cat $recording >/dev/tty1; read next </dev/tty1; }}; done
 for module in {modules}; do insmod /modules/$module.ko; done
 mount -t 9p -o trans=virtio,version=9p2000.L,ro,cache=loose,msize=512000 host /host
 for place in dev proc sys; do mount --bind /$place /host/$place; done
@@ -87,8 +88,10 @@ def _first_files(folder: Path, given: argparse.Namespace) -> Path:
     for name in ("bin", "dev", "proc", "sys", "host", "modules"):
         (files / name).mkdir(parents=True)
     shutil.copy(given.system / "bin" / "busybox", files / "bin")
-    recorded = given.program.suffix == ".out"
-    shutil.copy(given.program, files / ("recording" if recorded else "program.src"))
+    if given.program.is_dir():
+        shutil.copytree(given.program, files / "recordings")
+    else:
+        shutil.copy(given.program, files / "program.src")
     (kernel,) = (given.system / "lib" / "modules").iterdir()
     found = []
     for module in MODULES:
