@@ -229,7 +229,7 @@ class NativeModel:
             memory.culprit = self._watcher.culprit()
         if ended is Ended.NOT_FINITE:
             memory.which = first_not_finite(self._values.data, self._states, self._columns, self._vital)
-        if ended in {Ended.NOT_FINITE, Ended.DEADLOCK} and memory.which >= 0:
+        if ended in {Ended.NOT_FINITE, Ended.DEADLOCK, Ended.STALLED} and memory.which >= 0:
             memory.which = self._numbers[memory.which]
         return ended
 

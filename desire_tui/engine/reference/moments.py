@@ -112,7 +112,8 @@ class MomentReferenceModel(ReferenceModel):
             return chattering(self._watching, memory)
         if ended is not Ended.RUNNING:
             memory.phase = Phase.ENDED
-            memory.which = self.numbers[memory.which] if ended is Ended.DEADLOCK else memory.which
+            if ended in {Ended.DEADLOCK, Ended.STALLED} and self.tableau is not None:
+                memory.which = self.numbers[memory.which]
             return ended
         assert self.tableau is not None
         slack = 0.0 if self.tableau.variable else TOLERANCE * memory.dt_base

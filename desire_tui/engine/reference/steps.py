@@ -97,6 +97,7 @@ def variable_step(model: SteppedModel, tableau: Tableau, memory: RunMemory) -> E
     if memory.k >= STILL_MOST or not (lands or dt > 0.0):
         states.put(start)
         cells[T], memory.phase = here, Phase.ENDED
+        memory.which = model.numbers[state]
         return Ended.STALLED
     states.move(tableau.stages, start, dt)
     memory.steps += 1

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError
-from desire_tui.engine.lowered.effects import writes
+from desire_tui.engine.integration.rules import rule_numbered
+from desire_tui.engine.lowered.effects import reads, writes
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.lowered.statements import Assignment, Deriv, DerivVec
@@ -63,11 +64,18 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
         }  # fmt: skip
         return _placed("variable-step-deadlock", facts, segment, where)
     if ended is Ended.STALLED:
-        return _placed("time-stalled", {"t": t, "dt": cells[DT]}, segment, defining(segment, DT))
+        dt = cells[DT]
+        if dt > 0.0 and rule_numbered(plan.rule).kind == "variable":
+            name, where = state_name(segment, which)
+            return _placed("time-stalled-by-state", {"t": t, "dt": dt, "state": name}, segment, where)
+        return _placed("time-stalled", {"t": t, "dt": dt}, segment, defining(segment, DT))
     if ended is Ended.CHATTERS:
         assert memory.culprit is not None
         name, where = memory.culprit
-        return _placed("switch-chatters", {"t": t, "name": name}, segment, where)
+        driven = _driven(segment, where)
+        held = f"state '{driven}'" if driven else "the run"
+        facts = {"t": t, "name": name, "dt": cells[DT], "held": held}
+        return _placed("switch-chatters", facts, segment, where)
     if ended is Ended.NO_HEADWAY:
         found = memory.standstill
         assert found is not None
@@ -119,6 +127,20 @@ def state_name(segment: Segment, number: int) -> tuple[str, Where | None]:
             name = f"{states.name}[{index + 1}]" if states.count > 1 else states.name
             return name, _derivative(segment, number) or states.where
     return f"number {number + 1}", None
+
+
+def _driven(segment: Segment, where: Where) -> str:
+    """Return the name of the first state whose derivative depends on what stands at a place; else ''."""
+    changed: set[int] = set()
+    for action in walk_actions(segment.body):
+        if action.where != where and not any(
+            slot + i in changed for slot, count in reads(action) for i in range(count)
+        ):
+            continue
+        if isinstance(action, Deriv | DerivVec):
+            return state_name(segment, action.state)[0]
+        changed.update(slot + i for slot, count in writes(action) for i in range(count))
+    return ""
 
 
 def _state_slot(segment: Segment, number: int) -> int:

@@ -48,7 +48,7 @@ class Ended(IntEnum):
     SOLVER = 6
     """CVODE gave up: `which` is its flag."""
     STALLED = 7
-    """A step of DT would not take t any further."""
+    """A step of DT would not take t any further; variable step: state number `which` asks for it."""
     CHATTERS = 8
     """A switch went to and fro and held t up; the model puts what it is into the memory's `culprit`."""
     ZENO = 9

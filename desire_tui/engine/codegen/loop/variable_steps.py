@@ -103,7 +103,7 @@ class VariableStep:
         too_large = lanes.compare("ogt", difference, driver.memory.load("error_max"))
         text.branch(too_large, "reject", "accept")
         self._reject(difference, state, dt)
-        self._accept(difference, dt)
+        self._accept(difference, state, dt)
 
     def _reject(self, difference: str, state: str, dt: str) -> None:
         text, lanes, driver = self.text, self.lanes, self.driver
@@ -125,7 +125,7 @@ class VariableStep:
         driver.put("cut", "0")
         text.jump("try")
 
-    def _accept(self, difference: str, dt: str) -> None:
+    def _accept(self, difference: str, state: str, dt: str) -> None:
         text, lanes, driver, storage = self.text, self.lanes, self.driver, self.storage
         text.begin("accept")
         lands, here = driver.get("lands"), driver.get("t_here")
@@ -133,6 +133,7 @@ class VariableStep:
         self._stall(lands, lanes.compare("ogt", there, here), dt)
         storage.restore()
         storage.store(T, here)
+        driver.memory.store("which", state)
         driver.leave(Ended.STALLED, Phase.ENDED)
         text.begin("forward")
         storage.advance(self.tableau.b, dt)

@@ -112,6 +112,11 @@ MESSAGES: dict[str, Wording] = {
         "t stays at {t:.6g}: a step of DT = {dt:.3g} does not go forward",
         "DT must stay above 0, and large enough to change t",
     ),
+    "time-stalled-by-state": Wording(
+        87,
+        "t stays at {t:.6g}: steps of DT = {dt:.3g}, which state '{state}' asks for, do not go forward",
+        "a pole (end the run by `term` before it), a jump, or noise in its derivative; or ERMAX is too small",
+    ),
     "no-headway": Wording(
         495,
         "rule {rule} makes no headway: t = {t:.6g} with DT = {dt:.3g} after {steps:,} steps, and {why};"
@@ -121,8 +126,8 @@ MESSAGES: dict[str, Wording] = {
     ),
     "switch-chatters": Wording(
         477,
-        "'{name}' switches to and fro at t = {t:.6g} and holds the run up",
-        "the solution slides along the switch, or events pile up: give it a dead zone or hysteresis",
+        "'{name}' switches to and fro at t = {t:.6g} with DT = {dt:.3g} and holds {held} up",
+        "chatter: the solution slides along the switch, or events pile up: give it a dead zone or hysteresis",
     ),
     "noise-in-step": Wording(
         489,

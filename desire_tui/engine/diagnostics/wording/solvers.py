@@ -31,7 +31,7 @@ MESSAGES: dict[str, Wording] = {
     "solver-gave-up": Wording(
         220,
         f"rule {{rule}} got nowhere {_AT}",
-        "try another rule, or look for a term that grows without bound",
+        "a pole, or a division by what falls to 0: end the run by `term` before it; or try another rule",
     ),
     "solver-too-accurate": Wording(
         221,
