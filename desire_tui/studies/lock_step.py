@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.codegen.lanes.lane_folds import FOLDS
 from desire_tui.engine.codegen.lanes.lane_model import LaneRows
 from desire_tui.engine.diagnostics import DesireError
 from desire_tui.engine.passes.replication import LockStepError
@@ -22,17 +23,30 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-_NUMBERS_MOST = 1 << 17
+_NUMBERS_MOST = 1 << 18
 """Samples of runs made together: they stay in the cache until they are reduced."""
+
+
+_GROUPS_MOST = 256
 
 
 class LockStep:
     """Lives on one thread at a time. LockStepError: what keeps the runs from going in lock step."""
 
     def __init__(
-        self, prepared: PreparedRun, way: Way, varied: Way, columns: Sequence[str], *, fast: bool
+        self,
+        prepared: PreparedRun,
+        way: Way,
+        varied: Way,
+        columns: Sequence[str],
+        kinds: Sequence[str],
+        *,
+        fast: bool,
     ) -> None:
-        """`way` is that of all settings, `varied` that of those which differ: they come first."""
+        """`way` is that of all settings, `varied` that of those which differ: they come first.
+
+        `kinds`: what is kept of each of the `columns`.
+        """
         if way.slots is None or varied.slots is None:
             raise LockStepError("the script has to run for each run")
         self._prepared, self._way, self._follow = prepared, way, varied.follow
@@ -40,7 +54,9 @@ class LockStep:
         self._places = [self._given.index(slot) for slot in varied.slots]
         self._follows, self._overwritten = varied.computed, frozenset(way.computed)
         self._computed = [self._given.index(slot) for slot in varied.computed]
-        self._model = prepared.lanes(self._given, columns, fast=fast)
+        self._model = prepared.lanes(
+            self._given, columns, kinds if FOLDS.issuperset(kinds) else (), fast=fast
+        )
         self.draws = self._model.draws
         """Whether the model takes random numbers."""
         width = self._model.width
@@ -58,9 +74,8 @@ class LockStep:
         seeds = np.zeros(runs, dtype=np.uint64) if random is None else random
         try:
             starts, plan, failed = self._starts(settings)
-            self.runs_most = self._model.width * max(
-                1, min(64, _NUMBERS_MOST // (plan.rows_most * self._row))
-            )
+            numbers = self._row * (1 if self._model.folds else plan.rows_most)
+            self.runs_most = self._model.width * max(1, min(_GROUPS_MOST, _NUMBERS_MOST // numbers))
             made = self._model.run(plan, starts, seeds)
         except DesireError:
             nothing = np.zeros((1, 1, runs))

@@ -58,6 +58,7 @@ class PreparedProgram:
                     self.way,
                     way_of(task.names, self.instance),
                     self._expressions.names,
+                    [item.kind for item in self.kept.items],
                     fast=task.fast,
                 )
             except LockStepError as reason:
@@ -96,14 +97,12 @@ class PreparedProgram:
             count = min(lock_step.runs_most, len(settings) - first)
             begin = made.first + first
             random = streams(self.first_state(), begin, count) if lock_step.draws else None
-            table, counts, left = lock_step.run(settings[first : first + count], random)
+            table, counts, left, numbers = lock_step.run(settings[first : first + count], random)
             good = np.flatnonzero(~left)
-            if len(good) == count:
-                made.numbers[first : first + count] = reduce(
-                    self.kept.items, table[0], list(table[1:]), counts
-                )
+            if numbers is not None:
+                made.numbers[first + good] = numbers[good]
             elif len(good):
-                some = table[:, :, good]
+                some = table if len(good) == count else table[:, :, good]
                 made.numbers[first + good] = reduce(self.kept.items, some[0], list(some[1:]), counts[good])
             alone += (first + np.flatnonzero(left)).tolist()
             first += count

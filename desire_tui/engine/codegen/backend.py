@@ -69,17 +69,28 @@ class NativeBackend:
         values: Values,
         given: Sequence[int],
         columns: Sequence[int],
+        folds: Sequence[str],
         *,
         fast: bool,
     ) -> LaneModel:
         """Prepare `segment` for runs in lock step that differ in the `given` slots.
+
+        `folds`: what is kept of each column (`lanes.lane_folds`); none: all samples.
 
         LockStepError: what keeps them from it.
         """
         from desire_tui.engine.codegen.lanes.lane_model import LaneModel
 
         return LaneModel(
-            self._compiler.code, self._compiler.improver, segment, rule, values, given, columns, fast=fast
+            self._compiler.code,
+            self._compiler.improver,
+            segment,
+            rule,
+            values,
+            given,
+            columns,
+            folds,
+            fast=fast,
         )
 
     def forget(self) -> None:

@@ -181,10 +181,13 @@ class PreparedRun:
         (base or self.base).restore(self.values, self._runs.simulator)
         self._assign(start)
 
-    def lanes(self, given: Sequence[int], columns: Sequence[str], *, fast: bool) -> LaneModel:
+    def lanes(
+        self, given: Sequence[int], columns: Sequence[str], folds: Sequence[str], *, fast: bool
+    ) -> LaneModel:
         """Return the run compiled for several at a time, which differ in the `given` slots.
 
-        `columns` are sampled. LockStepError: what keeps the runs from going in lock step.
+        `columns` are sampled; of each is kept what `folds` says, if it says something. LockStepError: what
+        keeps the runs from going in lock step.
         """
         backend = self._workspace.segments.backend
         make = getattr(backend, "lanes", None)
@@ -194,7 +197,7 @@ class PreparedRun:
             raise LockStepError("the run continues another")
         slots = {column.name: column.slot for column in self.segment.columns}
         model: LaneModel = make(
-            self.segment, self._rule, self.values, given, [slots[name] for name in columns], fast=fast
+            self.segment, self._rule, self.values, given, [slots[name] for name in columns], folds, fast=fast
         )
         return model
 

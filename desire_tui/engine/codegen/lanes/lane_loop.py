@@ -23,6 +23,7 @@ from desire_tui.engine.codegen.lanes.event_steps import EventSteps
 from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
 from desire_tui.engine.codegen.lanes.lane_clocks import ClockedSteps, ClockSlots, LaneClocks
 from desire_tui.engine.codegen.lanes.lane_events import EventSlots, LaneEvents
+from desire_tui.engine.codegen.lanes.lane_folds import LaneFolds
 from desire_tui.engine.codegen.lanes.lane_frame import LaneMemory, lane_frame
 from desire_tui.engine.codegen.lanes.lane_histories import LaneHistories
 from desire_tui.engine.codegen.lanes.lane_points import LanePoints
@@ -53,6 +54,8 @@ class LaneParts(NamedTuple):
     """None: rule 0, no steps."""
     states: Sequence[int]
     columns: Sequence[int]
+    folds: Sequence[str]
+    """What is kept of each column (`lane_folds`); none: all samples are."""
     vital: Sequence[int]
     given: Sequence[int]
     """Slots with a start for each run."""
@@ -90,7 +93,8 @@ class LaneLoop:
         self.loop = LaneVariables(
             self.runs, self.cells, self.memory, self.statements, passes, may_end=may_end
         )
-        self.points = LanePoints(self.loop, parts.columns, parts.vital, steps=tableau is not None)
+        self.folds = LaneFolds(self.loop, parts.columns, parts.folds) if parts.folds else None
+        self.points = LanePoints(self.loop, parts.columns, parts.vital, self.folds, steps=tableau is not None)
         self.clocks = self.events = None
         if isinstance(parts.moments, ClockSlots):
             self.clocks = LaneClocks(self.loop, parts.moments)
@@ -136,6 +140,8 @@ class LaneLoop:
         self.text.do(f"%base = load ptr, ptr {self.memory.at('base')}")
         self.cells.fetch(self.given)
         self.histories.begin()
+        if self.folds is not None:
+            self.folds.begin()
         if self.clocks is not None:
             self.clocks.begin()
         if self.events is not None:
@@ -161,6 +167,8 @@ class LaneLoop:
     def _exit(self) -> None:
         text, runs = self.text, self.runs
         text.begin("exit")
+        if self.folds is not None:
+            self.folds.finish()
         text.do(f"store {runs.integers} {self.loop.get(runs.integers, 'taken')}, ptr %counts, align 8")
         flags = text.op(f"zext {runs.flags} {self.loop.flags('flagged')} to {runs.integers}")
         text.do(f"store {runs.integers} {flags}, ptr %flags, align 8")

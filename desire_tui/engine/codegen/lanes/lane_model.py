@@ -52,11 +52,15 @@ _OPERATIONS_MOST = 600
 
 
 class LaneRows(NamedTuple):
-    """What runs gave: `table` (1 + columns, samples, runs), t first; samples of each; which to make again."""
+    """What runs gave: `table` (1 + columns, samples, runs), t first; samples of each; which to make again.
+
+    `numbers`: what is kept of each column, (runs, columns); then there is no table.
+    """
 
     table: Floats
     counts: Integers
     flagged: NDArray[np.bool_]
+    numbers: Floats | None = None
 
 
 def _written_out(segment: Segment) -> WrittenOut:
@@ -82,10 +86,14 @@ class LaneModel:
         values: Values,
         given: Sequence[int],
         columns: Sequence[int],
+        folds: Sequence[str],
         *,
         fast: bool,
     ) -> None:
-        """`given` are the slots with a start for each run. LockStepError: what keeps runs from it."""
+        """`given` are the slots with a start for each run, `folds` what is kept of each column.
+
+        LockStepError: what keeps runs from it.
+        """
         if segment.order and rule_numbered(rule).kind != "fixed":
             raise LockStepError("the rule varies its steps")
         vital = [segment.columns[number].slot for number in vital_columns(segment)]
@@ -99,6 +107,7 @@ class LaneModel:
         states = [slot for s in segment.states for slot in range(s.slot, s.slot + s.count)]
         self.width = 2 * machine().width
         self._values, self._given, self._columns = values, list(given), list(columns)
+        self.folds = bool(folds)
         self._moments = moments_of(segment, tableau, values, given, self.width)
         passes = passes_of(segment) | self._moments.passes
         self.draws = any(
@@ -117,7 +126,7 @@ class LaneModel:
             [slot for first, count in arrays.items() for slot in range(first, first + count)], dtype=np.intp
         )
         parts = LaneParts(
-            passes, tableau, states, columns, vital, given, varies, faults, arrays, segment.counters,
+            passes, tableau, states, columns, folds, vital, given, varies, faults, arrays, segment.counters,
             over_elements, self._moments.slots(passes),
         )  # fmt: skip
         loop = LaneLoop(parts, self.width, machine().width if fast else 1)
@@ -138,8 +147,8 @@ class LaneModel:
         lanes = np.minimum(np.arange(groups * width), runs - 1)  # the last group is filled up
         own = np.ascontiguousarray(starts[lanes].reshape(groups, width, -1).transpose(0, 2, 1))
         seeds = random[lanes].astype(np.int64)
-        samples = plan.rows_most
-        rows = self._room((samples, 1 + len(self._columns), groups * width))
+        shape = (1, len(self._columns)) if self.folds else (plan.rows_most, 1 + len(self._columns))
+        rows = self._room((*shape, groups * width))
         counts, flagged = np.zeros(groups * width, dtype=np.int64), np.zeros(groups * width, dtype=np.int64)
         memory = self.memory
         memory.starts, memory.random, memory.rows = own.ctypes.data, seeds.ctypes.data, rows.ctypes.data
@@ -157,11 +166,10 @@ class LaneModel:
         memory.t_start, memory.t_max, memory.comint = plan.t0, plan.t_max, plan.comint
         memory.dt, memory.every, memory.nn = plan.dt, plan.every, plan.nn
         self._run(ctypes.addressof(memory))
-        used = max(int(counts.max()), 1)
-        table = rows[:used].transpose(1, 0, 2)
-        return LaneRows(
-            table[:, :, :runs], counts[:runs], failed | (flagged[:runs] != 0) | (counts[:runs] == 0)
-        )
+        used = 1 if self.folds else max(int(counts.max()), 1)
+        table = rows[:used].transpose(1, 0, 2)[:, :, :runs]
+        left = failed | (flagged[:runs] != 0) | (counts[:runs] == 0)
+        return LaneRows(table, counts[:runs], left, table[:, 0].T if self.folds else None)
 
     def _room(self, shape: tuple[int, ...]) -> Floats:
         """Return memory for samples, that of the last call if it is large enough: new pages take time."""

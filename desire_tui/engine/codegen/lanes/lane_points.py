@@ -10,6 +10,7 @@ from desire_tui.engine.values import DT, T
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from desire_tui.engine.codegen.lanes.lane_folds import LaneFolds
     from desire_tui.engine.codegen.lanes.lane_variables import LaneVariables
 
 
@@ -17,14 +18,21 @@ class LanePoints:
     """Writes the blocks `point` … `onward`, and samples elsewhere.
 
     `columns` are the slots sampled beside t, `vital` those that states depend on; `steps`: there is a rule.
+    Where there are `folds`, they take the samples up, and none is stored.
     """
 
     def __init__(
-        self, loop: LaneVariables, columns: Sequence[int], vital: Sequence[int], *, steps: bool
+        self,
+        loop: LaneVariables,
+        columns: Sequence[int],
+        vital: Sequence[int],
+        folds: LaneFolds | None,
+        *,
+        steps: bool,
     ) -> None:
         self.loop, self.text, self.runs = loop, loop.text, loop.runs
         self.one, self.cells, self.memory = loop.one, loop.cells, loop.memory
-        self.columns, self.vital, self._steps = columns, vital, steps
+        self.columns, self.vital, self._folds, self._steps = columns, vital, folds, steps
 
     def write(self) -> None:
         """Write a point: the full pass, samples if they are due, and whether it was the last."""
@@ -73,15 +81,11 @@ class LanePoints:
     def sample(self, mask: str) -> None:
         """Write a row for the runs that have their flag set; inf or nan in vital columns is noted."""
         text, runs = self.text, self.runs
-        row, width = self.loop.get("i64", "row"), 1 + len(self.columns)
-        first, count = text.op(f"mul i64 {row}, {width}"), self.memory.load("runs")
-        for number, slot in enumerate((T, *self.columns)):
-            line = text.op(f"mul i64 {text.op(f'add i64 {first}, {number}')}, {count}")
-            place = text.op(f"getelementptr double, ptr %rows, i64 {line}")
-            value = self.cells.wide(self.cells.load(slot))
-            if self.loop.may_end:
-                value = runs.choose(mask, value, text.op(f"load {runs.kind}, ptr {place}, align 8"))
-            text.do(f"store {runs.kind} {value}, ptr {place}, align 8")
+        row = self.loop.get("i64", "row")
+        if self._folds is not None:
+            self._folds.sample(mask)
+        else:
+            self._store(row, mask)
         count = text.op(f"add i64 {row}, 1")
         one = text.op(f"insertelement {runs.integers} poison, i64 {count}, i64 0")
         zeros = f"<{runs.width} x i32> zeroinitializer"
@@ -91,3 +95,15 @@ class LanePoints:
         self.loop.put(runs.integers, "taken", taken)
         if self.vital:
             self.loop.flag(runs.both(mask, self.loop.wild(self.vital)))
+
+    def _store(self, row: str, mask: str) -> None:
+        """Write t and the columns to a row."""
+        text, runs, width = self.text, self.runs, 1 + len(self.columns)
+        first, count = text.op(f"mul i64 {row}, {width}"), self.memory.load("runs")
+        for number, slot in enumerate((T, *self.columns)):
+            line = text.op(f"mul i64 {text.op(f'add i64 {first}, {number}')}, {count}")
+            place = text.op(f"getelementptr double, ptr %rows, i64 {line}")
+            value = self.cells.wide(self.cells.load(slot))
+            if self.loop.may_end:
+                value = runs.choose(mask, value, text.op(f"load {runs.kind}, ptr {place}, align 8"))
+            text.do(f"store {runs.kind} {value}, ptr {place}, align 8")
