@@ -162,6 +162,7 @@ def both(text: str, rows: np.ndarray, keep: str, **settings) -> tuple[chunks.Chu
     with chunks._PROGRAMS.one(task) as program:
         assert isinstance(program, PreparedProgram)
         assert program.lock_step is not None, program.hindrance
+        assert (program.lock_step.run(program.settings(rows), None).numbers is None) == ("@" in keep)
         begin = streams(program.first_state(), 0, len(rows))
         left = program.lock_step.run(program.settings(rows), begin).flagged
     found, alone = run_chunk(task, 0, rows), run_chunk(replace(task, lanes=False), 0, rows)
@@ -185,6 +186,32 @@ def test_the_bits_of_runs_made_alone(name):
     assert np.array_equal(found.errors, alone.errors)
     assert found.failures.by_code == alone.failures.by_code
     assert found.errors.any() == (name in {"runs that fail", "events that pile up"})
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "RK4",
+        "term at steps",
+        "seldom samples",
+        "gaps",
+        "runs that fail",
+        "difference equations",
+        "events, clocks, noise",
+    ],
+)
+def test_numbers_kept_without_samples(name):
+    text = HEAD + MODELS[name]
+    if "n = n + 1" in text:
+        text = text.replace("drun\n", "n = 0\ndrun\n", 1)
+    names = names_of(text)
+    keep = ", ".join(
+        f"{each}[end], mean({each}), max({each}), min({each}), integral({each})" for each in names
+    )
+    rows = np.linspace(0.5, 4, 21)[:, None]
+    found, alone = both(text + f"dispt {names[0]}\n", rows, f"{keep}, t[x<0.5], t[end]")
+    assert np.array_equal(found.numbers, alone.numbers, equal_nan=True)
+    assert np.array_equal(found.errors, alone.errors)
 
 
 def test_functions_of_the_vector_library_are_near():

@@ -55,7 +55,7 @@ class LaneFolds:
                 case "mean":
                     new = runs.choose(is_first, value, runs.add(old, value))
                 case "integral":
-                    area = self._area(number, value, t)
+                    area = self._area(number, value, t, mask)
                     grown = runs.choose(is_second, area, runs.add(old, area))
                     new = runs.choose(is_first, old, grown)
                 case "when":
@@ -64,15 +64,16 @@ class LaneFolds:
                 case _:
                     new = value
             loop.put(runs.kind, f"fold.{number}", runs.choose(mask, new, old))
-        loop.put(runs.kind, "before.t", t)
+        if "integral" in self._kinds:
+            loop.put(runs.kind, "before.t", runs.choose(mask, t, loop.get(runs.kind, "before.t")))
 
-    def _area(self, number: int, value: str, t: str) -> str:
-        """Return the area under the straight line from the sample before."""
+    def _area(self, number: int, value: str, t: str, mask: str) -> str:
+        """Return the area under the straight line from the sample before; the next one begins here."""
         runs, loop = self.runs, self.loop
-        height = runs.add(value, loop.get(runs.kind, f"before.fold.{number}"))
+        before = loop.get(runs.kind, f"before.fold.{number}")
         width = runs.sub(t, loop.get(runs.kind, "before.t"))
-        loop.put(runs.kind, f"before.fold.{number}", value)
-        return runs.mul(runs.mul(runs.const(0.5), height), width)
+        loop.put(runs.kind, f"before.fold.{number}", runs.choose(mask, value, before))
+        return runs.mul(runs.mul(runs.const(0.5), runs.add(value, before)), width)
 
     def finish(self) -> None:
         """Write the numbers to `%rows`: (columns, runs)."""
