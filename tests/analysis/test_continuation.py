@@ -387,3 +387,44 @@ dispt u[1]
     assert found.is_partial, "the branches that cross are many: the first is enough"
     trivial = [p["a"] for p in found["points"] if p["kind"] == "branch point" and p["branch"] == 1]
     assert sorted(trivial) == pytest.approx(0.02 * np.sin(np.arange(1, 5) * np.pi / 10) ** 2, abs=1e-9)
+
+
+# a circle that is turned once in 2π, and a third state that leaves its plane: z = ±√mu, or z = mu
+OUT_OF_PLANE = """mu = -0.3 | q = 0 | x = 1 | y = 0 | z = 1 | TMAX = 40 | DT = 0.01 | NN = 401
+drun
+DYNAMIC
+r = x*x + y*y
+d/dt x = x*(1 - r) - y
+d/dt y = y*(1 - r) + x
+d/dt z = mu*z - q*z*z - (1 - q)*z*z*z
+dispxy x, z
+"""
+
+
+@pytest.mark.parametrize(("q", "shape"), [(0, "pitchfork"), (1, "transcritical")])
+def test_the_other_branch_at_a_branch_point_of_cycles_is_followed(q, shape):
+    found = diagram(OUT_OF_PLANE.replace("q = 0", f"q = {q}"), "mu in [-0.5, 0.5] from cycle")
+    assert [p["kind"] for p in found["points"]] == ["branch point of cycles"]
+    assert found["points"][0]["mu"] == pytest.approx(0.0, abs=1e-8)
+    others = [b for b in found["branches"] if b["from"] == "branch point of cycles 1"]
+    assert len(others) == 2
+    assert sorted(float(np.sign(b["z"][-1])) for b in others) == [-1.0, 1.0]
+    for branch in others:
+        mu, z = branch["mu"], branch["z"]
+        assert np.abs(z) == pytest.approx(np.sqrt(mu) if shape == "pitchfork" else np.abs(mu), abs=1e-6)
+        assert np.all(branch["stable"] == (shape == "pitchfork" or mu > 0))
+        assert abs(mu[-1]) == pytest.approx(0.5)
+    known = [b for b in found["branches"] if b["from"] == "run"]
+    assert all(
+        np.all(b["stable"][np.abs(b["mu"]) > 1e-3] == (b["mu"][np.abs(b["mu"]) > 1e-3] < 0)) for b in known
+    )
+
+
+def test_symmetric_cycles_of_lorenz_lose_their_symmetry():
+    """At 312.97 (C. Sparrow, The Lorenz Equations, 1982: 313); towards 229.4 their period doubles."""
+    found = diagram(
+        LOR.replace("rho = 28", "rho = 314").replace("TMAX = 20", "TMAX = 5"), "rho in [311, 315] from cycle"
+    )
+    assert points(found, "branch point of cycles", "rho") == pytest.approx([312.97], abs=0.01)
+    halves = [b for b in found["branches"] if b["from"] == "branch point of cycles 1"]
+    assert halves[0]["x"][-1] != pytest.approx(halves[1]["x"][-1], rel=0.01)

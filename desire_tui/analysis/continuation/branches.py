@@ -10,12 +10,15 @@ if TYPE_CHECKING:
     from desire_tui.analysis.continuation.curve import Point
     from desire_tui.analysis.continuation.walk import End
 
-Kind = Literal["steady", "cycle", "fold", "Hopf"]
+Kind = Literal["steady", "cycle", "fold", "Hopf", "fold of cycles", "period doubling"]
 
 
 @dataclass
 class Special:
-    """A point where a branch changes: fold, branch point, Hopf, period doubling …; `details` in words."""
+    """A point where a branch changes: fold, branch point, Hopf, period doubling …; `details` in words.
+
+    `point.facts` is a `Cycle` where it is one of a branch of cycles.
+    """
 
     kind: str
     number: int
@@ -47,7 +50,7 @@ class Diagram:
 
     def special(self, kind: str, branch: int, point: Point) -> Special:
         """Add a special point, numbered among those of its kind from 1."""
-        number = 1 + sum(other.kind == kind for other in self.specials)
+        number = 1 + max((other.number for other in self.specials if other.kind == kind), default=0)
         found = Special(kind, number, branch, point)
         self.specials.append(found)
         return found

@@ -14,7 +14,7 @@ from desire_tui.analysis.continuation.equilibrium_curve import EquilibriumCurve
 from desire_tui.analysis.continuation.report import Report
 from desire_tui.analysis.continuation.request import read
 from desire_tui.analysis.continuation.settled import from_run
-from desire_tui.analysis.continuation.two_parameters import is_passed, trace
+from desire_tui.analysis.continuation.two_parameters import KINDS, is_passed, trace
 from desire_tui.analysis.equilibria.flow import Flow, around
 from desire_tui.analysis.equilibria.search import search
 from desire_tui.analysis.equilibria.starts import Travelled, spread
@@ -134,12 +134,19 @@ class _Continuation:
         CyclesTracer(self._curve, self._diagram, self._go_on).both_ways(*begun, "run")
 
     def _two_parameters(self) -> Result:
-        self._steady_states()
-        wanted = self._asked.special
-        found = [s for s in self._diagram.specials if s.kind in ("fold", "Hopf")]
+        wanted, kinds = self._asked.special, KINDS[:2]
+        if self._asked.origin == "cycle":
+            self._cycle()
+            kinds = KINDS[2:]
+        else:
+            self._steady_states()
+            if wanted is not None and wanted[0] in KINDS[2:] and not self._diagram.is_partial:
+                CyclesTracer(self._curve, self._diagram, self._go_on).trace()
+                kinds = KINDS
+        found = [s for s in self._diagram.specials if s.kind in kinds]
         chosen = [s for s in found if wanted is None or (s.kind, s.number) == wanted]
         if not chosen:
-            seen = ", ".join(f"{s.kind} {s.number}" for s in found) or "no fold and no Hopf point"
+            seen = ", ".join(f"{s.kind} {s.number}" for s in found) or f"no {' and no '.join(kinds)}"
             missing = "there is nothing to follow"
             if wanted is not None:
                 missing = f"{wanted[0]} {wanted[1]} is not found"
@@ -173,7 +180,7 @@ class _Continuation:
     @property
     def _is_shown(self) -> bool:
         """Whether what is found belongs to the answer already."""
-        kinds = {"fold", "Hopf"} if len(self._asked.over) == 2 else {"steady", "cycle"}
+        kinds = set(KINDS) if len(self._asked.over) == 2 else {"steady", "cycle"}
         return bool(self._diagram.branches) and {b.kind for b in self._diagram.branches} <= kinds
 
     def _fail(self, what: str, remedy: str) -> NoReturn:

@@ -57,16 +57,26 @@ class Cycle:
 
 
 class CycleCurve(Curve):
-    """dz/dτ = T g(z; p), z(1) = z(0); unknowns: z at all nodes, log T, the parameter's part of its range."""
+    """dz/dτ = T g(z; p), z(1) = z(0); unknowns: z at nodes, log T, parameters as parts of their ranges."""
 
-    ends = ("low", "high")
+    ends: ClassVar[tuple[str, ...]] = ("low", "high")
     noise: ClassVar[dict[str, float]] = {"fold": 1e-6, "cycle branch": 1e-9}
 
     def __init__(
-        self, system: System, over: Range, mesh: Floats, nodes: Floats, accuracy: float = _ACCURATE
+        self,
+        system: System,
+        over: Range,
+        mesh: Floats,
+        nodes: Floats,
+        accuracy: float = _ACCURATE,
+        more: tuple[Range, ...] = (),
     ) -> None:
-        """`nodes` (N DEGREE + 1 by m) on `mesh` (N + 1) is the cycle against which phases are counted."""
+        """`nodes` (N DEGREE + 1 by m) on `mesh` (N + 1) is the cycle against which phases are counted.
+
+        `more`: further parameters; each needs one equation more.
+        """
         self.system, self.over, self._accuracy = system, over, accuracy
+        self.ranges = (over, *more)
         self._since = 0
         self._known: tuple[Floats, Floats, tuple[Floats, Floats, Floats]] | None = None
         """Mesh, unknowns and derivatives that were computed last."""
@@ -82,22 +92,28 @@ class CycleCurve(Curve):
         shares = np.zeros(len(nodes))
         np.add.at(shares, DEGREE * np.arange(len(steps))[:, None] + np.arange(DEGREE + 1),
                   steps[:, None] * np.abs(np.einsum("i,ij->j", form.weights, form.values)))  # fmt: skip
-        self.weights = np.append(np.repeat(shares / shares.sum(), nodes.shape[1]), [1.0, 1.0])
+        of_nodes = np.repeat(shares / shares.sum(), nodes.shape[1])
+        self.weights = np.append(of_nodes, np.ones(1 + len(self.ranges)))
         self._reference = float(np.sum(self._phase * local(nodes)))
 
     def nodes(self, u: Floats) -> Floats:
         """Return z at the nodes, a row each."""
-        return u[:-2].reshape(-1, len(self.system))
+        return u[: self.last(u)].reshape(-1, len(self.system))
+
+    def last(self, u: Floats) -> int:
+        """Return the place of log T, behind the nodes'."""
+        return len(u) - 1 - len(self.ranges)
 
     def p(self, u: Floats) -> dict[str, float]:
-        """Return the parameter at a point."""
-        return {self.over.name: self.over.value(float(u[-1]))}
+        """Return the parameters at a point."""
+        parts = u[-len(self.ranges) :].tolist()
+        return {one.name: one.value(part) for one, part in zip(self.ranges, parts, strict=True)}
 
     def _at_gauss(self, u: Floats) -> tuple[Floats, Floats]:
         """Return z at the Gauss points, N by DEGREE by m, and T g there."""
         z = np.einsum("ij,kjn->kin", basis().values, local(self.nodes(u)))
         rates = self.system.rate(np.ascontiguousarray(z.reshape(-1, z.shape[2]).T), self.p(u))
-        return z, np.exp(u[-2]) * rates.T.reshape(z.shape)
+        return z, np.exp(u[self.last(u)]) * rates.T.reshape(z.shape)
 
     def residual(self, u: Floats) -> Floats:
         """Return the equations of collocation, of periodicity and of the phase."""
@@ -113,7 +129,7 @@ class CycleCurve(Curve):
         if self._known is not None and self._known[0] is self.mesh and np.array_equal(self._known[1], u):
             return self._known[2]
         z, pushed = self._at_gauss(u)
-        p, period = self.p(u), np.exp(u[-2])
+        p, period = self.p(u), np.exp(u[self.last(u)])
         m = z.shape[2]
         matrices = self.system.jacobians(z.reshape(-1, m), p).reshape(*z.shape, m)
         form = basis()
@@ -134,32 +150,41 @@ class CycleCurve(Curve):
         columns_of = nodes_of[..., None] * m + np.arange(m)
         rows = np.broadcast_to(rows_of[:, :, :, None, None], blocks.shape)
         columns = np.broadcast_to(columns_of[:, None, None], blocks.shape)
-        body, last = count * DEGREE * m, len(u) - 2
-        slope = self.system.by_parameter(
-            np.ascontiguousarray(z.reshape(-1, m).T), self.p(u), self.over.name, self.over.width
-        )
-        by_part = -np.exp(u[-2]) * self.over.width * slope.T.ravel()
+        body, last = count * DEGREE * m, self.last(u)
         ring, inner = np.arange(m), np.arange(body)
         parts = [
             (rows, columns, blocks),
             (inner, np.full(body, last), -pushed),
-            (inner, np.full(body, last + 1), by_part),
             (body + ring, last - m + ring, np.ones(m)),
             (body + ring, ring, -np.ones(m)),
             (np.full(columns_of.shape, body + m), columns_of, self._phase),
         ]
+        for number, slope in enumerate(self.by_parts(u, z), 1):
+            parts.append((inner, np.full(body, last + number), -slope.ravel()))
         r, c, v = (np.concatenate([np.ravel(part[k]) for part in parts]) for k in range(3))
         return csc_array((v, (r, c)), shape=(body + m + 1, len(u)))
+
+    def by_parts(self, u: Floats, z: Floats) -> list[Floats]:
+        """Return the derivatives of T g at the Gauss points z by the parts of the parameters."""
+        places, p = np.ascontiguousarray(z.reshape(-1, z.shape[2]).T), self.p(u)
+        period = np.exp(u[self.last(u)])
+        slopes = [self.system.by_parameter(places, p, one.name, one.width) * one.width for one in self.ranges]
+        return [period * slope.T.reshape(z.shape) for slope in slopes]
 
     def examine(self, point: Point, matrix: Any) -> None:
         """Put the multipliers, the cycle and the tests into a point."""
         del matrix
         u = point.u
-        found = multipliers(self.blocks(u)[0])
-        point.facts = Cycle(self.mesh, self.nodes(u).T, float(np.exp(u[-2])), found)
+        point.facts = self.cycle(u)
+        found = point.facts.multipliers
         along = float(point.tangent[-1])
         part = float(u[-1])
         point.tests = {"low": part, "high": 1.0 - part, "fold": along, **tests_of(found, along)}
+
+    def cycle(self, u: Floats) -> Cycle:
+        """Return what is known of the cycle at a point."""
+        period = float(np.exp(u[self.last(u)]))
+        return Cycle(self.mesh, self.nodes(u).T, period, multipliers(self.blocks(u)[0]))
 
     def adapted(self, point: Point) -> Point:
         """Return a point, now and then on a mesh that suits it better, of more intervals if need be."""
@@ -174,9 +199,10 @@ class CycleCurve(Curve):
             needed = int(count * (error / self._accuracy) ** (1.0 / (DEGREE + 1)))
             count = min(_INTERVALS_MOST, max(count + 4, needed))
         mesh = adapted_mesh(self.mesh, nodes, count)
-        times, m = node_times(mesh), nodes.shape[1]
-        u = np.append(interpolated(self.mesh, nodes, times).ravel(), point.u[-2:])
-        direction = interpolated(self.mesh, point.tangent[:-2].reshape(-1, m), times)
-        tangent = np.append(direction.ravel(), point.tangent[-2:])
-        self._use(mesh, u[:-2].reshape(-1, m))
+        times, last = node_times(mesh), self.last(point.u)
+        moved = interpolated(self.mesh, nodes, times)
+        u = np.append(moved.ravel(), point.u[last:])
+        direction = interpolated(self.mesh, self.nodes(point.tangent), times)
+        tangent = np.append(direction.ravel(), point.tangent[last:])
+        self._use(mesh, moved)
         return Point(u, unit(self, tangent), point.tests, point.facts, point.iterations)

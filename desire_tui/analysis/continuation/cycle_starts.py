@@ -1,4 +1,4 @@
-"""Where curves of cycles begin: at a Hopf point, at a period doubling, where a run has settled."""
+"""Where curves of cycles begin: at a Hopf point, at a period doubling, at a branch point of cycles."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from desire_tui.analysis.continuation.curve import Point, point_at, unit
 from desire_tui.analysis.continuation.cycle_curve import CycleCurve
 from desire_tui.analysis.continuation.lyapunov import critical_vector
 from desire_tui.analysis.continuation.multipliers import propagators
+from desire_tui.analysis.continuation.null_vectors import null_vectors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,7 +22,9 @@ if TYPE_CHECKING:
 
 _INTERVALS = 20
 _SMALL = (0.02, 0.005, 0.1)
-"""Amplitudes, in scaled coordinates, with which cycles at a Hopf point are tried."""
+"""Amplitudes, in scaled coordinates, with which cycles at such points are tried."""
+_ROUNDS, _SINGULAR = 3, 1e-4
+"""How often null vectors are made better, and how large the least singular value may come out."""
 
 
 def from_hopf(curve: EquilibriumCurve, u: Floats, omega: float) -> tuple[CycleCurve, Point] | None:
@@ -39,6 +42,38 @@ def from_hopf(curve: EquilibriumCurve, u: Floats, omega: float) -> tuple[CycleCu
         if first is not None and np.abs(first.u[-1] - part) < 0.1:
             return cycles, first
     return None
+
+
+def from_branch_point(curve: CycleCurve, point: Point, sign: float) -> tuple[CycleCurve, Point] | None:
+    """Return the curve of cycles that crosses another one here, and its first cycle on one side.
+
+    Its direction is the null vector of the equations that is no tangent of the curve which is known.
+    """
+    across = _null_vector(curve, point)
+    if across is None:
+        return None
+    for length in _SMALL:
+        cycles = CycleCurve(curve.system, curve.over, curve.mesh, curve.nodes(point.u))
+        along = sign * across
+        first = point_at(cycles, point.u + length * along, along)
+        if first is not None:
+            return cycles, first
+    return None
+
+
+def _null_vector(curve: CycleCurve, point: Point) -> Floats | None:
+    """Return the unit null vector across the tangent; None: there is none."""
+    from scipy.sparse import csc_array, vstack
+
+    matrix = vstack([curve.matrix(point.u), csc_array((point.tangent * curve.weights)[None, :])])
+    column, row = np.random.default_rng(4).normal(size=(2, len(point.u)))
+    try:
+        for _ in range(_ROUNDS):
+            found = null_vectors(matrix, column, row)
+            column, row = found.left / np.linalg.norm(found.left), found.right / np.linalg.norm(found.right)
+    except np.linalg.LinAlgError:
+        return None
+    return unit(curve, found.right) if abs(found.value) < _SINGULAR else None
 
 
 def from_doubling(curve: CycleCurve, point: Point) -> tuple[CycleCurve, Point] | None:

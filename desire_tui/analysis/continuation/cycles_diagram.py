@@ -1,18 +1,21 @@
-"""Branches of limit cycles: from Hopf points, from period doublings, from a cycle that a run has come to."""
+"""Branches of limit cycles: from Hopf points and a run's cycle, with those that begin and cross on them."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from desire_tui.analysis.continuation.branches import Branch
 from desire_tui.analysis.continuation.curve import Point
-from desire_tui.analysis.continuation.cycle_starts import from_doubling, from_hopf
+from desire_tui.analysis.continuation.cycle_curve import Cycle
+from desire_tui.analysis.continuation.cycle_starts import from_branch_point, from_doubling, from_hopf
 from desire_tui.analysis.continuation.walk import walk
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from numpy.typing import NDArray
 
     from desire_tui.analysis.continuation.branches import Diagram, Special
     from desire_tui.analysis.continuation.cycle_curve import CycleCurve
@@ -20,7 +23,10 @@ if TYPE_CHECKING:
     from desire_tui.analysis.continuation.multipliers import Multipliers
     from desire_tui.analysis.continuation.walk import End
 
+    Floats = NDArray[np.float64]
+
 POINTS_MOST = 300
+BRANCHES_MOST = 24
 DOUBLINGS_MOST = 2
 """A cascade has infinitely many: so many are followed one after the other."""
 _STEP = 0.1
@@ -32,11 +38,20 @@ _LARGE = 100.0
 """A cycle so many times larger than what the run shows of the states is of no interest."""
 _ON_CIRCLE = 1e-4
 _BORN_AT = 0.02
+_AT_BRANCH_POINT = 1e-3
 
 NAMES = {
     "fold": "fold of cycles", "period doubling": "period doubling", "torus": "torus",
     "cycle branch": "branch point of cycles",
 }  # fmt: skip
+
+
+class _Birth(NamedTuple):
+    """Where another branch begins: the point, and the curve of cycles as it is there."""
+
+    special: Special
+    curve: CycleCurve
+    place: Point
 
 
 class CyclesTracer:
@@ -46,6 +61,8 @@ class CyclesTracer:
         self._steady, self._diagram, self._go_on = curve, diagram, go_on
         self._ended: set[int] = set()
         """Numbers of Hopf points at which a branch of cycles has ended."""
+        self._crossed: set[int] = set()
+        """Numbers of branch points whose other branch has come by."""
 
     def trace(self) -> None:
         """Follow the cycles of all Hopf points found."""
@@ -63,18 +80,47 @@ class CyclesTracer:
     def follow(
         self, curve: CycleCurve, first: Point, origin: str, hopf: Special | None = None, depth: int = 0
     ) -> None:
-        """Follow a branch of cycles one way, and then what is born at its period doublings."""
-        diagram = self._diagram
-        branch = Branch(len(diagram.branches) + 1, "cycle", origin, [first])
-        diagram.branches.append(branch)
-        doublings: list[tuple[Special, CycleCurve, Point]] = []
-        branch.ends = ("", self._walk(curve, first, branch, hopf, doublings))
-        if depth >= DOUBLINGS_MOST or diagram.is_partial:
+        """Follow a branch of cycles one way, and then what begins at period doublings and branch points."""
+        branch = self._begin(origin, first)
+        births: list[_Birth] = []
+        branch.ends = ("", self._walk(curve, first, branch, hopf, births))
+        for birth in births:
+            self._branch_off(birth, depth)
+
+    def _begin(self, origin: str, first: Point) -> Branch:
+        branch = Branch(len(self._diagram.branches) + 1, "cycle", origin, [first])
+        self._diagram.branches.append(branch)
+        return branch
+
+    def _branch_off(self, birth: _Birth, depth: int) -> None:
+        """Follow what begins at a period doubling one way, at a branch point both ways."""
+        diagram, special = self._diagram, birth.special
+        origin = f"{special.kind} {special.number}"
+        if special.kind == "period doubling":
+            begun = from_doubling(birth.curve, birth.place) if depth < DOUBLINGS_MOST else None
+            if begun is not None and self._has_room:
+                self.follow(*begun, origin, None, depth + 1)
             return
-        for special, mesh, place in doublings:
-            begun = from_doubling(mesh, place)
-            if begun is not None and not diagram.is_partial:
-                self.follow(*begun, f"period doubling {special.number}", None, depth + 1)
+        for sign in (1.0, -1.0):
+            if special.number in self._crossed or not self._has_room:
+                return
+            begun = from_branch_point(birth.curve, birth.place, sign)
+            if begun is None:
+                diagram.notes.append(f"at {origin} the other branch is not found")
+                return
+            self.follow(*begun, origin, None, depth)
+            if diagram.branches[-1].ends[1] == "closed":
+                return
+
+    @property
+    def _has_room(self) -> bool:
+        if self._diagram.is_partial:
+            return False
+        full = sum(branch.kind == "cycle" for branch in self._diagram.branches) >= BRANCHES_MOST
+        told = f"more than {BRANCHES_MOST} branches of cycles: the rest is left out"
+        if full and told not in self._diagram.notes:
+            self._diagram.notes.append(told)
+        return not full
 
     def both_ways(self, curve: CycleCurve, first: Point, origin: str) -> None:
         """Follow a branch of cycles from one of them to both sides."""
@@ -93,7 +139,7 @@ class CyclesTracer:
         first: Point,
         branch: Branch,
         hopf: Special | None,
-        doublings: list[tuple[Special, CycleCurve, Point]],
+        births: list[_Birth],
     ) -> End:
         period = first.facts.period
         was_large = hopf is None
@@ -105,16 +151,22 @@ class CyclesTracer:
             step_most=_STEP,
             is_far=lambda p: amplitude(p) > _LARGE or _is_homoclinic(p, period),
         ):
-            for name, place in step.zeros:
-                if not _is_event(name, place.facts.multipliers):
+            ends = [place for _, place in step.zeros if amplitude(place) < _SMALL]
+            if was_large and ends:
+                self._end_at_hopf(curve, ends[0])
+                branch.points.append(ends[0])
+                return "hopf"
+            # where another branch crosses and this one turns at once, the crossing counts
+            for name, place in sorted(step.zeros, key=lambda zero: zero[0] == "fold"):
+                if not _is_event(name, place.facts.multipliers) or self._is_known(name, branch, place):
                     continue
                 branch.points.append(place)
                 found = self._diagram.special(NAMES[name], branch.number, place)
                 found.values = {"period": place.facts.period}
                 found.details = f"period {place.facts.period:.6g}"
-                if name == "period doubling":
+                if name in ("period doubling", "cycle branch"):
                     mesh = type(curve)(curve.system, curve.over, place.facts.mesh, curve.nodes(place.u))
-                    doublings.append((found, mesh, place))
+                    births.append(_Birth(found, mesh, place))
             branch.points.append(step.point)
             end = step.end
             size = amplitude(step.point)
@@ -142,12 +194,40 @@ class CyclesTracer:
             return "homoclinic"
         return end
 
+    def _is_known(self, name: str, branch: Branch, place: Point) -> bool:
+        """Whether a branch turns back or is crossed at a branch point that is known.
+
+        Of a pitchfork, the branch that turns back there touches it: it has a fold and a crossing at once.
+        """
+        if name not in ("fold", "cycle branch"):
+            return False
+        for other in [s for s in self._diagram.specials if _is_same(s.point, place)]:
+            if other.kind == NAMES["cycle branch"]:
+                if other.branch != branch.number:
+                    self._crossed.add(other.number)
+                return True
+            if other.kind == NAMES["fold"] and other.branch == branch.number:
+                self._diagram.specials.remove(other)
+        return False
+
     def _end_at_hopf(self, curve: CycleCurve, point: Point) -> None:
         """Take note at which Hopf point cycles have shrunk to nothing."""
         middle = np.append(curve.nodes(point.u).mean(axis=0), point.u[-1])
         for other in self._diagram.specials:
             if other.kind == "Hopf" and np.abs(other.point.u - middle).max() < _BORN_AT:
                 self._ended.add(other.number)
+
+
+def _is_same(one: Point, other: Point) -> bool:
+    """Whether two points are the same cycle, whatever its phase."""
+    if not (isinstance(one.facts, Cycle) and isinstance(other.facts, Cycle)):
+        return False
+    return bool(np.abs(_measures(one) - _measures(other)).max() < _AT_BRANCH_POINT)
+
+
+def _measures(point: Point) -> Floats:
+    nodes = point.facts.nodes
+    return np.concatenate([point.u[-2:], nodes.max(axis=1), nodes.min(axis=1)])
 
 
 def amplitude(point: Point) -> float:

@@ -29,6 +29,12 @@ EIGENVECTOR = 0.1
 """Weight of an eigenvector's elements: what matters is where the steady state is."""
 
 
+def bounds(u: Floats) -> dict[str, float]:
+    """Return the tests at whose zeros a curve over two parameters is left."""
+    first, second = map(float, u[-2:])
+    return {"low": first, "high": 1.0 - first, "low 2": second, "high 2": 1.0 - second}
+
+
 class TwoParameters(Curve):
     """What folds and Hopf points have in common: two ranges, the last two unknowns."""
 
@@ -66,11 +72,6 @@ class TwoParameters(Curve):
 
     def _turned(self, u: Floats, axis: Floats, vector: Floats, step: float) -> Floats:
         return np.asarray(self.matrix_at(u + step * axis) @ vector)
-
-    def bounds(self, u: Floats) -> dict[str, float]:
-        """Return the tests at whose zeros the curve is left."""
-        first, second = map(float, u[-2:])
-        return {"low": first, "high": 1.0 - first, "low 2": second, "high 2": 1.0 - second}
 
 
 class FoldCurve(TwoParameters):
@@ -117,7 +118,7 @@ class FoldCurve(TwoParameters):
         v, w = self._v(u), self._left_at(u)
         point.facts = AtRest(eigenvalues(matrix[:m, :m]))
         cusp, double = float(w @ matrix[m:-1, :m] @ v), float(w @ v)
-        point.tests = {**self.bounds(u), "cusp": cusp, "Bogdanov-Takens": double}
+        point.tests = {**bounds(u), "cusp": cusp, "Bogdanov-Takens": double}
 
     def _left_at(self, u: Floats) -> Floats:
         """Return the left null vector, its sign that of the last point's."""

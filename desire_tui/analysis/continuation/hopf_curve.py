@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from desire_tui.analysis.continuation.equilibrium_curve import AtRest, determinant
-from desire_tui.analysis.continuation.fold_curve import EIGENVECTOR, TwoParameters
+from desire_tui.analysis.continuation.fold_curve import EIGENVECTOR, TwoParameters, bounds
 from desire_tui.analysis.continuation.lyapunov import critical_vector, first_lyapunov
 from desire_tui.analysis.equilibria.kinds import eigenvalues
 
@@ -90,7 +90,7 @@ class HopfCurve(TwoParameters):
         omega = self.omega(u)
         jacobian = matrix[:m, :m]
         point.facts = AtRest(eigenvalues(jacobian))
-        point.tests = {**self.bounds(u), "Bogdanov-Takens": float(u[-3])}
+        point.tests = {**bounds(u), "Bogdanov-Takens": float(u[-3])}
         if m > 2:
             point.tests["zero-Hopf"] = determinant(jacobian) / (omega * omega)
         if float(u[-3]) > _SLOW:

@@ -80,15 +80,16 @@ def tests_of(found: Multipliers, along: float) -> dict[str, float]:
     others = found.others
     tests = {}
     if len(others):
-        tests["period doubling"] = _product(others + 1.0)
-        tests["cycle branch"] = _product(others - 1.0) * along
+        tests["period doubling"] = product(others + 1.0)
+        tests["cycle branch"] = product(others - 1.0) * along
     if len(others) > 1:
         first, second = np.triu_indices(len(others), 1)
-        tests["torus"] = _product(others[first] * others[second] - 1.0)
+        tests["torus"] = product(others[first] * others[second] - 1.0)
     return tests
 
 
-def _product(values: Complex) -> float:
+def product(values: Complex) -> float:
+    """Return the real part of a product, without leaving the range of numbers."""
     size = np.abs(values)
     if np.any(size == 0.0):
         return 0.0

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.analysis.continuation.cycle_curve import Cycle
 from desire_tui.analysis.equilibria.kinds import is_stable
 from desire_tui.engine.graph.chart import Chart, Series
 
@@ -26,9 +27,13 @@ STEADY, CYCLES = 14, 11
 _COLORS = {
     "fold": 12, "Hopf": 13, "branch point": 10, "fold of cycles": 9, "period doubling": 13, "torus": 10,
     "branch point of cycles": 12, "cusp": 14, "Bogdanov-Takens": 10, "generalised Hopf": 11, "zero-Hopf": 9,
+    "cusp of cycles": 14, "fold-flip": 11, "1:1 resonance": 10, "1:2 resonance": 9,
 }  # fmt: skip
 _STATES_MOST = 4
-_WHAT = {"fold": "folds", "Hopf": "Hopf points"}
+_WHAT = {
+    "fold": "folds", "Hopf": "Hopf points", "fold of cycles": "folds of cycles",
+    "period doubling": "period doublings",
+}  # fmt: skip
 _LOOKS: tuple[tuple[str, bool, Look], ...] = (("stable", True, "line"), ("unstable", False, "dashes"))
 _GAP = np.array([np.nan])
 
@@ -66,12 +71,11 @@ def _of_state(diagram: Diagram, system: System, over: Range, state: int) -> Char
             x, y = _joined(branches, over, of, is_stable_wanted=is_wanted)
             if len(x):
                 series.append(Series(f"{name}{what}", x, y, look, color=color))
-    kinds = {branch.number: branch.kind for branch in diagram.branches}
     for name in dict.fromkeys(s.kind for s in diagram.specials):
         places = [
             (over.value(float(s.point.u[-1])), y)
             for s in diagram.specials if s.kind == name
-            for y in (cycle if kinds[s.branch] == "cycle" else steady)(s.point)
+            for y in (cycle if isinstance(s.point.facts, Cycle) else steady)(s.point)
         ]  # fmt: skip
         x, y = np.array(places).T
         series.append(Series(name, x, y, "points", color=_COLORS[name]))
@@ -139,6 +143,7 @@ def _plane(diagram: Diagram, over: Sequence[Range]) -> Chart:
         x = np.array([first.value(float(p.u[-2])) for p in of_kind])
         y = np.array([second.value(float(p.u[-1])) for p in of_kind])
         series.append(Series(name, x, y, "points", color=_COLORS[name]))
-    title = f"Folds and Hopf points over {first.name} and {second.name}"
+    kinds = " and ".join(dict.fromkeys(_WHAT[branch.kind] for branch in diagram.branches))
+    title = f"{kinds.capitalize() if kinds.islower() else kinds} over {first.name} and {second.name}"
     limits = (first.low, first.high, second.low, second.high)
     return Chart(title, first.name, second.name, series, limits=limits)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from desire_tui.analysis.continuation.cycle_curve import Cycle
 from desire_tui.analysis.continuation.pictures import charts
 from desire_tui.analysis.equilibria.kinds import is_stable, shown
 from desire_tui.analysis.equilibria.listed import tables
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.analysis.continuation.branches import Branch, Diagram, Special
+    from desire_tui.analysis.continuation.branches import Diagram, Special
     from desire_tui.analysis.continuation.curve import Point
     from desire_tui.analysis.continuation.equilibrium_curve import Range
     from desire_tui.analysis.continuation.walk import End
@@ -29,7 +30,10 @@ _ENDS: dict[End, str] = {
     "stopped": "stopped", "hopf": "Hopf", "homoclinic": "homoclinic", "": "begins",
 }  # fmt: skip
 _ROUNDING = 1e-12
-_WHAT = {"steady": "steady states", "cycle": "cycles", "fold": "folds", "Hopf": "Hopf points"}
+_WHAT = {
+    "steady": "steady states", "cycle": "cycles", "fold": "folds", "Hopf": "Hopf points",
+    "fold of cycles": "folds of cycles", "period doubling": "period doublings",
+}  # fmt: skip
 
 
 class Report:
@@ -59,17 +63,16 @@ class Report:
         parts = point.u[-len(self._over) :]
         return [one.value(float(part)) + 0.0 for one, part in zip(self._over, parts, strict=True)]
 
-    def states(self, point: Point, kind: str) -> Floats:
+    def states(self, point: Point) -> Floats:
         """Return x at a point; of a cycle its largest and smallest values, 2 by n."""
-        if kind == "cycle":
+        if isinstance(point.facts, Cycle):
             x = self._system.states(point.facts.nodes)
             return np.array([x.max(axis=1), x.min(axis=1)])
         x = self._system.states(point.u[: len(self._system)])
         return np.where(np.abs(x) < _ROUNDING * self._system.size, 0.0, x)
 
     def _specials(self, diagram: Diagram) -> list[Table]:
-        kinds = {branch.number: branch.kind for branch in diagram.branches}
-        rows = [(s, self.states(s.point, kinds[s.branch])) for s in diagram.specials]
+        rows = [(s, self.states(s.point)) for s in diagram.specials]
         columns: dict[str, list[Any]] = {
             "point": [f"{s.kind} {s.number}" for s, _ in rows], "branch": [s.branch for s, _ in rows],
         }  # fmt: skip
@@ -100,9 +103,9 @@ class Report:
         columns |= {f"{name} min": [] for name in names}
         for branch in diagram.branches:
             for point in branch.points:
-                x = np.atleast_2d(self.states(point, branch.kind))
-                row = [branch.number, _WHAT[branch.kind], *self._parts(point), int(stable(branch, point)),
-                       period(branch, point), *x[0].tolist(), *x[-1].tolist()]  # fmt: skip
+                x = np.atleast_2d(self.states(point))
+                row = [branch.number, _WHAT[branch.kind], *self._parts(point), int(stable(point)),
+                       period(point), *x[0].tolist(), *x[-1].tolist()]  # fmt: skip
                 for column, value in zip(columns.values(), row, strict=True):
                     column.append(value)
         return columns
@@ -114,37 +117,36 @@ class Report:
             found: dict[str, Any] = {"number": branch.number, "of": branch.kind, "from": branch.origin}
             parts = np.array([self._parts(point) for point in branch.points]).reshape(-1, len(self._over))
             found |= {one.name: parts[:, k] for k, one in enumerate(self._over)}
-            x = np.array([np.atleast_2d(self.states(point, branch.kind))[0] for point in branch.points])
+            x = np.array([np.atleast_2d(self.states(point))[0] for point in branch.points])
             found |= {name: x[:, k] for k, name in enumerate(names) if len(x)}
-            found["stable"] = np.array([stable(branch, point) for point in branch.points])
-            if branch.kind == "cycle":
+            found["stable"] = np.array([stable(point) for point in branch.points])
+            if branch.points and isinstance(branch.points[0].facts, Cycle):
                 found["period"] = np.array([point.facts.period for point in branch.points])
                 found["multipliers"] = np.array([point.facts.multipliers.values for point in branch.points])
             elif branch.points:
                 found["eigenvalues"] = np.array([point.facts.eigenvalues for point in branch.points])
             branches.append(found)
-        kinds = {branch.number: branch.kind for branch in diagram.branches}
         specials = []
         for s in diagram.specials:
-            x = np.atleast_2d(self.states(s.point, kinds[s.branch]))[0]
+            x = np.atleast_2d(self.states(s.point))[0]
             found = {"kind": s.kind, "number": s.number, "branch": s.branch, **s.values}
             found |= dict(zip((one.name for one in self._over), self._parts(s.point), strict=True))
             specials.append(found | dict(zip(names, x.tolist(), strict=True)))
         return {"points": specials, "branches": branches}
 
 
-def stable(branch: Branch, point: Point) -> bool:
+def stable(point: Point) -> bool:
     """Whether disturbances of a steady state or a cycle die out."""
-    if branch.kind == "cycle":
+    if isinstance(point.facts, Cycle):
         return bool(point.facts.unstable == 0)
     return is_stable(point.facts.eigenvalues)
 
 
-def period(branch: Branch, point: Point) -> float:
+def period(point: Point) -> float:
     """Return the period of a cycle, nan of anything else."""
-    return float(point.facts.period) if branch.kind == "cycle" else float("nan")
+    return point.facts.period if isinstance(point.facts, Cycle) else float("nan")
 
 
 def _eigenvalues(special: Special) -> str:
     facts = special.point.facts
-    return shown(facts.multipliers.values if hasattr(facts, "multipliers") else facts.eigenvalues)
+    return shown(facts.multipliers.values if isinstance(facts, Cycle) else facts.eigenvalues)

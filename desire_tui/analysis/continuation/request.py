@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 EXAMPLE = "continue k in [0, 2]"
 
+_SPECIAL = {"fold": "fold", "Hopf": "Hopf", "hopf": "Hopf", "period": "period doubling"}
+"""First words of points that are continued over two parameters."""
 From = Literal["run", "here", "place", "cycle", "special"]
 
 
@@ -20,8 +22,9 @@ From = Literal["run", "here", "place", "cycle", "special"]
 class Asked:
     """The parameters with their ranges, one or two, and where it begins.
 
-    `place` holds states by name, `special` the kind and the number of a fold or Hopf point of the first
-    parameter's diagram; None: all of them.
+    `place` holds states by name, `special` the kind and the number of a point of the first parameter's
+    diagram that is followed over both; None: all folds and Hopf points, or of the run's cycle (`origin`
+    cycle) all folds of cycles and period doublings.
     """
 
     over: list[Range]
@@ -51,6 +54,26 @@ def read(request: str, parameters: Iterable[str], states: Iterable[str]) -> Aske
     return asked
 
 
+def _special(words: Request) -> tuple[str, int]:
+    """Read `fold 1`, `Hopf 2`, `fold of cycles 1`, `period doubling 3`."""
+    span = words.span
+    kind = words.take(*_SPECIAL)
+    if not kind:
+        what = "over two parameters, folds, Hopf points, folds of cycles and period doublings are continued"
+        words.fail(what, "from fold 1", span)
+    name = _SPECIAL[kind]
+    if kind == "fold" and words.take("of"):
+        words.expect("cycles")
+        name = "fold of cycles"
+    elif kind == "period":
+        words.expect("doubling")
+    span = words.span
+    number = words.number("its number")
+    if number < 1 or number != int(number):
+        words.fail("the number of a point is 1 or more", f"from {name} 1", span)
+    return name, int(number)
+
+
 def _range(words: Request, known: tuple[str, ...]) -> Range:
     span = words.span
     name = words.known(words.name("a parameter"), known, "parameter", span)
@@ -59,20 +82,18 @@ def _range(words: Request, known: tuple[str, ...]) -> Range:
 
 
 def _origin(words: Request, asked: Asked, states: tuple[str, ...]) -> None:
-    span = words.span
-    kind = words.take("here", "cycle", "fold", "Hopf", "hopf")
     if len(asked.over) == 2:
-        if kind not in ("fold", "Hopf", "hopf"):
-            words.fail("over two parameters, folds and Hopf points are continued", "from fold 1", span)
-        span = words.span
-        number = words.number("its number")
-        if number < 1 or number != int(number):
-            words.fail("the number of a point is 1 or more", "from fold 1", span)
-        asked.special = ("fold" if kind == "fold" else "Hopf", int(number))
+        if words.take("cycle"):
+            asked.origin = "cycle"
+            if words.peek() not in _SPECIAL:
+                return
+        asked.special = _special(words)
         return
-    if kind in ("fold", "Hopf", "hopf"):
+    span = words.span
+    kind = words.take("here", "cycle", *_SPECIAL)
+    if kind in _SPECIAL:
         words.fail(
-            f"a {kind} is continued over two parameters",
+            "folds, Hopf points and the like are continued over two parameters",
             "continue k in [0, 2], r in [1, 3] from fold 1",
             span,
         )
