@@ -66,9 +66,10 @@ class Report:
     def states(self, point: Point) -> Floats:
         """Return x at a point; of a cycle its largest and smallest values, 2 by n."""
         if isinstance(point.facts, Cycle):
-            x = self._system.states(point.facts.nodes)
-            return np.array([x.max(axis=1), x.min(axis=1)])
-        x = self._system.states(point.u[: len(self._system)])
+            nodes = self._system.states(point.facts.nodes)
+            x = np.array([nodes.max(axis=1), nodes.min(axis=1)])
+        else:
+            x = self._system.states(point.u[: len(self._system)])
         return np.where(np.abs(x) < _ROUNDING * self._system.size, 0.0, x)
 
     def _specials(self, diagram: Diagram) -> list[Table]:
