@@ -126,10 +126,12 @@ def _passages(subject: Subject, asked: _Asked, progress: Progress) -> tuple[Floa
         for passage in _of_run(subject, asked, run.t, x):
             if asked.start is None or passage[0] >= asked.start:
                 found.append(passage)
+                part = len(found) / wanted if asked.points else None
+                if not progress(part, f"{len(found)} passages"):
+                    return (*_table(found, len(names)), True)
             if len(found) >= wanted:
                 break
-        part = len(found) / wanted if asked.points else None
-        if not progress(part, f"{len(found)} passages"):
+        if len(found) == before and not progress(None, f"{len(found)} passages"):
             return (*_table(found, len(names)), True)
         without = 0 if len(found) > before else without + 1
         if asked.points is None or len(found) >= wanted or without >= _RUNS_WITHOUT:
