@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.integration.bdf.memory import Evaluate, Fill, Weigh
+from desire_tui.engine.integration.memory_views import pointed_at, reals
 from desire_tui.engine.integration.problem import FLOOR, Matrix
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import JacobianFunction, RhsFunction, WeightFunction
@@ -67,7 +68,7 @@ class PythonCallbacks:
             Evaluate(lambda _, t, y, out: self._derive(t, self._states(y), self._states(out))),
             Weigh(lambda _, y, out: self._weigh(self._states(y), self._states(out))),
             Fill(lambda _, t, y, fy, matrix, *_spare: self._fill(
-                t, self._states(y), self._states(fy), np.ctypeslib.as_array(matrix, (self._n**2,))
+                t, self._states(y), self._states(fy), pointed_at(matrix, self._n**2)
             )),
         )  # fmt: skip
         """For `bdf` in place of CVODE."""
@@ -151,7 +152,7 @@ class PythonCallbacks:
         return self.system.n
 
     def _states(self, place: Reals) -> Array:
-        return np.ctypeslib.as_array(place, (self._n,))
+        return pointed_at(place, self._n)
 
     def _fill_by_tangent(self, t: float, y: Array, data: Array) -> None:
         system = self.system
@@ -191,28 +192,24 @@ class PythonCallbacks:
         library, linear, tables = libraries().cvode, system.plan.linear, system.plan.tables
         assert tables is not None
         if linear.kind == "dense":
-            return _view(library.SUNDenseMatrix_Data(matrix), system.n**2)
+            return reals(library.SUNDenseMatrix_Data(matrix), system.n**2)
         if linear.kind == "band":
-            return _view(library.SUNBandMatrix_Data(matrix), system.n * library.SUNBandMatrix_LDim(matrix))
+            return reals(library.SUNBandMatrix_Data(matrix), system.n * library.SUNBandMatrix_LDim(matrix))
         ctypes.memmove(library.SUNSparseMatrix_IndexValues(matrix), tables.row_indices.ctypes.data,
                        tables.row_indices.nbytes)  # fmt: skip
         ctypes.memmove(library.SUNSparseMatrix_IndexPointers(matrix), tables.column_starts.ctypes.data,
                        tables.column_starts.nbytes)  # fmt: skip
-        return _view(library.SUNSparseMatrix_Data(matrix), linear.nonzeros)
+        return reals(library.SUNSparseMatrix_Data(matrix), linear.nonzeros)
 
 
 def numbers(vector: int) -> Array:
     """View the numbers of a serial N_Vector: `{content, …}`, `{int32 length; int32 own; double* data}`."""
     content = ctypes.c_uint64.from_address(vector).value
     length = ctypes.c_int32.from_address(content).value
-    return _view(ctypes.c_uint64.from_address(content + 8).value, length)
+    return reals(ctypes.c_uint64.from_address(content + 8).value, length)
 
 
 def _scale(system: StiffSystem) -> Array:
     """Return each state's largest magnitude so far, 1 for 0."""
     largest = system.largest
     return np.where(largest == 0.0, 1.0, np.maximum(largest, system.problem.floor))
-
-
-def _view(address: int, count: int) -> Array:
-    return np.ctypeslib.as_array((ctypes.c_double * count).from_address(address))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.integration.memory_views import reals
 from desire_tui.engine.integration.problem import NOISE_FAILURE, NOISE_PART, NOISE_ROOM, NOISE_TRIES, ULP
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def _find_noise(
 ) -> bool:
     """Note states that are noise and were not known as such."""
     n = system.n
-    states = np.ctypeslib.as_array((ctypes.c_double * n).from_address(system.problem.states)).copy()
+    states = reals(system.problem.states, n).copy()
 
     def rate(y: Array) -> Array:
         out = np.zeros(n)

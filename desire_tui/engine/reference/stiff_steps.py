@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import ctypes
 from abc import abstractmethod
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.integration.memory_views import reals
 from desire_tui.engine.integration.problem import (
     CHATTER_FLAG,
     CHATTER_PART,
@@ -266,4 +266,4 @@ class StiffSteps(ReferenceModel):
         return x
 
     def _solution(self) -> Array:
-        return np.ctypeslib.as_array((ctypes.c_double * self.order).from_address(self.system.problem.states))
+        return reals(self.system.problem.states, self.order)

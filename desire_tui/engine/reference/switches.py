@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from desire_tui.engine.integration.memory_views import pointed_at
 from desire_tui.engine.integration.switching import watch as watching
 from desire_tui.engine.integration.switching.memory import Compute, Place
 from desire_tui.engine.integration.switching.setup import Watcher
@@ -114,7 +115,7 @@ class Switches:
         return self._watcher.culprit()
 
     def _numbers(self, name: str) -> Any:
-        return np.ctypeslib.as_array(getattr(self._watch, name), (self._order,))
+        return pointed_at(getattr(self._watch, name), self._order)
 
     def _do(self, action: Callable[[], object]) -> int:
         try:

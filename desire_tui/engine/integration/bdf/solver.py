@@ -9,6 +9,7 @@ import numpy as np
 
 from desire_tui.engine.integration.bdf import start, step
 from desire_tui.engine.integration.bdf.memory import Arrays, Bdf
+from desire_tui.engine.integration.memory_views import pointed_at
 from desire_tui.engine.integration.sundials.solver import MATRIX_CONVERGENCE, Counts
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ class OwnSolver:
         bdf = self._bdf
 
         def numbers(place: Reals) -> NDArray[np.float64]:
-            return np.ctypeslib.as_array(place, (bdf.n,))
+            return pointed_at(place, bdf.n)
 
         sizes = np.abs(numbers(bdf.correction) * numbers(bdf.weights))
         return int(np.argmax(np.nan_to_num(sizes, nan=np.inf)))
