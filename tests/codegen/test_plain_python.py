@@ -6,6 +6,7 @@ import ctypes
 import gc
 import time
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from math import sqrt
 
 import numpy as np
@@ -328,6 +329,7 @@ def test_a_field_that_is_known_cannot_be_set():
 WHOLE, FLOATS, FLAGS = ("i", "j", "n"), ("a", "b", "x"), ("p", "q")
 
 
+@cache  # what is drawn from is made once: making it costs more than drawing
 @st.composite
 def number(draw, kind, depth):
     """An expression; whole numbers stay small enough for 64 bits."""
@@ -347,6 +349,7 @@ def number(draw, kind, depth):
     return draw(st.sampled_from(shapes))
 
 
+@cache
 @st.composite
 def truth(draw, depth):
     if depth == 0:
@@ -359,6 +362,7 @@ def truth(draw, depth):
     return draw(st.sampled_from(shapes))
 
 
+@cache
 @st.composite
 def block(draw, depth, loops):
     """Statements, indented once."""
