@@ -59,3 +59,12 @@ def test_samples_end_no_steps(rule, back_end):
     assert many.runs[0].steps == few.runs[0].steps
     assert many.quantities["n"] == few.quantities["n"] == 2
     assert abs(many.quantities["y"] - few.quantities["y"]) < 1e-12
+
+
+@pytest.mark.parametrize("back_end", ["native", "reference"])
+@pytest.mark.parametrize("rule", [3, 9, 14, 17])
+def test_a_sample_at_a_strike_shows_what_is_behind_it(rule, back_end):
+    """The third strike of 0.1 is one rounding error behind the sample at 0.3, the sixth behind that at 0.6."""
+    text = f"irule {rule} | ERMAX = 1e-6 | DT = 0.05 | TMAX = 0.9 | NN = 4\nx = 0 | n = 0\ndrun\nDYNAMIC\n"
+    outcome = execute(text + "d/dt x = 1\ndispt n\nevery 0.1\nn = n + 1", back_end, Path.cwd())
+    assert [row[-1] for row in outcome.runs[0].rows[:4]] == [1, 4, 7, 10]

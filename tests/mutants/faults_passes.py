@@ -82,4 +82,7 @@ Mutant(
     _fault("ends[-1] = max(ends[-1], slot + count)", "ends[-1] = slot + count", "tests/passes/test_exact_jacobians.py"),
     _fault("last = bisect_right(self.starts, end)", "last = bisect_left(self.starts, end)", "tests/passes/test_intervals.py"),
     _fault("return at >= 0 and self.ends[at] > slot", "return at >= 0 and self.ends[at] >= slot", "tests/passes/test_intervals.py"),
+    # which steps end where samples are taken
+    _fault("_set_outside(segment, conditions=True)", "_set_outside(segment)", "tests/taylor/test_events.py"),
+    _fault("elif id(action) not in own:", "elif False:", "tests/taylor/test_events.py"),
 )  # fmt: skip

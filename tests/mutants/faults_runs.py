@@ -57,4 +57,11 @@ RUNS = (
     _solver("if tests >= 2: s.ratio", "if tests > 2:\n            s.ratio", "tests/integration/test_solver_counts.py"),
     _solver('Linear("band", lower=lower, upper=upper)', 'Linear("band", lower=upper, upper=lower)', "tests/integration/test_band_shapes.py"),
     _solver("if width <= max(self.count // n, 8):", "if width <= max(self.count // n, 8) + 8:", "tests/integration/test_band_shapes.py"),
+    # events between the steps of rules 9 to 17
+    _solver("if part[0] == 0.0: count += 1", "if part[0] == 0.0:\n        count += 0", "tests/taylor/test_events.py"),
+    _solver("left = s.left if found == 0 else min(left, s.left)", "left = s.left", "tests/taylor/test_events.py"),
+    _runtime("m.left = min(m.left, left) if found != 0 else left", "m.left = left", "tests/taylor/test_events.py"),
+    _runtime("m.left = max(m.left, place)", "pass", "tests/taylor/test_events.py"),
+    _runtime("m.fell[i] = s.right", "m.fell[i] = -1.0", "tests/taylor/test_events.py"),
+    _runtime("soon = t_next stop", "pass\n    stop", "tests/integration/test_moments_natively.py"),
 )  # fmt: skip

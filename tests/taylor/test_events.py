@@ -78,11 +78,34 @@ def test_events_of_many_conditions_come_in_their_order(back_end):
 
 
 @BACK_ENDS
-def test_a_condition_without_a_series_is_looked_at_in_places(back_end):
-    found = run(
-        CIRCLE + "e = abs(y) - 0.5\nevent e\nn = n + 1 | m = t\nevent y - 0.9999999\nm = t", 100, back_end
-    )
-    assert found["n"] == 32  # at every pi·(k + 1/2) + pi/6
+def test_what_comes_first_is_found_beside_close_roots(back_end):
+    """The other condition's first root has a part of the step for itself that begins behind 0.2."""
+    body = "event x - 0.2\nm = t\nevent (x - 0.3)*(0.45 - x)\nn = n + 1 | k = t"
+    found = run(LINE + body, 1, back_end, "m = 0 | k = 0")
+    assert (found["m"], found["k"]) == (pytest.approx(0.2, abs=1e-14), pytest.approx(0.3, abs=1e-14))
+    body = "d/dt x = 1\nd/dt y = swtch(x - 0.2)\nd/dt z = swtch((x - 0.3)*(0.45 - x))\ndispt y"
+    found = run(body, 1, back_end, "y = 0 | z = 0")
+    assert (found["y"], found["z"]) == (pytest.approx(0.8, abs=1e-14), pytest.approx(0.15, abs=1e-14))
+
+
+@BACK_ENDS
+def test_falls_of_two_conditions(back_end):
+    """Both are above 0 at first, fall below and rise again, all in one step."""
+    body = "event (x - 0.2)*(x - 0.6)\nn = n + 1 | m = t\nevent (x - 0.3)*(x - 0.4)\nn = n + 1 | k = t"
+    found = run(LINE + body, 1, back_end, "m = 0 | k = 0")
+    assert found["n"] == 2
+    assert (found["m"], found["k"]) == (pytest.approx(0.6, abs=1e-14), pytest.approx(0.4, abs=1e-14))
+    body = "event x - 0.55\nn = n + 1 | m = t\nevent (x - 0.3)*(x - 0.6)\nn = n + 1 | k = t"
+    found = run(LINE + body, 1, back_end, "m = 0 | k = 0")
+    assert found["n"] == 2
+    assert (found["m"], found["k"]) == (pytest.approx(0.55, abs=1e-14), pytest.approx(0.6, abs=1e-14))
+
+
+@BACK_ENDS
+@pytest.mark.parametrize("condition", ["abs(y) - 0.5", "swtch(abs(y) - 0.5) - 0.5"])
+def test_a_condition_without_a_series_is_looked_at_in_places(condition, back_end):
+    body = f"e = {condition}\nevent e\nn = n + 1 | m = t\nevent y - 0.9999999\nm = t"
+    assert run(CIRCLE + body, 100, back_end)["n"] == 32  # at every pi·(k + 1/2) + pi/6
 
 
 @BACK_ENDS
@@ -93,9 +116,10 @@ def test_term_between_two_roots(back_end):
 
 @BACK_ENDS
 def test_a_threshold_that_points_set(back_end):
-    """Steps end where code at points sets what a condition reads: the level always stands ahead."""
-    body = "d/dt x = 1\ndispt x\nevent x - level\nn = n + 1\nOUT\nlevel = 0.6 + t"
-    assert run(body, 1, back_end, "level = 9")["n"] == 0
+    """Steps end where code at points sets what a condition reads."""
+    body = "d/dt x = 1\ndispt x\nevent x - level\nn = n + 1 | m = t\nOUT\nlevel = 5 - 8.8*t"  # 0.6 from t = 0.5 on
+    found = run(body, 1, back_end, "level = 9 | m = 0")
+    assert (found["n"], found["m"]) == (1, pytest.approx(0.6, abs=1e-14))
 
 
 def test_every_root_is_in_a_part_of_its_own():

@@ -27,7 +27,8 @@ def look_along(s: Taylor, w: Watch, t0: float, t1: float) -> Int32:
             continue
         frozen: float = values[w.frozen + i]
         is_fall = w.rising[i] != 0 and frozen > 0.0
-        for side in range(2):
+        sides = 1 if w.thresholds[i] == Threshold.ZERO else 2  # both edges are 0
+        for side in range(sides):
             edge = edge_of(w.thresholds[i], s.coefficients[s.arguments[2 * i]], side)
             if begin_walk(s, i, edge, right) == 0:
                 continue
