@@ -15,6 +15,7 @@ from desire_tui.engine.runtime.run_record import RunRecord
 from desire_tui.engine.runtime.simulator import Simulator
 from desire_tui.engine.runtime.start_values import StartQuantities
 from desire_tui.engine.runtime.stash import write_stash
+from desire_tui.engine.runtime.stiffness_warning import stiffness_warning
 from desire_tui.engine.session.checkpoint import NUMBERS_MOST, Checkpoint
 from desire_tui.engine.session.fault_place import with_part
 
@@ -148,6 +149,7 @@ class Runs:
                 states = self._starts[1].states
                 self._left = states, self._values.data[states]
             self._warn_once(gap_warnings(segment, record))
+            self._warn_once(stiffness_warning(segment, record))
             self._warn_once(self.simulator.cut_delays())
             workspace.notebook.run_ended(record, workspace.overrides)
             self._listener.run_ended(record)

@@ -107,6 +107,15 @@ MESSAGES: dict[str, Wording] = {
         "states count in the order of their d/dt lines; without JACOBIAN rule 14 finds its elements itself",
         warning=True,
     ),
+    "corrector-slow": Wording(
+        496,
+        "the corrector of rule {rule} did not converge, or a step failed, {rejected:,} times in {steps:,} steps",
+        "a stiff model: use rule 14, which may need a hundredth of them; else look for a relay or a jump",
+        "A warning, given once. Rules 9 and 13 substitute, 12 and 16 keep the matrix' diagonal: that converges"
+        " only while steps are short beside the fastest of the model's couplings, long after anything moves so"
+        " fast.",
+        warning=True,
+    ),
     "jacobian-not-diagonal": Wording(
         463,
         "rule {rule} keeps only the Jacobian's diagonal, but it is far from diagonal: results may be wrong",
