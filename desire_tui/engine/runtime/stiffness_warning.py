@@ -1,9 +1,9 @@
 """A warning behind a run: a corrector without the whole matrix has failed at every second or third step.
 
 Such a corrector, by substitution (rules 9, 13) or with the diagonal alone (12, 16), converges only while
-steps are short beside the fastest coupling of states. That keeps the steps of a stiff model small long after its
-transients are over (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8), and nothing else
-would say so: the run ends well, after a hundred times the steps of rule 14.
+steps are short beside the fastest coupling of states. That keeps the steps of a stiff model small long after
+its transients are over (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8), and nothing
+else would say so: the run ends well, after a hundred times the steps of rule 14.
 """
 
 from __future__ import annotations
