@@ -111,8 +111,8 @@ MESSAGES: dict[str, Wording] = {
         496,
         "rule {rule} tried in vain {rejected:,} times in {steps:,} steps: its corrector did not converge",
         "a stiff model: use rule 14, which may need a hundredth of them; else look for a relay or a jump",
-        "A warning, given once. Rules 9 and 13 substitute, 12 and 16 keep the matrix' diagonal: that converges"
-        " only while steps are short beside the fastest of the model's couplings, long after anything moves so"
+        "A warning, given once. Rules 9 and 13 substitute, 12 and 16 keep the diagonal: that converges"
+        " only while steps are short beside the fastest of the couplings, long after anything moves so"
         " fast.",
         warning=True,
     ),
