@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
+from desire_tui.engine.codegen.stiff.dense_factors import factorise_address
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
 from desire_tui.engine.codegen.stiff.stiff_moments import StiffMoments
 from desire_tui.engine.codegen.switching.watch_routines import watch_functions
@@ -118,6 +120,8 @@ class StiffModel:
         self._is_free = not self._inputs.size and not segment.delays and steps_are_free(segment)
         way = _plan(segment, rule, extra)
         self._own = is_own(rule, segment.order, way)
+        if way.linear.kind == "dense" and not self._own:
+            way = replace(way, linear=replace(way.linear, factorise=factorise_address(segment.order)))
         self._system = partial(
             StiffSystem,
             rule,

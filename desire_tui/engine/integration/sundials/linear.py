@@ -30,11 +30,13 @@ class Linear:
     `fixed-point`: functional iteration, no matrix. `diagonal`: CVDiag, a diagonal approximation by
     differences. `dense`, `band` (`lower` and `upper` diagonals), `sparse` (`nonzeros` entries, SuperLU_MT):
     Newton's iteration; `jacobian` is the address of a CVLsJacFn, 0 lets CVODE difference the right-hand
-    side (dense and band only).
+    side (dense and band only). `factorise`: the address of a setup operation that a dense solver gets in place
+    of its own; 0: it keeps its own.
     """
 
     kind: Kind
     jacobian: int = 0
+    factorise: int = 0
     lower: int = 0
     upper: int = 0
     nonzeros: int = 0
@@ -60,6 +62,8 @@ class Attached:
         if linear.kind == "dense":
             self._matrix = _made(library.SUNDenseMatrix(n, n, context))
             self._solver = _made(library.SUNLinSol_Dense(vector, self._matrix, context))
+            if linear.factorise:
+                _replace(self._solver, address(library, "SUNLinSolSetup_Dense"), linear.factorise)
         elif linear.kind == "band":
             self._matrix = _made(library.SUNBandMatrix(n, linear.upper, linear.lower, context))
             self._solver = _made(library.SUNLinSol_Band(vector, self._matrix, context))
@@ -70,7 +74,8 @@ class Attached:
             self._matrix = _made(library.SUNSparseMatrix(n, n, linear.nonzeros, CSC, context))
             self._solver = _made(sparse.SUNLinSol_SuperLUMT(vector, self._matrix, 1, context))
             _check(sparse.SUNLinSolInitialize_SuperLUMT(self._solver))
-            _keep_factors(self._solver, address(sparse, "SUNLinSolInitialize_SuperLUMT"))
+            # done once: CVODE calls it at each restart, when it would forget, and never free, its factors
+            _replace(self._solver, address(sparse, "SUNLinSolInitialize_SuperLUMT"), 0)
         _check(library.CVodeSetLinearSolver(memory, self._solver, self._matrix))
         if linear.jacobian:
             _check(library.CVodeSetJacFn(memory, linear.jacobian))
@@ -91,16 +96,13 @@ class Attached:
         self._solver = self._matrix = self._iteration = 0
 
 
-def _keep_factors(solver: int, initialize: int) -> None:
-    """Take the solver's `initialize`, done once, out of its table of operations, which may lack it.
-
-    CVODE calls it at each restart; SuperLU_MT's then forgets, and never frees, the factors it has.
-    """
+def _replace(solver: int, operation: int, other: int) -> None:
+    """Put another function (0: none, where it may be missing) in an operation's place in the solver's table."""
     operations = ctypes.c_uint64.from_address(solver + 16).value  # {content, python, operations, context}
     table = (ctypes.c_uint64 * _OPERATIONS).from_address(operations)
     for place in range(_OPERATIONS):
-        if table[place] == initialize:
-            table[place] = 0
+        if table[place] == operation:
+            table[place] = other
             return
 
 
