@@ -14,9 +14,9 @@ import functools
 from hashlib import blake2b
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.ir import shared_loops
 from desire_tui.engine.codegen.ir.counted_loops import elementwise, fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
-from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code, machine, module_text
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _PANEL = 32
 """Columns whose pivots are sought together: of 1,000 states, a panel stays in the second cache."""
 _COLUMNS = 4
-"""A block of those behind a panel."""
+"""A block of the others."""
 LEAST = 64
 """Smaller matrices are factorised by SUNDIALS in some 100 µs."""
 
@@ -38,7 +38,7 @@ def factorise_address(n: int) -> int:
     if n < LEAST:
         return 0
     code = _native_code()
-    if is_large(n * n):
+    if shared_loops.is_large(n * n):
         from desire_tui.engine.codegen.threads.pool import thread_pool  # few models are so large
 
         ctypes.CFUNCTYPE(None, ctypes.c_void_p)(code.address("dense.connect"))(thread_pool().share)
@@ -57,8 +57,8 @@ _CONNECT = """define void @dense.connect(ptr %share) #0 {
   store ptr %share, ptr @dense.share
   ret void
 }"""
-_SERIAL = """define internal void @dense.serial(ptr %body, ptr %a, ptr %pivots, ptr %job, i64 %count, i64 %block) #0 {
-  call void %body(ptr %a, ptr %pivots, ptr %job, i64 0, i64 %count)
+_SERIAL = """define internal void @dense.serial(ptr %f, ptr %a, ptr %p, ptr %job, i64 %count, i64 %_) #0 {
+  call void %f(ptr %a, ptr %p, ptr %job, i64 0, i64 %count)
   ret void
 }"""
 """`pool.share` for who is alone."""
@@ -110,22 +110,56 @@ class _Writer:
             lambda: elementwise(self.text, "%n", machine().width, step, below),
         )
 
+    def update_twice(self, column: str, k: str) -> None:
+        """Take columns k and k + 1 in one loop: half as often is the column fetched and stored."""
+        text, one = self.text, self.one
+        following = text.op(f"add i64 {k}, 1")
+        first, second = self.column(k), self.column(following)
+        a = fetch(one, column, k)
+        b = one.sub(fetch(one, column, following), one.mul(a, fetch(one, first, following)))
+        both = [one.compare("une", factor, one.const(0.0)) for factor in (a, b)]
+        stem = text.fresh()
+        text.branch(text.op(f"and i1 {both[0]}, {both[1]}"), f"{stem}.both", f"{stem}.apart")
+        text.begin(f"{stem}.both")
+        put(one, column, following, b)
+
+        def step(lanes: Lanes, i: str) -> None:
+            x = fetch(lanes, column, i)
+            for factor, pivots in ((a, first), (b, second)):
+                x = lanes.sub(x, lanes.mul(lanes.splat(factor), fetch(lanes, pivots, i)))
+            put(lanes, column, i, x)
+
+        elementwise(text, "%n", machine().width, step, text.op(f"add i64 {k}, 2"))
+        text.jump(f"{stem}.done")
+        text.begin(f"{stem}.apart")
+        self.update(column, first, k)
+        self.update(column, second, following)
+        text.jump(f"{stem}.done")
+        text.begin(f"{stem}.done")
+
 
 def _columns_function() -> str:
-    """Return the body of the shared loop: columns behind a panel take its exchanges and updates."""
+    """Return the body of the shared loop: a panel's exchanges in all other columns, its updates behind it."""
     w = _Writer()
     text = w.text
     for place, name in enumerate(("%n", "%panel", "%behind")):
         text.do(f"{name} = load i64, ptr {text.op(f'getelementptr i64, ptr %job, i64 {place}')}")
+    width = text.op("sub i64 %behind, %panel")
+    odd = text.op(f"and i64 {width}, 1")
+    even = text.op(f"sub i64 %behind, {odd}")
 
-    def one_column(j: str) -> None:
-        column = w.column(text.op(f"add i64 %behind, {j}"))
+    def one_column(number: str) -> None:
+        is_behind = text.op(f"icmp sge i64 {number}, %panel")
+        j = text.op(f"add i64 {number}, {text.op(f'select i1 {is_behind}, i64 {width}, i64 0')}")
+        column = w.column(j)
+        # all exchanges first: the panel's columns have taken part in those behind their own
+        loop(text, "%panel", "%behind", 1, lambda k: w.exchange(column, k, w.pivot(k)))
 
-        def one_pivot(k: str) -> None:
-            w.exchange(column, k, w.pivot(k))
-            w.update(column, w.column(k), k)
+        def updates() -> None:
+            loop(text, "%panel", even, 2, lambda k: w.update_twice(column, k))
+            loop(text, even, "%behind", 1, lambda k: w.update(column, w.column(k), k))
 
-        loop(text, "%panel", "%behind", 1, one_pivot)
+        w.when(is_behind, updates)
 
     loop(text, "%first", "%end", 1, one_column)
     text.do("ret void")
@@ -151,6 +185,7 @@ def _setup() -> str:
     text.do(f"%pivots = load ptr, ptr {text.op('getelementptr i8, ptr %own, i64 8')}")
     text.do("%flag = getelementptr i8, ptr %own, i64 16")
     text.do("store i32 0, ptr %flag")
+    text.do(f"%is_large = icmp sge i64 {text.op('mul i64 %n, %n')}, {shared_loops.LEAST}")
     loop(text, "0", "%n", _PANEL, lambda panel: _panel(w, panel))
     text.do("ret i32 0")
     text.begin("singular")
@@ -162,21 +197,18 @@ def _panel(w: _Writer, panel: str) -> None:
     text = w.text
     above = text.op(f"add i64 {panel}, {_PANEL}")
     behind = text.op(f"select i1 {text.op(f'icmp slt i64 {above}, %n')}, i64 {above}, i64 %n")
-    loop(text, panel, behind, 1, lambda k: _pivot(w, k, behind))
+    loop(text, panel, behind, 1, lambda k: _pivot(w, k, panel, behind))
     for place, value in enumerate(("%n", panel, behind)):
         text.do(f"store i64 {value}, ptr {text.op(f'getelementptr i64, ptr %job, i64 {place}')}")
     share = text.op("load ptr, ptr @dense.share")
-    rest = text.op(f"sub i64 %n, {behind}")
-    w.when(
-        text.op(f"icmp sgt i64 {rest}, 0"),
-        lambda: text.do(
-            f"call void {share}(ptr @dense.columns, ptr %columns, ptr %pivots, ptr %job, i64 {rest}, i64 {_COLUMNS})"
-        ),
-    )
+    others = text.op(f"sub i64 %n, {text.op(f'sub i64 {behind}, {panel}')}")
+    arrays = "ptr @dense.columns, ptr %columns, ptr %pivots, ptr %job"
+    block = text.op(f"select i1 %is_large, i64 {_COLUMNS}, i64 %n")
+    text.do(f"call void {share}({arrays}, i64 {others}, i64 {block})")
 
 
-def _pivot(w: _Writer, k: str, behind: str) -> None:
-    """Find the pivot of column k, exchange rows in all columns before `behind`, and update the panel's."""
+def _pivot(w: _Writer, k: str, panel: str, behind: str) -> None:
+    """Find the pivot of column k, exchange rows in the panel's columns, and update those behind k."""
     text, one = w.text, w.one
     column = w.column(k)
     most, where = text.alloca("double"), text.alloca("i64")
@@ -204,7 +236,7 @@ def _pivot(w: _Writer, k: str, behind: str) -> None:
     text.do(f"store i32 {text.op(f'trunc i64 {below} to i32')}, ptr %flag")
     text.jump("singular")
     text.begin(f"{stem}.some")
-    loop(text, "0", behind, 1, lambda j: w.exchange(w.column(j), k, row))
+    loop(text, panel, behind, 1, lambda j: w.exchange(w.column(j), k, row))
     factor = one.div(one.const(1.0), fetch(one, column, k))
 
     def scale(lanes: Lanes, i: str) -> None:

@@ -30,8 +30,8 @@ class Linear:
     `fixed-point`: functional iteration, no matrix. `diagonal`: CVDiag, a diagonal approximation by
     differences. `dense`, `band` (`lower` and `upper` diagonals), `sparse` (`nonzeros` entries, SuperLU_MT):
     Newton's iteration; `jacobian` is the address of a CVLsJacFn, 0 lets CVODE difference the right-hand
-    side (dense and band only). `factorise`: the address of a setup operation that a dense solver gets in place
-    of its own; 0: it keeps its own.
+    side (dense and band only). `factorise`: the address of a setup operation that a dense solver gets in
+    place of its own; 0: it keeps its own.
     """
 
     kind: Kind
@@ -97,7 +97,7 @@ class Attached:
 
 
 def _replace(solver: int, operation: int, other: int) -> None:
-    """Put another function (0: none, where it may be missing) in an operation's place in the solver's table."""
+    """Put another function (0: none, where the solver may lack it) in an operation's place."""
     operations = ctypes.c_uint64.from_address(solver + 16).value  # {content, python, operations, context}
     table = (ctypes.c_uint64 * _OPERATIONS).from_address(operations)
     for place in range(_OPERATIONS):
