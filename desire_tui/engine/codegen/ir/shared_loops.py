@@ -12,6 +12,8 @@ LEAST = 1 << 16
 """Elements from which a loop is shared: it takes some ten times as long as two threads need to meet."""
 BLOCK = 1 << 12
 """Elements of a block. Sums of products are formed block by block: this is a part of their definition."""
+PRODUCTS = 4
+"""Elements of a matrix that a product takes in the time of one in another loop."""
 PREFIX = "shared."
 """Of the functions' names."""
 

@@ -1,8 +1,9 @@
 """The pool's native code: a loop over blocks, done by whoever is there; threads that sleep between loops.
 
 Blocks are cut at fixed places, so that nobody can tell from the results who did which. Each member of the
-pool has a ticket, the blocks of its own part that nobody has taken yet, and takes from the others' when its
-own part is done: a thread that the system has put aside holds up one block at most. A ticket is one number of
+pool has a ticket, the blocks of its own part that nobody has taken yet: what a part reads and writes stays in
+the cache of its core from loop to loop. Whoever has waited in vain for some 10 µs takes from the others'
+parts: a thread that the system has put aside holds up one block at most. A ticket is one number of
 64 bits, taken by compare-and-swap (Herlihy & Shavit, The Art of Multiprocessor Programming, 2008, 5.8): the
 loop's number above bit 32, then 16 bits each for the part's end and its next block. What else belongs to a
 loop is written before its tickets and stays until the last block is done.
@@ -19,6 +20,9 @@ BLOCKS_MOST = (1 << 16) - 1
 """In one loop: 16 bits of a ticket."""
 _LOOKS = 1000
 """Pauses of some 50 ns before a thread goes to sleep, or gives its core to whoever else wants it."""
+
+_PATIENCE = 200
+"""Pauses before somebody takes from the others' parts: those at work must not lose their cache's content."""
 
 _PAUSES = {
     "x86_64": ("declare void @llvm.x86.sse2.pause()", "call void @llvm.x86.sse2.pause()"),
@@ -38,7 +42,10 @@ def pool_text(triple: str) -> tuple[list[str], list[str]]:
     """
     declared, pause = _PAUSES.get(triple.split("-", maxsplit=1)[0], ("", ""))
     functions = [_OPEN, _SHARE, _TAKE, _WORK, _CLOSE]
-    filled = [function.replace("PAUSE", pause).replace("LOOKS", str(_LOOKS)) for function in functions]
+    filled = [
+        function.replace("PAUSE", pause).replace("LOOKS", str(_LOOKS)).replace("PATIENCE", str(_PATIENCE))
+        for function in functions
+    ]
     tickets = f"@pool.tickets = internal global [{8 * MEMBERS_MOST} x i64] zeroinitializer, align 64"
     return filled, [*_DECLARATIONS, tickets, *([declared] if declared else [])]
 
@@ -129,7 +136,7 @@ rouse:
   %r3 = call i32 @pthread_mutex_unlock(ptr @pool.mutex)
   br label %begin
 begin:
-  %mine = call i64 @pool.take(i64 0)
+  %mine = call i64 @pool.take(i64 0, i64 1)
   br label %wait
 wait:
   %looks = phi i64 [ 0, %begin ], [ %looked, %again ]
@@ -139,6 +146,12 @@ wait:
 pause:
   PAUSE
   %looked = add i64 %looks, 1
+  %enough = icmp eq i64 %looked, PATIENCE
+  br i1 %enough, label %help, label %look.on
+help:
+  %theirs = call i64 @pool.take(i64 0, i64 %members)
+  br label %again
+look.on:
   %long = icmp sgt i64 %looked, LOOKS
   br i1 %long, label %yield, label %again
 yield:
@@ -165,15 +178,15 @@ out:
   ret void
 }}"""
 
-_TAKE = f"""define internal i64 @pool.take(i64 %me) #0 {{
+_TAKE = f"""define internal i64 @pool.take(i64 %me, i64 %parts) #0 {{
 entry:
   %members = load atomic i64, ptr @pool.members monotonic, align 8
   br label %part
 part:
   %p = phi i64 [ 0, %entry ], [ %next, %empty ]
   %had = phi i64 [ 0, %entry ], [ %got, %empty ]
-  %some = icmp slt i64 %p, %members
-  br i1 %some, label %look, label %out
+  %some = icmp slt i64 %p, %parts
+  br i1 %some, label %look, label %tell
 look:
   %sum = add i64 %me, %p
   %whose = urem i64 %sum, %members
@@ -205,12 +218,17 @@ do:
   %short = icmp slt i64 %behind, %count
   %stop = select i1 %short, i64 %behind, i64 %count
   call void %body(ptr %v, ptr %dx, ptr %c, i64 %first, i64 %stop)
-  %counted = atomicrmw add ptr @pool.done, i64 1 seq_cst
   %more = add i64 %got, 1
   br label %try
 empty:
   %next = add i64 %p, 1
   br label %part
+tell:
+  %any = icmp sgt i64 %had, 0
+  br i1 %any, label %add, label %out
+add:
+  %counted = atomicrmw add ptr @pool.done, i64 %had seq_cst
+  br label %out
 out:
   ret i64 %had
 }}"""
@@ -224,7 +242,10 @@ look:
   %over = icmp ne i64 %closing, 0
   br i1 %over, label %out, label %take
 take:
-  %got = call i64 @pool.take(i64 %me)
+  %members = load atomic i64, ptr @pool.members monotonic, align 8
+  %enough = icmp eq i64 %looks, PATIENCE
+  %parts = select i1 %enough, i64 %members, i64 1
+  %got = call i64 @pool.take(i64 %me, i64 %parts)
   %none = icmp eq i64 %got, 0
   %one.more = add i64 %looks, 1
   %looked = select i1 %none, i64 %one.more, i64 0
@@ -242,7 +263,6 @@ sleep:
   %is.over = icmp ne i64 %over.now, 0
   br i1 %is.over, label %rise, label %some
 some:
-  %members = load atomic i64, ptr @pool.members monotonic, align 8
   br label %part
 part:
   %p = phi i64 [ 0, %some ], [ %q, %none.here ]

@@ -8,7 +8,7 @@ from desire_tui.engine.codegen.ir.cells import MemoryCells
 from desire_tui.engine.codegen.ir.counted_loops import loop
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.random import advance
-from desire_tui.engine.codegen.ir.shared_loops import BLOCK, is_large, write_shared
+from desire_tui.engine.codegen.ir.shared_loops import BLOCK, PRODUCTS, is_large, write_shared
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.scalar.statements import ScalarStatements
 from desire_tui.engine.codegen.vector import products
@@ -100,11 +100,11 @@ class ArrayOperands(ScalarStatements):
         result = self.temp(count)
         if self.is_block:
             return result
-        if not is_large(count * inner):
+        if not is_large(count * inner // PRODUCTS):
             self._part_of_product(node, result, "0", str(count))
         else:
             block._part_of_product(node, block.temp(count), "%first", "%end")  # noqa: SLF001 - of its own kind
-            self.share(block, count, max(1, BLOCK // inner // products.ROWS) * products.ROWS)
+            self.share(block, count, max(1, PRODUCTS * BLOCK // inner // products.ROWS) * products.ROWS)
         return result
 
     def _part_of_product(self, node: MatVec, result: str, first: str, end: str) -> None:
