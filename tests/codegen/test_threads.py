@@ -12,6 +12,7 @@ import pytest
 from desire_tui.engine import thread_count
 from desire_tui.engine.codegen.ir import shared_loops
 from desire_tui.engine.codegen.jit.background import Improver
+from desire_tui.engine.codegen.loop.state_blocks import state_blocks
 from desire_tui.engine.codegen.threads.pool import ThreadPool, thread_pool
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
@@ -82,6 +83,20 @@ def test_sums_do_not_depend_on_threads(pool, monkeypatch):
         )
         found.append(session.runs[-1].rows[: session.runs[-1].count].tobytes())
     assert found[0] == found[1]
+
+
+def test_each_thread_meets_the_same_elements_of_all_vectors():
+    n = 10 * shared_loops.BLOCK + 5
+    blocks = state_blocks([(100, 0, n), (100_000, n, n)])
+    assert sorted(blocks[:, 3]) == list(range(22))
+    halves = [set(blocks[:11, 3] % 11), set(blocks[11:, 3] % 11)]
+    assert halves[0] & halves[1] == {5}
+    numbers = np.concatenate([np.arange(first, end) for first, end, _, _ in blocks[np.argsort(blocks[:, 3])]])
+    assert (numbers == np.arange(2 * n)).all()
+    assert state_blocks([(100, 0, 1000), (2000, 1000, 70_000)])[0, 1] == 1000
+    assert state_blocks([(i * 8, i, 1) for i in range(70_000)]) is None
+    assert len(state_blocks([(i, i, 1) for i in range(70_000)])) == shared_loops.blocks(70_000)
+    assert state_blocks([(0, 0, 1000)] * 65 + [(0, 0, 2000)] * 3) is None
 
 
 def test_two_runs_at_once(pool, monkeypatch):

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from desire_tui.engine.codegen.ir.shared_loops import BLOCK, is_large
+from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.ir.work_memory import PASSES, WorkMemory
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop, register_loop
+from desire_tui.engine.codegen.loop.state_blocks import state_blocks
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
@@ -116,15 +117,16 @@ class NativeModel:
         """Return what shares loops over the states among threads; 0: there are too few of them."""
         if not is_large(self._states.size):
             return 0
+        blocks = state_blocks((s.slot, s.first, s.count) for s in self._segment.states)
+        if blocks is None:
+            return 0
         from desire_tui.engine.codegen.threads.pool import thread_pool  # few models are so large
 
-        firsts = np.arange(0, self._states.size, BLOCK)
-        partial, slots = np.zeros(2 * firsts.size), self._states[firsts]
-        gaps = np.concatenate(([0], np.cumsum(np.diff(self._states) != 1)))
-        lasts = np.minimum(firsts + BLOCK, self._states.size) - 1
-        slots[gaps[lasts] != gaps[firsts]] = -1
-        self.context.partial, self.context.block_slots = partial.ctypes.data, slots.ctypes.data
-        self._kept += [partial, slots]
+        partial = np.zeros(2 * len(blocks))
+        context = self.context
+        context.blocks, context.block_count = blocks.ctypes.data, len(blocks)
+        context.partial = partial.ctypes.data
+        self._kept += [partial, blocks]
         return thread_pool().share
 
     def _watch(self, switching: Switching) -> None:

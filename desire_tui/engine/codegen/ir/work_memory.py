@@ -61,10 +61,8 @@ class WorkMemory(ctypes.Structure):
         ("modes_second", ctypes.c_uint64),
         ("factor", ctypes.c_double),  # what loops shared among threads multiply by (`loop.shared_storage`)
         ("partial", ctypes.c_uint64),  # and what they find in each block: two numbers
-        (
-            "block_slots",
-            ctypes.c_uint64,
-        ),  # int64 slot of a block's first state; -1: they do not stand in a row
+        ("blocks", ctypes.c_uint64),  # where they are cut (`loop.state_blocks`)
+        ("block_count", ctypes.c_int64),
         ("whole_step", ctypes.c_uint64),  # `lanes.replica_steps`: takes the place of stages; or 0
         ("box_low", ctypes.c_uint64),  # the box in which no mode switches (`integration.switching.clearance`)
         ("box_high", ctypes.c_uint64),

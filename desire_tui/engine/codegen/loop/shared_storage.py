@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.counted_loops import elementwise, loop
-from desire_tui.engine.codegen.ir.shared_loops import BLOCK, write_shared
+from desire_tui.engine.codegen.ir.shared_loops import write_shared
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
+from desire_tui.engine.codegen.loop.state_blocks import FIELDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,7 +33,7 @@ class SharedStorage(ArrayStorage):
         return _Block(self.stages, self._width)
 
     def _run(self, block: _Block) -> None:
-        write_shared(self.text, self._share, block.text, "null", "%n", BLOCK)
+        write_shared(self.text, self._share, block.text, "null", self.context.load("block_count"), 1)
 
     def _states(self, body: Visit, factor: str = "") -> None:
         block = self._block()
@@ -88,57 +89,40 @@ class SharedStorage(ArrayStorage):
         self._run(block)
 
     def _each_block(self, one: Callable[[str], None]) -> None:
-        """Visit what the blocks have found."""
+        """Visit what the blocks have found, in the order of the states."""
         partial = self.context.load("partial")
-        above = self.text.op(f"add i64 %n, {BLOCK - 1}")
-        count = self.text.op(f"sdiv i64 {above}, {BLOCK}")
 
         def visit(block: str) -> None:
             place = self.text.op(f"mul i64 {block}, 2")
             one(self.text.op(f"getelementptr double, ptr {partial}, i64 {place}"))
 
-        loop(self.text, "0", count, 1, visit)
+        loop(self.text, "0", self.context.load("block_count"), 1, visit)
 
 
 class _Block(ArrayStorage):
-    """Loops over the states of a block, in a text of their own.
+    """Loops over the states of block number %first, in a text of their own."""
 
-    The states of most blocks stand side by side: they are elements of one vector.
-    """
-
-    first, end = "%first", "%end"
+    first, end = "%from", "%to"
 
     def __init__(self, stages: int, width: int) -> None:
         super().__init__(IrText(), stages, width, contiguous=True)
-        self.context.name("%m", "memory")
-        self.context.name("%slots", "state_slots")
-        self.name_vectors(self.context)
+        text, context = self.text, self.context
+        context.name("%m", "memory")
+        self.name_vectors(context)
+        number = text.op(f"mul i64 %first, {FIELDS}")
+        text.do(f"%block = getelementptr i64, ptr {context.load('blocks')}, i64 {number}")
+        for place, name in enumerate(("%from", "%to", "%slot", "%number")):
+            text.do(f"{name} = load i64, ptr {text.op(f'getelementptr i64, ptr %block, i64 {place}')}")
 
     def _states(self, body: Visit, factor: str = "") -> None:
-        text, op = self.text, self.text.op
-        block = op(f"sdiv i64 %first, {BLOCK}")
-        firsts = self.context.load("block_slots")
-        slot = op(f"load i64, ptr {op(f'getelementptr i64, ptr {firsts}, i64 {block}')}")
-        names = [text.fresh() for _ in range(3)]
-        text.branch(op(f"icmp sge i64 {slot}, 0"), names[0], names[1])
-        text.begin(names[0])
-        x = op(f"getelementptr double, ptr %v, i64 {op(f'sub i64 {slot}, %first')}")
-        elementwise(text, self.end, self.vector, lambda lanes, i: body(lanes, i, x, i, factor), self.first)
-        text.jump(names[2])
-        text.begin(names[1])
-
-        def one(i: str) -> None:
-            at = op(f"getelementptr i64, ptr %slots, i64 {i}")
-            body(self.lanes, i, "%v", op(f"load i64, ptr {at}"), factor)
-
-        loop(text, self.first, self.end, 1, one)
-        text.jump(names[2])
-        text.begin(names[2])
+        x = self.text.op(f"getelementptr double, ptr %v, i64 {self.text.op('sub i64 %slot, %from')}")
+        elementwise(
+            self.text, self.end, self.vector, lambda lanes, i: body(lanes, i, x, i, factor), self.first
+        )
 
     def leave_found(self, value: str, state: str) -> None:
         """Write what is found to the block's place."""
-        block = self.text.op(f"sdiv i64 %first, {BLOCK}")
-        place = self.text.op(f"mul i64 {block}, 2")
+        place = self.text.op("mul i64 %number, 2")
         at = self.text.op(f"getelementptr double, ptr {self.context.load('partial')}, i64 {place}")
         self.text.do(f"store double {value}, ptr {at}")
         self.text.do(f"store i64 {state}, ptr {self.text.op(f'getelementptr double, ptr {at}, i64 1')}")

@@ -74,7 +74,7 @@ class ArrayStatements(ArrayOperands):
     def _fused(self, group: list[SetVec | DerivVec]) -> None:
         """Write statements of one length as one loop, which threads share if it is long."""
         count = group[0].count
-        is_shared = is_large(count) and is_separable(*(action.value for action in group))
+        is_shared = is_large(count * len(group)) and is_separable(*(action.value for action in group))
         block = self.block() if is_shared else self
         writers = [_Writer(self, action) for action in group]
         if is_shared:
