@@ -90,12 +90,12 @@ ANALYSES = (
     ),
     Analysis(
         "steady", "Steady states", "Where all states stand still: eigenvalues, kind, stability",
-        "[from here | all in STATE = [FROM, TO], …]", "all in x = [-2, 2]",
-        "desire_tui.analysis.steady.steady", may_be_empty=True,
+        "[from here | all in STATE = [FROM, TO], …] [over NAME in [FROM, TO] [places N]]",
+        "all in x = [-2, 2]", "desire_tui.analysis.steady.steady", may_be_empty=True,
     ),
     Analysis(
         "continue", "Continuation", "Steady states and cycles over a parameter; folds, Hopf, branch points",
-        "NAME in [FROM, TO] [from here | from STATE = VALUE, … | from cycle] [without cycles]",
+        "NAME in [FROM, TO][, NAME in [FROM, TO]] [from here|STATE = VALUE …|cycle|fold N] [without cycles]",
         "k in [0, 2]", "desire_tui.analysis.continuation.continuation",
     ),
     Analysis(

@@ -163,3 +163,38 @@ def test_it_can_be_stopped(subject):
 )  # fmt: skip
 def test_kinds(values, name):
     assert kind(np.sort_complex(np.array(values, dtype=complex))[::-1]) == name
+
+
+def test_over_a_parameter_a_table_has_all(subject):
+    found = analyse(subject(scalar("c*x - x*x*x")), "over c in [-1, 1] places 5", unwatched)
+    c, x, stable = found["c"], found["states"]["x"], found["stable"]
+    assert c == pytest.approx([-1, -0.5, 0, 0.5, 0.5, 0.5, 1, 1, 1])
+    root = np.sqrt(0.5)
+    assert x == pytest.approx([0, 0, 0, -root, 0, root, -1, 0, 1], abs=1e-6)
+    assert stable[:2].all()
+    assert stable[3:].tolist() == [True, False, True] * 2
+    assert found.tables[0].columns["c"] == c.tolist()
+    assert [one.name for one in found.charts[0].series] == ["stable", "unstable"]
+
+
+def test_values_without_steady_states_are_told(subject):
+    found = analyse(subject(scalar("c - x*x")), "all in x = [0, 3] over c in [-1, 2] places 4", unwatched)
+    assert found["states"]["x"][found["c"] > 0] == pytest.approx(np.sqrt([1, 2]))
+    assert any("of 4 values there is none" in note for note in found.notes)
+    assert told(subject, scalar("1 + x*x*c"), "over c in [1, 2]") == (
+        "no steady state is found for c from 1 to 2"
+    )
+    assert "has no influence" in told(subject, scalar("1 - x + 0*c"), "over c in [1, 2]")
+    assert "holds nothing" in told(subject, scalar("c - x"), "over c in [2, 1]")
+
+
+def test_over_a_parameter_it_can_be_stopped(subject):
+    parts = []
+
+    def once(part, what, so_far=None):
+        parts.append(part)
+        return len(parts) < 9
+
+    found = analyse(subject(scalar("c - x")), "from here over c in [1, 2]", once)
+    assert found.is_partial
+    assert 0 < len(found["c"]) < 21

@@ -15,7 +15,8 @@ from desire_tui.analysis.continuation.report import Report
 from desire_tui.analysis.continuation.request import read
 from desire_tui.analysis.continuation.settled import from_run
 from desire_tui.analysis.continuation.two_parameters import KINDS, is_passed, trace
-from desire_tui.analysis.equilibria.flow import Flow, around
+from desire_tui.analysis.equilibria.flow import Flow
+from desire_tui.analysis.equilibria.influence import USEFUL, has_influence
 from desire_tui.analysis.equilibria.search import search
 from desire_tui.analysis.equilibria.starts import Travelled, spread
 from desire_tui.analysis.equilibria.system import System
@@ -85,14 +86,9 @@ class _Continuation:
         return self._report.result(self._diagram)
 
     def _refuse_useless(self, one: Range) -> None:
-        flow = self._flow
-        places = around(self._system.size, np.random.default_rng(3), 8)
-        rates = [flow.rate(places, {one.name: one.value(part)}) for part in _PARTS]
-        if all(np.array_equal(rates[0], other, equal_nan=True) for other in rates[1:]):
-            self._fail(
-                f"{one.name} has no influence on the derivatives",
-                "a parameter that stands in a d/dt line, or in what one depends on",
-            )
+        values = [one.value(part) for part in _PARTS]
+        if not has_influence(self._flow, self._system.size, one.name, values):
+            self._fail(f"{one.name} has no influence on the derivatives", USEFUL)
 
     def _steady_states(self) -> None:
         starts = self._starts()

@@ -14,6 +14,7 @@ from desire_tui.analysis.equilibria.starts import Travelled, spread
 from desire_tui.analysis.equilibria.system import System
 from desire_tui.analysis.request import Request
 from desire_tui.analysis.result import Result
+from desire_tui.analysis.steady.over import read_over, steady_over
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
 if TYPE_CHECKING:
@@ -40,14 +41,22 @@ def analyse(subject: Subject, request: str, progress: Progress) -> Result:
     asked = Request(request, EXAMPLE)
     is_here = bool(asked.take("from")) and bool(asked.expect("here"))
     box = _box(asked, tuple(subject.model.states)) if not is_here and asked.take("all") else None
+    over = read_over(asked, tuple(subject.model.parameters))
     asked.end()
     flow = Flow(subject)
     progress(0.0, "run")
     travelled = Travelled(subject)
-    system = System(flow, travelled.start, travelled.size)
+    moved = [] if over is None else [{over.name: value} for value in over.values[[0, -1]].tolist()]
+    system = System(flow, travelled.start, travelled.size, moved)
     now = subject.here or {}
     here = np.array([now.get(name, x) for name, x in zip(flow.names, flow.start.tolist(), strict=True)])
     starts = [here] if is_here else _starts(travelled, box)
+
+    if over is not None:
+        with np.errstate(all="ignore"):
+            return steady_over(
+                subject, system, over, starts, lambda x: _is_within(x, box), travelled, progress
+            )
 
     def go_on(count: int) -> bool:
         return progress(count / len(starts), f"{count} of {len(starts)} starts")
