@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from desire_tui.desktop.live_chart import LivePage
     from desire_tui.desktop.live_mode import LiveMode
     from desire_tui.desktop.message_handlers import MessageHandlers
-    from desire_tui.language.live_check import LiveChecker
 
 
 class AskedApp(LastingApp):
@@ -34,7 +33,6 @@ class AskedApp(LastingApp):
     command_line: CommandLine
     live_mode: LiveMode
     live_page: LivePage
-    checker: LiveChecker
 
     def do(self, command_id: str, argument: str = "") -> Any:
         """Carry out an action of the command table."""

@@ -9,6 +9,7 @@ import contextlib
 import queue
 import threading
 import traceback
+from functools import cache
 from typing import TYPE_CHECKING
 
 from desire_tui.desktop import engine_messages
@@ -41,11 +42,13 @@ class EngineThread:
         self._listener = listener
         self._post = post
         self.permissions = permissions
-        self._jobs: queue.Queue[Callable[[], object]] = queue.Queue()
+        self._jobs: queue.Queue[Callable[[], object] | None] = queue.Queue()
+        """None: there will be no more."""
         self._pending = 0
         self._counting = threading.Condition()
         self._session: Session | None = None
         self._made = threading.Event()
+        self._starting = threading.Lock()
         self._thread = threading.Thread(target=self._work, daemon=True, name="desire-engine")
 
     @property
@@ -56,8 +59,7 @@ class EngineThread:
     @property
     def session(self) -> Session:
         """The session; waits for it if it is just being made."""
-        if self._thread.ident is None:
-            self.start()  # a key that came before the first frame
+        self.start()  # if a key came before the first frame
         self._made.wait()
         assert self._session is not None
         return self._session
@@ -68,9 +70,10 @@ class EngineThread:
         return self._pending > 0
 
     def start(self) -> None:
-        """Begin to work, if it did not begin before."""
-        if self._thread.ident is None:
-            self._thread.start()
+        """Begin to work, if it did not begin before; whichever thread asks first, and at the same time."""
+        with self._starting:  # Python starts a thread twice that two ask to, and takes it for dead
+            if self._thread.ident is None:
+                self._thread.start()
 
     def submit(self, job: Callable[[], object]) -> None:
         """Do a job after those that wait. Called on the screen's thread only."""
@@ -85,8 +88,12 @@ class EngineThread:
     def forget_waiting(self) -> None:
         """Drop the jobs that were not begun."""
         while not self._jobs.empty():
-            self._jobs.get_nowait()
-            self._count(-1)
+            if self._jobs.get_nowait() is not None:
+                self._count(-1)
+
+    def end(self) -> None:
+        """Do what waits and no more: the process goes on, and a thread keeps all that it knows."""
+        self._jobs.put(None)
 
     def settle(self) -> None:
         """Wait for what was ended before the process goes; not for what goes on all the same."""
@@ -112,8 +119,8 @@ class EngineThread:
         self._go_on()
 
     def _go_on(self) -> None:
-        while True:
-            self._do(self._jobs.get())
+        while (job := self._jobs.get()) is not None:
+            self._do(job)
 
     @staticmethod
     def _warm_up() -> None:
@@ -141,8 +148,9 @@ class EngineThread:
             self._post(engine_messages.EngineIdle(failed=failed))
 
 
+@cache
 def warm_up() -> None:
-    """Compile and run a small program for nobody, frame its graph, compile the loops of the other rules.
+    """Compile and run a small program for nobody, frame its graph, compile loops of the other rules: once.
 
     What this imports, the first `zz` need not.
     """

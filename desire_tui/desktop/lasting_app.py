@@ -23,10 +23,13 @@ if TYPE_CHECKING:
     from textual.widget import Widget
 
     from desire_tui.engine.session.permissions import Permissions
+    from desire_tui.language.live_check import LiveChecker
 
 
 class LastingApp(AppBase):
     """What keeps the work safe, and the app going."""
+
+    checker: LiveChecker
 
     def __init__(self, permissions: Permissions | None) -> None:
         super().__init__(permissions)
@@ -93,9 +96,11 @@ class LastingApp(AppBase):
         self.exit()
 
     async def _close_all(self) -> None:
-        """Leave the widgets as they are if the process ends with the desktop: one by one they take 0.1 s."""
+        """Leave widgets and threads as they are if the process ends with the desktop: widgets take 0.1 s."""
         if self.is_headless:
             await super()._close_all()
+            self.engine.end()
+            self.checker.end()
 
     def _stop_engine(self) -> None:
         if self.engine.is_ready:

@@ -63,14 +63,23 @@ class LiveChecker:
         self._fault = fault
         self._wanted: dict[int, tuple[int, Source]] = {}
         self._checked: dict[int, Checked] = {}  # waiting for a closer look
+        self._ended = False
         self._condition = threading.Condition()
         self._thread: threading.Thread | None = None
+
+    def end(self) -> None:
+        """Check nothing more; what is being checked is reported."""
+        with self._condition:
+            self._ended = True
+            self._condition.notify()
 
     def ask(self, buffer: Edited, version: int, text: str) -> None:
         """Check a text when its turn comes; an older one of the same number is forgotten, or broken off."""
         with self._condition:
             self._wanted[buffer.number] = (version, Source(text, buffer.name, buffer.path))
             self._condition.notify()
+        if self._ended:
+            return
         if self._thread is None or not self._thread.is_alive():  # at first, or something ended it
             self._thread = threading.Thread(target=self._work, daemon=True, name="desire-check")
             self._thread.start()
@@ -78,6 +87,8 @@ class LiveChecker:
     def _work(self) -> None:
         while True:
             wanted = self._next_wanted()
+            if self._ended:
+                return
             try:
                 if wanted is None:
                     self._closer()
@@ -89,9 +100,10 @@ class LiveChecker:
                 self._fault(error)
 
     def _next_wanted(self) -> tuple[int, int, Source] | None:
-        """Wait for a text; None: it is quiet, and some are waiting for a closer look."""
+        """Wait for a text; None: it is quiet, and some are waiting for a closer look, or all is over."""
         with self._condition:
-            self._condition.wait_for(lambda: self._wanted, QUIET_SECONDS if self._checked else None)
+            patience = QUIET_SECONDS if self._checked else None
+            self._condition.wait_for(lambda: self._wanted or self._ended, patience)
             if not self._wanted:
                 return None
             number = next(iter(self._wanted))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import threading
+from time import sleep
 
 import pytest
 from textual.events import Paste
@@ -274,6 +276,28 @@ def test_the_session_is_made_by_whoever_asks_first():
     assert engine.session is engine.session
     engine.start()
     assert engine.is_ready
+
+
+def test_threads_that_ask_at_the_same_time_start_one_engine(monkeypatch):
+    """Python starts a thread again until it has begun, and then takes it for dead when either ends."""
+    started = []
+    start = threading._start_new_thread
+
+    def start_slowly(work, args):
+        started.append(work.__self__)
+        sleep(0.05)
+        return start(work, args)
+
+    engine = EngineThread(ScreenListener(lambda message: None), lambda message: None)
+    monkeypatch.setattr(engine._thread, "_target", lambda: None)
+    together = threading.Barrier(2)
+    asking = [threading.Thread(target=lambda: (together.wait(60), engine.start())) for _ in range(2)]
+    monkeypatch.setattr(threading, "_start_new_thread", start_slowly)
+    for thread in asking:
+        thread.start()
+    for thread in [*asking, engine._thread]:
+        thread.join(60)
+    assert started.count(engine._thread) == 1
 
 
 async def test_while_a_run_goes_on_its_step_is_seen_at_80_columns_and_the_key_that_pauses_it(program):

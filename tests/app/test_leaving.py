@@ -11,11 +11,14 @@ import pytest
 
 from desire_tui.desktop.engine_thread import EngineThread
 from desire_tui.desktop.screen_listener import ScreenListener
+from tests.app.conftest import OSCILLATOR, desktop
 from tests.app.test_terminal import CTRL_Q, PATIENCE_S, Terminal, assert_restored
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+OF_DESKTOPS = {"desire-engine", "desire-check"}
+"""Threads."""
 SHIFT_F10 = "\x1b[21;2~"
 """Ends the run."""
 EQUATIONS = "\n".join(f"d/dt x{k} = {k}*x - x{k}" for k in range(400))
@@ -84,3 +87,18 @@ def test_what_was_ended_gets_a_moment_to_write_its_files(monkeypatch: pytest.Mon
     threading.Timer(0, ended.set).start()
     engine.settle()
     assert written == ["the last row"]
+
+
+async def test_in_a_process_that_goes_on_nothing_of_a_desktop_is_left(program):
+    """Neither threads nor, with them, all its widgets; what waited is still done."""
+    before = set(threading.enumerate())
+    done: list[bool] = []
+    async with desktop(program(OSCILLATOR)) as desk:
+        await desk.until(lambda: not desk.app.engine.is_busy)
+        desk.app.engine.submit(lambda: done.append(True))
+        own = {thread for thread in set(threading.enumerate()) - before if thread.name in OF_DESKTOPS}
+        assert {thread.name for thread in own} == OF_DESKTOPS
+    for thread in own:
+        thread.join(10)
+    assert not any(thread.is_alive() for thread in own)
+    assert done == [True]
