@@ -34,6 +34,16 @@ def test_the_density_holds_the_variance(subject):
     assert step * found["density"].sum() == pytest.approx(2.125, rel=5e-3)
 
 
+def test_what_is_slower_than_the_windows_is_told(subject):
+    slow = TWO_TONES.replace("y = 3 + 2*sin(2*a*1.25*t)", "y = 3 + 2*sin(2*a*0.05*t)")
+    found = analyse(subject(slow), "y window 2000", unwatched)
+    assert found.notes[1] == (
+        "y: its largest part is slower than 3 periods in a window: window 10001, all samples"
+    )
+    assert found.tables[0].columns["frequency"] == pytest.approx([7.5], abs=1e-3)
+    assert len(analyse(subject(slow), "y window 10001", unwatched).notes) == 1
+
+
 def test_a_part_of_the_run(subject):
     text = TWO_TONES.replace("y = 3", "y = 100*swtch(t - 9)*swtch(11 - t) + 3")
     whole = analyse(subject(text), "y", unwatched)["y"]["density"]

@@ -36,10 +36,10 @@ def pole_table(poles: NDArray[np.complex128]) -> Table:
     ordered = poles[np.lexsort((poles.imag, -poles.real))]
     size = np.abs(ordered)
     with np.errstate(divide="ignore", invalid="ignore"):
-        damping = np.where(size > 0, -ordered.real / size, 1.0)
+        damping = np.where(size > 0, -ordered.real / size, 1.0) + 0.0  # no -0
         constant = np.where(np.abs(ordered.real) > _RISING * size, -1.0 / ordered.real, np.inf)
     return Table("poles", {
-        "real": ordered.real.tolist(), "imaginary": ordered.imag.tolist(), "frequency": size.tolist(),
+        "real": (ordered.real + 0.0).tolist(), "imaginary": ordered.imag.tolist(), "frequency": size.tolist(),
         "damping": damping.tolist(), "time constant": constant.tolist(),
     })  # fmt: skip
 

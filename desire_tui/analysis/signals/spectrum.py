@@ -26,6 +26,8 @@ _PARTS = 8
 """The run is divided into so many parts whose spectra are averaged, half overlapping."""
 _PROMINENCE = 10.0
 """A peak is so many times higher than the valleys beside it,"""
+_PERIODS_LEAST = 3
+"""Of fewer periods in a window, the place of a peak says little."""
 _ROUNDING = 1e-12
 """and so many times lower than the highest one at most: what is lower is rounding."""
 
@@ -38,16 +40,21 @@ def analyse(subject: Subject, request: str, progress: Progress) -> Result:
     step = float(t[-1] - t[0]) / (len(t) - 1)
     welch = needed("scipy.signal", "a spectrum").welch
     length = min(window or max(len(t) * 2 // (_PARTS + 1), min(len(t), 64)), len(t))
-    series, tables, values = [], [], {}
+    series, tables, values, slow = [], [], {}, list[str]()
     for name, x in zip(names, samples, strict=True):
         frequency, density = welch(x, fs=1.0 / step, nperseg=length, detrend="constant")
         series.append(Series(name, frequency[1:], density[1:]))
         values[name] = {"frequency": frequency, "density": density}
         tables.append(_peaks(name, frequency, density))
+        if int(np.argmax(density)) < _PERIODS_LEAST:
+            longer = "a longer run" if length == len(t) else f"window {len(t)}, all samples"
+            slow.append(
+                f"{name}: its largest part is slower than {_PERIODS_LEAST} periods in a window: {longer}"
+            )
     what = ", ".join(names)
     chart = Chart(f"Spectrum of {what}", "frequency", "power density", series, log_y=True)
     apart = f"frequencies to {0.5 / step:.6g}, {1.0 / (step * length):.3g} apart"
-    notes = [f"{len(t)} samples, {step:g} apart: {apart} (Welch, windows of {length} samples)"]
+    notes = [f"{len(t)} samples, {step:g} apart: {apart} (Welch, windows of {length} samples)", *slow]
     return Result(f"Spectrum of {what}, {subject.name}", values, tables, [chart], notes)
 
 
@@ -66,6 +73,7 @@ def _peaks(name: str, frequency: Floats, density: Floats) -> Table:
     """Return the highest peaks; their places by a parabola through the logarithms of three values."""
     shown = np.log(np.maximum(density, _ROUNDING * density.max()))
     peaks, _ = needed("scipy.signal", "a spectrum").find_peaks(shown, prominence=np.log(_PROMINENCE))
+    peaks = peaks[peaks > 1]  # the mean beside the first frequency is taken out
     highest = sorted(peaks[np.argsort(density[peaks])[::-1]][:PEAKS_MOST], key=lambda k: -density[k])
     step = frequency[1] - frequency[0]
     places = []
