@@ -45,12 +45,14 @@ SIXTEEN_DARK = Theme(
     background="#000000", surface="#000000", panel="#0000aa", success="#55ff55",
     warning="#ffff55", error="#ff5555",
     dark=True,
+    variables={"block-cursor-blurred-background": "#00aaaa", "block-cursor-blurred-foreground": "#000000"},
 )  # fmt: skip
 SIXTEEN_LIGHT = Theme(
     "sixteen-light", primary="#0000aa", secondary="#555555", accent="#aa00aa", foreground="#000000",
     background="#ffffff", surface="#ffffff", panel="#ffffff", success="#00aa00",
     warning="#aa00aa", error="#aa0000",
     dark=False,
+    variables={"block-cursor-blurred-background": "#aaaaaa", "block-cursor-blurred-foreground": "#000000"},
 )  # fmt: skip
 """What stands for every theme where the terminal has the sixteen colours of old consoles only: a colour
 between them would become its neighbour, perhaps the ground's own."""

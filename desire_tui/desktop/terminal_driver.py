@@ -22,8 +22,12 @@ if TYPE_CHECKING:
 
     from textual.message import Message
 
-CONSOLE_KEYS = {f"f{12 + number}": f"shift+f{number}" for number in range(1, 9)}
-"""The Linux console calls the function keys with Shift so; those from F9 on send nothing there."""
+_CONSOLE_KEYS = {
+    "\x1b[25~": "\x1b[1;2P", "\x1b[26~": "\x1b[1;2Q", "\x1b[28~": "\x1b[13;2~", "\x1b[29~": "\x1b[1;2S",
+    "\x1b[31~": "\x1b[15;2~", "\x1b[32~": "\x1b[17;2~", "\x1b[33~": "\x1b[18;2~", "\x1b[34~": "\x1b[19;2~",
+}  # fmt: skip
+"""What the Linux console sends for Shift with F1 to F8, and what other terminals do. For Shift with F9 and on it
+sends nothing; Textual (pinned) takes the eight for characters of those numbers."""
 _TICK_S = 0.1
 """A lone Escape is told from the beginning of a sequence by the time that passes behind it."""
 
@@ -35,7 +39,6 @@ class TerminalDriver(LinuxDriver):
         super().__init__(*arguments, **options)
         self._file: Any = _Output(self._file, self._lost)
         self._is_lost = False
-        self._names = CONSOLE_KEYS if os.environ.get("TERM") == "linux" else {}
         self.exit_event: Any = _WakingEvent()
 
     def start_application_mode(self) -> None:
@@ -48,6 +51,7 @@ class TerminalDriver(LinuxDriver):
         """Read and send events until the driver, or the terminal, is at its end."""
         parser = XTermParser(self._debug)
         decode = getincrementaldecoder("utf-8")("replace").decode
+        is_console = os.environ.get("TERM") == "linux"
         while True:
             is_last = self.exit_event.is_set()
             if self.fileno in select([self.fileno, self.exit_event], [], [], _TICK_S)[0]:
@@ -55,7 +59,8 @@ class TerminalDriver(LinuxDriver):
                 if not data:
                     self._lost()
                     return
-                for event in parser.feed(decode(data)):
+                text = decode(data)
+                for event in parser.feed(as_elsewhere(text) if is_console else text):
                     self.process_message(event)
             for event in parser.tick():
                 self.process_message(event)
@@ -66,14 +71,19 @@ class TerminalDriver(LinuxDriver):
         """Pass a message on; a line feed is Enter: text that a script types ends its lines so."""
         if isinstance(message, Key) and message.key == "ctrl+j":
             message = Key("enter", "\r")
-        elif isinstance(message, Key) and message.key in self._names:
-            message = Key(self._names[message.key], None)
         super().process_message(message)
 
     def _lost(self) -> None:
         if not self._is_lost:
             self._is_lost = True
             os.kill(os.getpid(), signal.SIGHUP)
+
+
+def as_elsewhere(text: str) -> str:
+    """Return what the Linux console sends as what other terminals send for the same keys."""
+    for sent, known in _CONSOLE_KEYS.items():
+        text = text.replace(sent, known)
+    return text
 
 
 def _received(terminal: int) -> bytes:

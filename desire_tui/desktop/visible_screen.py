@@ -8,11 +8,14 @@ bytes: there is one such place. There, too, characters are replaced that a conso
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import rich.text
 import textual.content
+from rich.color import ColorSystem
 from rich.segment import Segment
+from rich.style import Style
 from textual.strip import Strip
 
 from desire_tui.common.plain_characters import PLAIN
@@ -36,10 +39,20 @@ def teach(*, plain: bool = False) -> None:
 
 def _render_plain(strip: Strip, console: Console) -> str:
     """Return a row as what is sent to a terminal with few characters."""
-    return _render_visible(
-        Strip([Segment(s.text if s.control else s.text.translate(PLAIN), s.style, s.control) for s in strip]),
-        console,
-    )
+    row = []
+    for text, style, control in strip:
+        there = text if control else text.translate(PLAIN)
+        row.append(Segment(there, None if style is None else _plain_style(style), control))
+    return _render_visible(Strip(row), console)
+
+
+@lru_cache(1000)
+def _plain_style(style: Style) -> Style:
+    """Return a style without bold black: consoles show dark grey, which is unseen on a coloured ground."""
+    color = style.color
+    if not style.bold or color is None or color.downgrade(ColorSystem.STANDARD).number != 0:
+        return style
+    return style + Style(bold=False)
 
 
 def _render_visible(strip: Strip, console: Console) -> str:

@@ -90,6 +90,20 @@ def test_a_console_gets_the_characters_that_its_font_has(monkeypatch, drawn: str
     assert Strip([Segment(drawn, Style())]).render(console) == drawn
 
 
+def test_a_console_gets_no_bold_black_which_it_shows_as_grey(monkeypatch):
+    console = Console(
+        file=SimpleNamespace(write=lambda _: None), force_terminal=True, color_system="standard"
+    )
+    monkeypatch.setattr(Strip, "render", Strip.render)
+    visible_screen.teach(plain=True)
+    black = Style(bold=True, color="#000000", bgcolor="#55ffff")
+    white = Style(bold=True, color="#ffffff", bgcolor="#0000aa")
+    assert Strip([Segment("OK", black)]).render(console).startswith("\x1b[30;106mOK")
+    assert Strip([Segment("OK", white)]).render(console).startswith("\x1b[1;97;44mOK")
+    visible_screen.teach()
+    assert Strip([Segment("OK", black)]).render(console).startswith("\x1b[1;30;106mOK")
+
+
 def test_every_character_of_the_frames_and_graphs_has_a_plain_one(monkeypatch):
     """What code page 437 has, nearly every font of a console has."""
     for character in map(chr, plain_characters.PLAIN):
