@@ -26,8 +26,8 @@ _CONSOLE_KEYS = {
     "\x1b[25~": "\x1b[1;2P", "\x1b[26~": "\x1b[1;2Q", "\x1b[28~": "\x1b[13;2~", "\x1b[29~": "\x1b[1;2S",
     "\x1b[31~": "\x1b[15;2~", "\x1b[32~": "\x1b[17;2~", "\x1b[33~": "\x1b[18;2~", "\x1b[34~": "\x1b[19;2~",
 }  # fmt: skip
-"""What the Linux console sends for Shift with F1 to F8, and what other terminals do. For Shift with F9 and on it
-sends nothing; Textual (pinned) takes the eight for characters of those numbers."""
+"""What the Linux console sends for Shift with F1 to F8, and what other terminals do. For Shift with F9 and on
+it sends nothing; Textual (pinned) takes the eight for characters of those numbers."""
 _TICK_S = 0.1
 """A lone Escape is told from the beginning of a sequence by the time that passes behind it."""
 
