@@ -274,3 +274,21 @@ def test_a_short_visit_sets_off_an_event(backend):
         "d/dt x = v\nd/dt v = -x\ndispt x\nevent x - 0.999\nn = n + 1\n"
     )
     assert made(text, 0.0, backend).scalar("n") == 3
+
+
+@both
+@pytest.mark.parametrize(
+    ("states", "equation", "end"),
+    [
+        ("y = 1", "d/dt y = -sqrt(y)", 2.0),
+        ("y = 0", "d/dt y = sqrt(1 - y*y)", pi / 2),
+        ("STATE y[5]\nfor i = 1 to 5\n  y[i] = i\nnext", "Vectr d/dt y = -sqrt(y)", 2.0),
+    ],
+)
+def test_no_step_goes_through_the_zero_of_a_square_root(states, equation, end, backend):
+    """The series goes on below 0: a tank would fill again, y = sin(t) come back from its top."""
+    text = f"irule 17 | ERMAX = 1e-9\n{states}\nTMAX = 4 | DT = 0.01 | NN = 3\ndrun\nDYNAMIC\n{equation}\ndispt t\n"
+    with pytest.raises(DesireError) as caught:
+        run(text, backend)
+    assert caught.value.diagnostics[0].key.startswith("solver-derivative")
+    assert caught.value.diagnostics[0].facts["t"] == pytest.approx(end, abs=1e-7)

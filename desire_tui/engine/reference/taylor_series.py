@@ -38,6 +38,11 @@ class ReferenceSeries:
         for operand, _ in program.arguments:
             self.arguments.append((self.room, 1) if isinstance(operand, Series) else (-1, 0))
             self.room += ORDER_MOST + 1
+        self._square_roots = [node for node in program.nodes if node.kind == "sqrt"]
+        self.roots: list[tuple[int, int, int]] = []
+        for node in self._square_roots:
+            self.roots.append((self.room, node.size, node.size))
+            self.room += node.size * (ORDER_MOST + 1)
         self._derivatives = {piece.series.number: piece.derivative for piece in program.states}
         self._rows: dict[int, list[Array]] = {}
 
@@ -59,7 +64,7 @@ class ReferenceSeries:
         return self._data[node.slot : node.slot + node.size].copy()
 
     def give(self, order: int, coefficients: Array) -> None:
-        """Compute coefficients, and write states' and modes' arguments' where the solver reads them."""
+        """Compute coefficients, and write states', arguments' and roots' where the solver reads them."""
         self.compute(order)
         for piece, (_, count, place, _) in zip(self._program.states, self.pieces, strict=True):
             flat = np.concatenate(self._rows[piece.series.number])
@@ -67,6 +72,8 @@ class ReferenceSeries:
         for (operand, at), (place, _) in zip(self._program.arguments, self.arguments, strict=True):
             if isinstance(operand, Series):
                 coefficients[place : place + order + 1] = [row[at] for row in self._rows[operand.number]]
+        for node, (place, _, count) in zip(self._square_roots, self.roots, strict=True):
+            coefficients[place : place + count * (order + 1)] = np.concatenate(self._rows[node.number])
 
     def rows(self, operand: Operand) -> list[Array]:
         """Return an operand's coefficients, one array of all elements for each order."""

@@ -37,7 +37,7 @@ from desire_tui.engine.integration.sundials.signatures import CVODE, address
 from desire_tui.engine.integration.switching import located
 from desire_tui.engine.integration.switching import memory as switching
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
-from desire_tui.engine.integration.taylor import isolation, roots
+from desire_tui.engine.integration.taylor import isolation, roots, square_roots
 from desire_tui.engine.integration.taylor import memory as taylor_memory
 from desire_tui.engine.integration.taylor import step as taylor_step
 from desire_tui.engine.integration.taylor.memory import Expand, Taylor
@@ -62,7 +62,7 @@ _CALLED = (
 _MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, progress, interval)
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
-_TAYLOR = (*_MODEL, taylor_steps, taylor_step, isolation, roots, located)
+_TAYLOR = (*_MODEL, taylor_steps, taylor_step, square_roots, isolation, roots, located)
 _CONSTANTS = (
     memory, taylor_memory, problem, run_memory, signatures, switching, moments_inside, moments_memory,
     moments_steps,

@@ -89,6 +89,12 @@ class Layout:
             for o, at in self._program.arguments
         ]
 
+    @property
+    def roots(self) -> list[tuple[int, int, int]]:
+        """Where square roots stand, as `integration.taylor.memory.Taylor` wants them."""
+        found = [node for node in self._program.nodes if node.kind == "sqrt"]
+        return [(self.place(node), apart(node), node.count or 1) for node in found]
+
 
 def strip(size: int) -> int:
     """Return how many elements of an array of this size are computed at a time; rows are multiples of it."""

@@ -150,6 +150,7 @@ def _kept(program: SeriesProgram) -> set[int]:
     """Return the numbers whose coefficients others read: the solver, arrays' sums of products."""
     found = {piece.series.number for piece in program.states}
     found |= {operand.number for operand, _ in program.arguments if isinstance(operand, Series)}
+    found |= {node.number for node in program.nodes if node.kind == "sqrt"}
     for node in program.nodes:
         reads = {"mul", "div", "sqrt", "integral", "quotient"}
         if node.count is not None and (node.kind in reads or (node.kind == "gather" and scattered(node))):

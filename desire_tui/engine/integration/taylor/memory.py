@@ -58,6 +58,8 @@ class Taylor(ctypes.Structure):
         ("argument_count", _INT), ("arguments", _INTS),
         ("work", _REALS), ("part", _REALS), ("turned", _REALS), ("halves", _INTS),
         ("left", _REAL), ("right", _REAL),
+        # square roots: triples (place of coefficient 0 of the first, distance, count) (`square_roots`)
+        ("root_count", _INT), ("roots", _INTS),
         # a walk along a step (`isolation`)
         ("walk_h", _REAL), ("walk_low", _REAL), ("walk_width", _REAL), ("walk_level", _INT),
     )  # fmt: skip

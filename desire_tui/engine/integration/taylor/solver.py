@@ -35,6 +35,11 @@ class Layout(Protocol):
         ...
 
     @property
+    def roots(self) -> Sequence[tuple[int, int, int]]:
+        """(place, distance, count) of square roots."""
+        ...
+
+    @property
     def mode_count(self) -> int:
         """So many of these are modes'."""
         ...
@@ -65,6 +70,8 @@ class TaylorSolver:
         self._arguments = np.array([*layout.arguments, (-1, 0)], dtype=np.int64).reshape(-1)
         taylor.arguments = ctypes.cast(self._arguments.ctypes.data, _INTS)
         taylor.argument_count = layout.mode_count
+        self._roots = np.array([*layout.roots, (0, 0, 0)], dtype=np.int64).reshape(-1)
+        taylor.roots, taylor.root_count = ctypes.cast(self._roots.ctypes.data, _INTS), len(layout.roots)
         for name, row in zip(("work", "part", "turned"), arrays.polynomials, strict=True):
             setattr(taylor, name, ctypes.cast(row.ctypes.data, _REALS))
         taylor.halves = ctypes.cast(arrays.halves.ctypes.data, _INTS)

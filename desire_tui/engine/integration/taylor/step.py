@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.integration.problem import FLOOR
 from desire_tui.engine.integration.switching.mathematics import exp, log
 from desire_tui.engine.integration.taylor.memory import GAVE_UP, NO_COEFFICIENTS
+from desire_tui.engine.integration.taylor.square_roots import before_zero
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.plain_types import Reals
@@ -44,6 +45,8 @@ def advance(s: Taylor, t_stop: float) -> int:
         return NO_COEFFICIENTS
     if s.h_most > 0.0:
         h = min(h, s.h_most)
+    if s.root_count != 0:
+        h = before_zero(s, min(h, t_stop - t0))
     flag = DONE
     s.h_last = h
     t1 = t0 + h
