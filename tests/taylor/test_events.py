@@ -125,7 +125,9 @@ def test_a_threshold_that_points_set(back_end):
 def test_every_root_is_in_a_part_of_its_own():
     rng = np.random.default_rng(1)
     layout = type(
-        "Layout", (), {"pieces": [], "room": ORDER_MOST + 1, "arguments": [(0, 1)], "mode_count": 1}
+        "Layout",
+        (),
+        {"pieces": [], "room": ORDER_MOST + 1, "arguments": [(0, 1)], "roots": [], "mode_count": 1},
     )
     solver = TaylorSolver(0, 0, 0, 0, layout)
     for _ in range(100):
