@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from desire_tui.engine.random_sequence import jump
+from desire_tui.engine.random_sequence import jump, seeded
+from desire_tui.engine.reference.random import Sequence
 from tests.codegen.conftest import run
 
 MODULUS = 1 << 48
@@ -28,6 +29,13 @@ def test_jumps_are_repeated_steps(count):
     for _ in range(abs(count)):
         back = (0x5DEECE66D * back + 11) % MODULUS
     assert back == forth
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 8, 1000])
+def test_many_numbers_drawn_at_once_are_the_next_ones(count):
+    drawn = Sequence(np.array([seeded(5)], np.uint64))
+    assert drawn.block(count).tolist() == list(sequence(5, count))
+    assert [drawn.uniform(), *drawn.block(2)] == list(sequence(5, count + 3))[count:]
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 8, 13, 100])

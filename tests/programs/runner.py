@@ -23,7 +23,7 @@ def faults_of_program(text: str, folder: Path) -> list[str]:
     faults: list[str] = []
     native = {
         variant: execute(text, "native", folder, settings=variant, **how)
-        for variant in [(), *expected.variants]
+        for variant in dict.fromkeys([(), *expected.variants])
     }
     faults += _faults(expected, native)
     if expected.reference not in native:

@@ -183,3 +183,16 @@ def test_a_program_without_a_segment_cannot_run_one():
     (problem,) = failure("TMAX = 1\ndrun\n")
     assert problem.code == 215
     assert problem.source.position(problem.span.start).row == 2
+
+
+@pytest.mark.parametrize("rule", [1, 2, 3, 4, 8])
+def test_divisions_by_zero_at_every_stage(rule):
+    """What plain Python refuses to compute goes another way, which is made at need and for each stage."""
+    session = session_for(
+        f"a = 2 | zero = 0 | irule {rule} | TMAX = 1 | DT = 0.25 | NN = 3 | drun\n"
+        "DYNAMIC\nd/dt x = atan(a/zero)\nd/dt y = t\nd/dt w = exp(-a/zero) + 2\n"
+    )
+    assert value(session, "x") == pytest.approx(math.pi / 2, abs=1e-12)
+    assert value(session, "w") == pytest.approx(2.0, abs=1e-12)
+    if rule != 2:
+        assert value(session, "y") == pytest.approx(0.5, abs=1e-12)

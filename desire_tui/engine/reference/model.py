@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.integration.switching.memory import CHATTERS
+from desire_tui.engine.passes.final_sample import holds_term
 from desire_tui.engine.passes.renewal import renewals
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.reference.statements import StatementClosures
@@ -63,17 +64,18 @@ class ReferenceModel:
         compile_ = self.statements.compile
         self.full = compile_(full_pass(segment))
         self.step = compile_(step_slice(segment))
-        self.tail = compile_(final_sample_pass(segment))
+        self.tail = compile_(final_sample_pass(segment) if holds_term(segment.body) else ())  # as native code
         variable = tableau is not None and tableau.variable
         anew = renewals(segment) if variable else ((), ())
         self.renewal, self.step_renewal = map(compile_, anew)
         self.renews = bool(anew[1])
         # each stage's pass writes its own k; k1 is written by the full and the step pass
-        self.restage: Run | None = None if switches is None else compile_(derivative_slice(segment))
+        stage = derivative_slice(segment)
+        self.restage: Run | None = None if switches is None else compile_(stage)
         self.stages: list[Run] = []
         for k in self.states.k[1:]:
             self.statements.derivatives = k
-            self.stages.append(compile_(derivative_slice(segment)))
+            self.stages.append(compile_(stage))
 
     def advance(self, memory: RunMemory) -> Ended:
         """Run on until the rows are full, `stop` is set, the run ends or a fault shows."""

@@ -6,6 +6,7 @@ domain), the statement's closure is called in its place, which knows what IEEE 7
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.library import LIBRARY, func1
@@ -17,6 +18,7 @@ from desire_tui.engine.reference.numbers import integer_power, power
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
+    from types import CodeType
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action
@@ -40,18 +42,26 @@ class PassText:
         self._closure = closure
         self.lines: list[str] = []
         self.names: dict[str, Any] = {
-            "c": context.cells, "d": context.derivatives.data, "s": context,
-            "wrong": (ArithmeticError, ValueError), "integer_power": integer_power, "power": power,
-            "func1": func1,
+            "c": context.cells, "s": context, "wrong": (ArithmeticError, ValueError),
+            "integer_power": integer_power, "power": power, "func1": func1,
         }  # fmt: skip
+        self._made_for_each: list[tuple[str, Callable[[], object]]] = []
+        self._code: CodeType | None = None
         self.fresh = 0
 
-    def function(self, actions: Iterable[Action]) -> Callable[[], None]:
-        """Return the pass as a function."""
+    def write(self, actions: Iterable[Action]) -> None:
+        """Write the pass."""
         self._write(actions, 1)
         text = "\n".join(["def run():", *(self.lines or [" pass"])])
-        exec(compile(text, "<pass>", "exec"), self.names)  # noqa: S102 - text made from numbers and slots only
-        built: Callable[[], None] = self.names["run"]
+        self._code = compile(text, "<pass>", "exec")  # text made from numbers and slots only
+
+    def function(self) -> Callable[[], None]:
+        """Return the pass as a function that writes derivatives where the context wants them now."""
+        assert self._code is not None
+        names = self.names | {"d": self.context.derivatives.data}
+        names |= {name: make() for name, make in self._made_for_each}
+        exec(self._code, names)  # noqa: S102 - as above
+        built: Callable[[], None] = names["run"]
         return built
 
     def _line(self, depth: int, text: str) -> None:
@@ -63,6 +73,28 @@ class PassText:
         self.names[name] = thing
         return name
 
+    def _named_anew(self, prefix: str, make: Callable[[], object]) -> str:
+        """Name something that each function of the pass has for itself."""
+        name = self._name(prefix, None)
+        self._made_for_each.append((name, make))
+        return name
+
+    def _closure_at_need(self, action: Action) -> Callable[[], None]:
+        """Return what makes the closure of a statement when it is called first: most never are."""
+        context, derivatives = self.context, self.context.derivatives
+        made: list[Callable[[], None]] = []
+
+        def run() -> None:
+            if not made:
+                elsewhere, context.derivatives = context.derivatives, derivatives
+                try:
+                    made.append(self._closure(action))
+                finally:
+                    context.derivatives = elsewhere
+            made[0]()
+
+        return run
+
     def _write(self, actions: Iterable[Action], depth: int) -> None:
         for action in actions:
             if isinstance(action, Set | Deriv | Terminate):
@@ -70,15 +102,15 @@ class PassText:
             elif isinstance(action, Guard) and action.kind == "if" and action.condition is not None:
                 self._choice(action, action.condition, depth)
             else:
-                self._line(depth, f"{self._name('f', self._closure(action))}()")
+                self._line(depth, f"{self._named_anew('f', partial(self._closure, action))}()")
 
     def _scalar(self, action: Set | Deriv | Terminate, depth: int) -> None:
-        closure = self._name("f", self._closure(action))
         try:
             text = _Expression(self).write(action.value)
         except CannotWriteError:
-            self._line(depth, f"{closure}()")
+            self._line(depth, f"{self._named_anew('f', partial(self._closure, action))}()")
             return
+        closure = self._named_anew("f", partial(self._closure_at_need, action))
         if isinstance(action, Terminate):
             level = "0.0" if action.level is None else f"c[{action.level}]"
             self._line(depth, "try:")
@@ -92,7 +124,7 @@ class PassText:
         self._line(depth, f"except wrong: {closure}()")
 
     def _choice(self, guard: Guard, condition: Value, depth: int) -> None:
-        test = self._name("f", self.context.value(condition))
+        test = self._named_anew("f", partial(self.context.value, condition))
         self._line(depth, f"if {test}() > 0.0:")
         self._write(guard.body, depth + 1)
         if not guard.body:

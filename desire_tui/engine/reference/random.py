@@ -6,6 +6,7 @@ A statement over an array draws for the last element first; within an element dr
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,13 +33,26 @@ class Sequence:
 
     def block(self, count: int) -> Array:
         """Return the next `count` numbers u."""
-        x = int(self.state[0])
-        numbers = np.empty(count)
-        for i in range(count):
-            x = (x * MULTIPLIER + INCREMENT) & MASK
-            numbers[i] = x * SCALE
-        self.state[0] = x
+        if not count:
+            return np.empty(0)
+        factors, summands = _jumps(1 << (count - 1).bit_length())
+        drawn = (factors[:count] * self.state[0] + summands[:count]) & np.uint64(MASK)
+        self.state[0] = drawn[-1]
+        numbers: Array = drawn * SCALE
         return numbers
+
+
+@cache
+def _jumps(count: int) -> tuple[NDArray[np.uint64], NDArray[np.uint64]]:
+    """Return a, c so that k + 1 steps are X ← (a[k]·X + c[k]) mod 2⁴⁸; `count` is a power of 2.
+
+    Whole numbers of 64 bits count modulo 2⁶⁴, which leaves the lower 48 bits as they should be.
+    """
+    factors, summands = np.array([MULTIPLIER], np.uint64), np.array([INCREMENT], np.uint64)
+    while len(factors) < count:
+        summands = np.concatenate([summands, factors * summands[-1] + summands])
+        factors = np.concatenate([factors, factors * factors[-1]])
+    return factors, summands
 
 
 def normal(u1: float, u2: float) -> float:

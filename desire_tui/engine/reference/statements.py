@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from desire_tui.engine.lowered.statements import Action
+    from desire_tui.engine.values import Values
 
     Thunk = Callable[[], Any]
     Run = Callable[[], None]
@@ -37,9 +38,20 @@ if TYPE_CHECKING:
 class StatementClosures(EvaluationContext):
     """Compiles statements."""
 
+    def __init__(self, values: Values, order: int) -> None:
+        super().__init__(values, order)
+        self._written: dict[tuple[int, ...], tuple[tuple[Action, ...], PassText]] = {}
+        """By the statements' identities, which stay taken as long as they are here: passes share them."""
+
     def compile(self, actions: Iterable[Action]) -> Run:
-        """Return a pass as one function."""
-        return PassText(self, self.statement).function(actions)
+        """Return a pass as one function that writes derivatives to the present `derivatives`."""
+        statements = tuple(actions)
+        key = tuple(map(id, statements))
+        if key not in self._written:
+            text = PassText(self, self.statement)
+            text.write(statements)
+            self._written[key] = statements, text
+        return self._written[key][1].function()
 
     def statement(self, action: Action) -> Run:
         """Return the closure of one statement."""
