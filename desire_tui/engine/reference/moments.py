@@ -82,6 +82,8 @@ class MomentReferenceModel(ReferenceModel):
                 self._watching.begin(memory)
             if blocks.begin(self._stepper.moments) > 1:
                 return self._too_fast(memory)
+            if self._watching is not None:
+                self._watching.begin(memory)  # behind the blocks at the run's start
         return super().advance(memory)
 
     def _point(self, memory: RunMemory) -> Ended | None:

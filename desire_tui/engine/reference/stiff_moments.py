@@ -59,6 +59,8 @@ class StiffMomentModel(StiffReferenceModel):
             memory.begun = 1
             self._others.memory = memory
             self._stepper.prepare(memory, memory.times, memory.taus)
+            if self.switches is not None:
+                self.switches.begin(memory)  # conditions may read what switches
             if begin(self._moments) > 1:
                 return self._too_fast(memory)
         return super().advance(memory)

@@ -13,7 +13,7 @@ from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.integration.taylor.roots import look_along
 from desire_tui.engine.passes.slices import derivative_slice
 from desire_tui.engine.reference.statements import StatementClosures
-from desire_tui.engine.runtime.moments.memory import Depart, Limit, Look, Moments
+from desire_tui.engine.runtime.moments.memory import Depart, Limit, Look, Moments, Settle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -91,6 +91,7 @@ class Switches:
         moments.limit = Limit(lambda _, t, wish: watching.limit(watch, t, wish))
         moments.look = Look(lambda _, t0, t1: watching.look_at_step(watch, t0, t1))
         moments.depart = Depart(lambda _: watching.depart(watch))
+        moments.settle = Settle(lambda _, t: watching.settle(watch, t))
 
     def remember(self, moments: Moments) -> None:
         """Let what is computed here look up histories."""

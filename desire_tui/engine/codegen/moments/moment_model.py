@@ -21,7 +21,7 @@ from desire_tui.engine.passes.assigned_states import checked_state, stepped_segm
 from desire_tui.engine.passes.moments import blocks_pass, conditions_pass, sources_pass
 from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.vital_columns import vital_columns
-from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look
+from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Settle
 from desire_tui.engine.runtime.moments.setup import Stepper
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
@@ -88,10 +88,11 @@ class MomentModel:
         watcher.connect(watching.begin, modes, derivative, watching.place_on_step, watcher.address)
         watcher.take_step_from(*self._stepper.step_start)
         moments.watch = watcher.address
-        moments.limit, moments.look, moments.depart = (
+        moments.limit, moments.look, moments.depart, moments.settle = (
             ctypes.cast(function, kind)
             for function, kind in (
                 (watching.limit, Limit), (watching.look_at_step, Look), (watching.depart, Depart),
+                (watching.settle, Settle),
             )
         )  # fmt: skip
 
@@ -122,6 +123,8 @@ class MomentModel:
             if self._begin(self._stepper.address) > 1:
                 memory.phase = Phase.ENDED
                 return self._ended(memory, Ended.ZENO)
+            if self._watcher is not None:
+                self._watcher.begin(memory)  # behind the blocks at the run's start
         checked = memory.checked
         memory.checked = checked_state(checked, self._numbers)
         with self._improver.running(self._tables, self._functions):

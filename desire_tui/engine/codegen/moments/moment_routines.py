@@ -30,7 +30,16 @@ from desire_tui.engine.runtime.moments import (
     stages,
     steps,
 )
-from desire_tui.engine.runtime.moments.memory import Compute, Depart, Limit, Look, Moments, Place, SideBySide
+from desire_tui.engine.runtime.moments.memory import (
+    Compute,
+    Depart,
+    Limit,
+    Look,
+    Moments,
+    Place,
+    Settle,
+    SideBySide,
+)
 from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, ERRMAX, T
 
@@ -98,7 +107,7 @@ def moment_functions() -> MomentFunctions:
 
 def _compiled() -> MachineCode:
     pointers = {name: of_function(Compute, "") for name in ("conditions", "blocks", "derivative", "sources")}
-    kinds = {"limit": Limit, "look": Look, "depart": Depart, "place": Place}
+    kinds = {"limit": Limit, "look": Look, "depart": Depart, "settle": Settle, "place": Place}
     pointers |= {name: of_function(kind, "") for name, kind in kinds.items()}
     outside = Outside({kind.__name__: kind for kind in _STRUCTURES}, pointers)
     modules = [Module(_TEXTS[module], vars(module)) for module in _MODULES]

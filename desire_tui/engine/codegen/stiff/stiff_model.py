@@ -228,7 +228,7 @@ class StiffModel:
         moments = self._moments
         if moments is not None:
             moments.remember(memory)
-            if not memory.begun and (ended := moments.begin(memory)) is not None:
+            if not memory.begun and (ended := moments.begin(memory, self._watcher)) is not None:
                 return ended
         if memory.phase == Phase.AT_POINT and memory.point == 0:
             self._runs += 1

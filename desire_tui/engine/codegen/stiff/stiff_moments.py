@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.pieces.pass_functions import PassFunctions
     from desire_tui.engine.integration.problem import SolverProblem
+    from desire_tui.engine.integration.switching.setup import Watcher
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.runtime.run_memory import RunMemory
@@ -62,10 +63,15 @@ class StiffMoments:
         """Let what a run computes look up histories."""
         memory.histories, memory.look_up = self._stepper.address, self._natives.look_up
 
-    def begin(self, memory: RunMemory) -> Ended | None:
-        """Prepare a run, and carry out what is due at its start; ZENO: far too much is."""
+    def begin(self, memory: RunMemory, watcher: Watcher | None) -> Ended | None:
+        """Prepare a run, and carry out what is due at its start; ZENO: far too much is.
+
+        Conditions may read what switches: `watcher` begins before, and again behind the blocks.
+        """
         memory.begun = 1
         self._stepper.prepare(memory, memory.times, memory.taus)
+        if watcher is not None:
+            watcher.begin(memory)
         if self._begin(self._stepper.address) > 1:
             memory.phase = Phase.ENDED
             return self.too_fast(memory)

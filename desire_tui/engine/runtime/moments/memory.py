@@ -17,6 +17,8 @@ Look = ctypes.CFUNCTYPE(ctypes.c_int32, _ADDRESS, _REAL, _REAL)
 """f(watch, t0, t1): whether something has switched in a step; t and states are then those just behind."""
 Depart = ctypes.CFUNCTYPE(ctypes.c_int32, _ADDRESS)
 """f(watch): take up what has switched; bits of `switching.memory`."""
+Settle = ctypes.CFUNCTYPE(ctypes.c_int32, _ADDRESS, _REAL)
+"""f(watch, t): take up what has switched, and cross what switches by t; bits of `switching.memory`."""
 Place = ctypes.CFUNCTYPE(_INT, _ADDRESS, _REAL)
 """f(owner, t): put t and the states that the solver's last step has there into the values."""
 
@@ -79,6 +81,7 @@ class Moments(ctypes.Structure):
         ("is_variable", _INT), ("dt_may_change", _INT),
         # rules 4, 7, 8: what switches besides (`integration.switching.watch`), 0: nothing does
         ("watch", _ADDRESS), ("limit", Limit), ("look", Look), ("depart", Depart),
+        ("settle", Settle),
         ("t_stop", _REAL),  # no stage sees what is behind
         # rules 9 … 17, whose steps are not made again: so many looks at each, 0: another rule
         ("places", _INT), ("place", Place), ("owner", _ADDRESS),

@@ -150,7 +150,13 @@ def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
     if m.condition_count != 0 and rises_in_step(m, here, m.values[T]) != 0:
         begin_at_left(m)
         locate(m, here, here, m.values[T])
-    return Ended.ZENO if arrive(m, SLACK * dt) > 1 else Ended.RUNNING
+    came = arrive(m, SLACK * dt)
+    if came > 1:
+        return Ended.ZENO
+    # a sample here shows what the blocks have left; switches of t are crossed behind it
+    if came != 0 and m.watch != 0 and m.settle(m.watch, m.values[T]) >= CHATTERS:
+        return Ended.CHATTERS
+    return Ended.RUNNING
 
 
 def test(m: Moments, memory: RunMemory, dt: float) -> float:
