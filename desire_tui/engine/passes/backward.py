@@ -13,6 +13,7 @@ from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowered.segment import Event
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, StoreHistory
+from desire_tui.engine.passes.copies import Copies
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
@@ -31,37 +32,13 @@ def backward(segment: Segment, spare: int) -> Segment:
     return replace(segment, body=body, faults=faults, events=events, jacobian=None)
 
 
-class _Turned:
-    """Copies of statements and expressions; what stands at several places stays one."""
+class _Turned(Copies):
+    """Parts over -t."""
 
     def __init__(self, spare: int) -> None:
+        super().__init__()
         self._spare = spare
-        self._known: dict[int, tuple[object, Any]] = {}
         self._time = _negative(Load(T))
-
-    def of(self, part: Any) -> Any:
-        """Return a statement, an expression or a tuple of them over -t."""
-        if isinstance(part, tuple):
-            if type(part) is not tuple:
-                return part  # a place
-            items = []
-            for item in part:
-                if isinstance(item, StoreHistory) and item.slot == T:
-                    items.append(Set(self._spare, self._time, item.where))
-                    item = StoreHistory(  # noqa: PLW2901 - the same statement, of the turned time
-                        item.array_slot, item.count, self._spare, item.counter, item.where
-                    )
-                items.append(self.of(item))
-            if len(items) != len(part):
-                return tuple(items)
-            return part if all(map(_same, items, part)) else tuple(items)
-        names: tuple[str, ...] | None = getattr(type(part), "__slots__", None)
-        if names is None or isinstance(part, str | float | int | Const):
-            return part
-        known = self._known.get(id(part))
-        if known is None:
-            known = self._known[id(part)] = part, self._copy(part, names)
-        return known[1]
 
     def event(self, event: Event) -> Event:
         """Return an event over -t; a clock's times stay the program's, and it ends with its first moment."""
@@ -75,24 +52,25 @@ class _Turned:
         body = (Guard("if", body, event.where, is_due),)
         return Event(body, event.where, period=event.period, start=event.start)
 
-    def _copy(self, part: Any, names: tuple[str, ...]) -> Any:
-        if isinstance(part, Load):
-            return self._time if part.slot == T else part
-        fields = [getattr(part, name) for name in names]
-        changed = [self.of(field) for field in fields]
-        made = part if all(map(_same, changed, fields)) else type(part)(*changed)
-        if isinstance(made, Deriv):
-            return Deriv(made.state, _negative(made.value), made.where)
-        if isinstance(made, DerivVec):
-            return DerivVec(made.state, made.count, _negative(made.value), made.where)
-        if isinstance(made, Set) and made.slot == T:
-            return Set(T, _negative(made.value), made.where, made.persistent)
-        return made
+    def items(self, item: Any) -> tuple[Any, ...]:
+        """Let `store X = t` read a copy of t."""
+        if not (isinstance(item, StoreHistory) and item.slot == T):
+            return super().items(item)
+        stored = StoreHistory(item.array_slot, item.count, self._spare, item.counter, item.where)
+        return (Set(self._spare, self._time, item.where), stored)
+
+    def made(self, part: Any, copy: Any) -> Any:
+        """Turn t and derivatives."""
+        if isinstance(copy, Load):
+            return self._time if copy.slot == T else part
+        if isinstance(copy, Deriv):
+            return Deriv(copy.state, _negative(copy.value), copy.where)
+        if isinstance(copy, DerivVec):
+            return DerivVec(copy.state, copy.count, _negative(copy.value), copy.where)
+        if isinstance(copy, Set) and copy.slot == T:
+            return Set(T, _negative(copy.value), copy.where, copy.persistent)
+        return copy
 
 
 def _negative(value: Value) -> Value:
     return Const(-value.value) if isinstance(value, Const) else Op("sub", (Const(0.0), value))  # -t is 0 at 0
-
-
-def _same(one: object, other: object) -> bool:
-    return one is other

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.runtime.stash import read_stash, with_recovery
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.compiler_state import CompilerState
     from desire_tui.engine.lowered.segment import Segment
     from desire_tui.engine.nodes.program import Program
+    from desire_tui.engine.passes.table_jumps import TableJumps
     from desire_tui.engine.runtime.backend import Backend, Model
     from desire_tui.engine.runtime.plan import RunPlan
     from desire_tui.engine.session.kept_expressions import KeptExpressions
@@ -54,6 +56,7 @@ class CompiledSegments:
         self._backend: Backend | None = None
         self._kept: dict[tuple[str | None, int], Segment] = {}
         self._backward: dict[int, tuple[Segment, Segment]] = {}
+        self._jumping: dict[int, tuple[Segment, TableJumps, Segment]] = {}
         self._expressions: KeptExpressions | None = None
         self._names_of: tuple[int, int] = (-1, 0)
         self._program: Program | None = None
@@ -70,6 +73,7 @@ class CompiledSegments:
         """Compile everything anew at the next drun."""
         self._kept.clear()
         self._backward.clear()
+        self._jumping.clear()
         self._histories.clear()
         if self._backend is not None:
             self._backend.forget()
@@ -111,7 +115,12 @@ class CompiledSegments:
         return all(cells[slot] == value for slot, value in segment.constants)
 
     def directed(self, segment: Segment, plan: RunPlan) -> Segment:
-        """Return the segment that a run follows: for a negative TMAX, the one over -t. DesireError 483."""
+        """Return the segment that a run follows. DesireError 483.
+
+        For a negative TMAX it is the one over -t; jumps of tables are switches where the rule locates them.
+        """
+        if segment.breakpoints and rule_numbered(plan.rule).kind in {"variable", "multistep"}:
+            segment = self._with_table_jumps(segment)
         if not plan.backward:
             return segment
         for delayed in segment.delays:
@@ -123,6 +132,17 @@ class CompiledSegments:
             turned = backward(segment, self._values.unnamed(1))
             known = self._backward[id(segment)] = segment, turned
         return known[1]
+
+    def _with_table_jumps(self, segment: Segment) -> Segment:
+        from desire_tui.engine.passes.table_jumps import table_jumps, with_table_jumps
+
+        jumps = table_jumps(segment, self._values.data)
+        if not jumps:
+            return segment
+        known = self._jumping.get(id(segment))
+        if known is None or known[1] != jumps:
+            known = self._jumping[id(segment)] = segment, jumps, with_table_jumps(segment, jumps)
+        return known[2]
 
     def model(self, segment: Segment, rule: int) -> Model:
         """Return a segment made ready for a rule; the back end keeps it."""
