@@ -167,6 +167,39 @@ def test_a_ball_that_bounces(subject):
         assert found["errors"][name] < 0.01 * true
 
 
+def test_a_pendulum_that_hits_a_wall(subject):
+    """Figures of an independent integration from bounce to bounce (scipy, DOP853, 1e-11)."""
+    from scipy.integrate import solve_ivp
+
+    length, e, start = 1.3, 0.7, 0.6
+    t, place, begin, seen = np.linspace(0.0, 3.9, 40), np.array([start, 0.0]), 0.0, []
+
+    def slope(_t, z):
+        return [z[1], -9.81 / length * np.sin(z[0])]
+
+    def wall(_t, z):
+        return z[0]
+
+    wall.terminal, wall.direction = True, -1
+    while begin < t[-1]:
+        swing = solve_ivp(
+            slope, (begin, 4.0), place, "DOP853", events=wall, dense_output=True, rtol=1e-11, atol=1e-12
+        )
+        seen.append(swing.sol(t[(t >= begin) & (t < swing.t[-1])])[0])
+        begin, place = swing.t[-1], np.array([0.0, -e * swing.y[1, -1]])
+    text = """l = 1 | e = 0.8 | a = 0.5 | w = 0 | irule 3 | TMAX = 4 | DT = 0.005 | NN = 41
+drun
+DYNAMIC
+d/dt a = w
+d/dt w = -9.81/l*sin(a)
+dispt a
+event -a
+w = -e*w | a = 0
+"""
+    found = run_fit(subject, text, "l, e in [0, 1], a to a ~ angle", table(t=t, angle=np.concatenate(seen)))
+    assert [found[name] for name in ("l", "e", "a")] == pytest.approx([length, e, start], rel=1e-7)
+
+
 def test_two_quantities_of_different_size(subject):
     """Each has a standard deviation of its own, found from the residuals."""
     t = np.arange(0.0, 61.0, 1.0)
