@@ -178,10 +178,10 @@ def test_over_a_parameter_a_table_has_all(subject):
 
 
 def test_values_without_steady_states_are_told(subject):
-    found = analyse(subject(scalar("c - x*x")), "all in x = [0, 3] over c in [-1, 2] places 4", unwatched)
+    found = analyse(subject(scalar("c - x*x")), "from here over c in [-1, 2] places 4", unwatched)
     assert found["states"]["x"][found["c"] > 0] == pytest.approx(np.sqrt([1, 2]))
     assert any("of 4 values there is none" in note for note in found.notes)
-    assert told(subject, scalar("1 + x*x*c"), "over c in [1, 2]") == (
+    assert told(subject, scalar("1 + x*x*c"), "from here over c in [1, 2] places 2") == (
         "no steady state is found for c from 1 to 2"
     )
     assert "has no influence" in told(subject, scalar("1 - x + 0*c"), "over c in [1, 2]")

@@ -106,7 +106,7 @@ class _Continuation:
             )
         self._diagram.is_partial = found.is_partial
         states = found.states[:1] if found.is_family else found.states
-        tracer = EquilibriaTracer(self._curve, self._diagram, self._go_on)
+        tracer = EquilibriaTracer(self._curve, self._diagram, self._go_on_to_wanted)
         tracer.trace([s.z for s in states], self._over.part(self._value))
 
     def _starts(self) -> list[Floats]:
@@ -127,7 +127,7 @@ class _Continuation:
                 f"no cycle is found at {self._over.name} = {self._value:g}: {begun}",
                 "a longer run (TMAX), or another value of the parameter",
             )
-        CyclesTracer(self._curve, self._diagram, self._go_on).both_ways(*begun, "run")
+        CyclesTracer(self._curve, self._diagram, self._go_on_to_wanted).both_ways(*begun, "run")
 
     def _two_parameters(self) -> Result:
         wanted, kinds = self._asked.special, KINDS[:2]
@@ -137,7 +137,7 @@ class _Continuation:
         else:
             self._steady_states()
             if wanted is not None and wanted[0] in KINDS[2:] and not self._diagram.is_partial:
-                CyclesTracer(self._curve, self._diagram, self._go_on).trace()
+                CyclesTracer(self._curve, self._diagram, self._go_on_to_wanted).trace()
                 kinds = KINDS
         found = [s for s in self._diagram.specials if s.kind in kinds]
         chosen = [s for s in found if wanted is None or (s.kind, s.number) == wanted]
@@ -165,6 +165,12 @@ class _Continuation:
                 continue
             trace(self._system, (self._over, second), value, special, plane, self._go_on)
         return self._report.result(plane)
+
+    def _go_on_to_wanted(self, told: str) -> bool:
+        """Go on until the point is found that is to be followed over two parameters, if it is one."""
+        wanted = self._asked.special
+        found = wanted is not None and any((s.kind, s.number) == wanted for s in self._diagram.specials)
+        return not found and self._go_on(told)
 
     def _go_on(self, told: str) -> bool:
         so_far = None
