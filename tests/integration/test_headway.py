@@ -45,9 +45,18 @@ def test_steps_that_become_shorter_without_end():
     assert "shorter" in looked_at([1 - 2.0**-k for k in range(6)]).why
 
 
+def test_time_that_grows_as_the_logarithm_of_steps():
+    """sin(exp(t)) followed closely: the same part of a period in each step."""
+    found = looked_at(40.0 + np.log(np.arange(1, 12)))
+    assert found is not None
+    assert "shorter" in found.why
+    assert looked_at(40.0 + np.log(np.arange(1, 8))) is None  # too early to tell
+
+
 @pytest.mark.parametrize(
     "times",
     [
+        [30 * k**0.5 for k in range(1, 10)],  # slower and slower, but it will come to its end
         [0.5 * k for k in range(20)],  # a hundred million steps
         [1e-5 * 3**k for k in range(12)],  # a transient at the start
         [1e-5 * k for k in range(4)],  # not yet

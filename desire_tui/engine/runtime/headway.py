@@ -1,14 +1,17 @@
 """Whether a run gets anywhere: looked at whenever native code comes back, by steps and t, never by a clock.
 
 A run that would go on for days is ended with what can be said of it; short ones are not looked at. There are
-two signs, each over four spans of half a million steps or more: at the pace of the last span, which is no
-better than that of the first, what is left of the run would take 10¹² steps; or steps become shorter from
-span to span, so that t comes to an end of its own long before the run's (the spans as a geometric series).
+three signs. Two are seen over four spans of half a million steps or more: at the pace of the last span, which
+is no better than that of the first, what is left of the run would take 10¹² steps; or steps become shorter
+from span to span, so that t comes to an end of its own long before the run's (the spans as a geometric
+series). The third: twice as many steps have taken t no farther, three times in a row (t grows as their
+logarithm, as where something oscillates ever faster), and at that rate 10¹² would not do.
 """
 
 from __future__ import annotations
 
 from itertools import pairwise
+from math import log2
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -25,6 +28,9 @@ STEPS_MOST = 1e12
 """Hours for the smallest of models, days and weeks for others."""
 _REACH = 0.01
 """Part of what is left that steps which become shorter and shorter must reach."""
+_DOUBLINGS = 3
+_AS_FAR = 1.1
+"""By so much farther than the one before a doubling of steps may come and be no better."""
 _REJECTED = 0.3
 """Tries that fail, as a part of steps: where nothing jumps, they are few."""
 
@@ -51,6 +57,8 @@ class Headway:
     def __init__(self, rule: int) -> None:
         self._rule = rule
         self._marks: list[_Mark] = []
+        self._doublings: list[tuple[int, float]] = []
+        """Steps and t where steps were twice as many as the time before."""
 
     def is_due(self, steps: int) -> bool:
         """Whether so many steps have been made since the last look that `look` has something to see."""
@@ -61,6 +69,10 @@ class Headway:
     ) -> Standstill | None:
         """Note where a run is, `left` from its end; return what is wrong if it gets nowhere."""
         self._marks = [*self._marks[-_SPANS:], _Mark(steps, rejected, t, states.copy())]
+        if not self._doublings or steps >= 2 * self._doublings[-1][0]:
+            self._doublings = [*self._doublings[-_DOUBLINGS:], (steps, t)]
+            if self._grows_as_logarithm(left):
+                return self._found("its steps become shorter and shorter", _SINGULAR)
         if len(self._marks) <= _SPANS:
             return None
         paces = [
@@ -74,6 +86,16 @@ class Headway:
         if last < 2.0 * first and left > STEPS_MOST * last:
             return self._found(*self._slow(left, last))
         return None
+
+    def _grows_as_logarithm(self, left: float) -> bool:
+        if len(self._doublings) <= _DOUBLINGS:
+            return False
+        gains = [
+            (after[1] - before[1]) / log2(after[0] / before[0]) for before, after in pairwise(self._doublings)
+        ]
+        if not all(after < _AS_FAR * before for before, after in pairwise(gains)):
+            return False
+        return left > gains[-1] * log2(STEPS_MOST / self._doublings[-1][0])
 
     def _slow(self, left: float, pace: float) -> tuple[str, str]:
         steps = left / pace if pace > 0.0 else np.inf
