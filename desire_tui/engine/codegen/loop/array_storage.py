@@ -31,6 +31,8 @@ class ArrayStorage:
     """
 
     first, end = "0", "%n"
+    saves_on_the_way = False
+    """Whether the loop of a step's first stage saves the states too: a gain where no cache holds them."""
 
     may_come_late = True
     """Known when it runs."""
@@ -101,10 +103,13 @@ class ArrayStorage:
 
     def advance(self, row: Row, dt: str, *, saves: bool = False) -> None:
         """States ← saved states + dt·Σ row·k."""
+        on_the_way = saves and self.saves_on_the_way
+        if saves and not on_the_way:
+            self.save()
 
         def one(lanes: Lanes, i: str, base: str, at: str, factor: str) -> None:
-            before = fetch(lanes, base, at) if saves else fetch(lanes, "%x0", i)
-            if saves:
+            before = fetch(lanes, base, at) if on_the_way else fetch(lanes, "%x0", i)
+            if on_the_way:
                 put(lanes, "%x0", i, before)
             total = weighted(lanes, row, lambda stage: fetch(lanes, f"%k{stage}", i))
             put(lanes, base, at, lanes.add(before, lanes.mul(lanes.splat(factor), total)))

@@ -24,6 +24,8 @@ class SharedStorage(ArrayStorage):
     the order of the blocks.
     """
 
+    saves_on_the_way = True
+
     def __init__(self, text: IrText, stages: int, width: int, share: int) -> None:
         super().__init__(text, stages, width, contiguous=False)
         self._share = share

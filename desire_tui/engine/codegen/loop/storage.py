@@ -37,7 +37,7 @@ class Storage(Protocol):
         """Keep the states at a step's start."""
 
     def advance(self, row: Row, dt: str, *, saves: bool = False) -> None:
-        """States ← saved states + dt·Σ row·k; `saves`: it saves them itself, in the same loop."""
+        """States ← saved states + dt·Σ row·k; `saves`: it saves them itself before."""
 
     def whole_step(self) -> str:
         """Return the address of what takes a fixed step as a whole, perhaps null; "": there is no such thing.
