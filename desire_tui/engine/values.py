@@ -89,6 +89,16 @@ class Saved:
     generation: int
 
 
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Which names there are and where: two that are equal mean the same by the same slots."""
+
+    quantities: tuple[tuple[str, int, tuple[int, ...], Kind, bool, bool], ...]
+    scalars: int
+    arrays: int
+    defined: bytes
+
+
 class Values:
     """The session's quantities by name, and their numbers.
 
@@ -252,6 +262,26 @@ class Values:
             self.data[first : first + len(numbers)] = numbers
         self.defined[: len(saved.defined)] = saved.defined
         self.random[:] = saved.random
+
+    def layout(self) -> Layout:
+        """Return all names with their places, in the order in which they were made."""
+        quantities = tuple(
+            (q.name, q.slot, q.shape, q.kind, q.is_state, q.of_file) for q in self.names.values()
+        )
+        return Layout(quantities, self._scalars, self._arrays, bytes(self.defined[: self._scalars]))
+
+    def lay_out(self, layout: Layout) -> None:
+        """Make the names that a layout has besides those there are, which must be the first of its own."""
+        for made in layout.quantities:
+            known = self.names.get(made[0])
+            if known is None:
+                self.names[made[0]] = Quantity(*made)
+            else:
+                known.is_state = made[4]
+        self._scalars, self._arrays = layout.scalars, layout.arrays
+        if len(self.defined) < self._scalars:
+            self.defined.extend(bytes(self._scalars - len(self.defined)))
+        self.defined[: self._scalars] = layout.defined
 
     def view(self, quantity: Quantity) -> NDArray[np.float64] | NDArray[np.complex128]:
         """Return an array's numbers in its shape, sharing memory."""

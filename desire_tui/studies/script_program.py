@@ -57,6 +57,7 @@ class ScriptProgram:
         )
         self._session.graphs.pages_max = 1
         self._session.keep(self._expressions)
+        self._session.remember_segments()
 
     @property
     def way_taken(self) -> str:

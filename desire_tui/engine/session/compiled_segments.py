@@ -10,6 +10,7 @@ from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.runtime.stash import read_stash, with_recovery
+from desire_tui.engine.session.remembered_segments import RememberedSegments
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -60,6 +61,7 @@ class CompiledSegments:
         self._expressions: KeptExpressions | None = None
         self._names_of: tuple[int, int] = (-1, 0)
         self._program: Program | None = None
+        self._remembered: RememberedSegments | None = None
         self._histories: dict[str | None, tuple[Segment, tuple[int, ...], int]] = {}
 
     @property
@@ -75,8 +77,14 @@ class CompiledSegments:
         self._backward.clear()
         self._jumping.clear()
         self._histories.clear()
-        if self._backend is not None:
+        if self._remembered is not None:
+            self._remembered.begin()
+        elif self._backend is not None:
             self._backend.forget()
+
+    def remember(self) -> None:
+        """From now on keep what was compiled for a program that is run anew with the same names."""
+        self._remembered = RememberedSegments(self._values)
 
     def lowered(
         self, program: Program, structure: Structure, label: str | None, rule: int, *, anew: bool = False
@@ -103,11 +111,16 @@ class CompiledSegments:
         self.forget()
 
     def _lower(self, program: Program, label: str | None, structure: Structure, rule: int) -> Segment:
-        if self._expressions is not None:
-            return self._expressions.lower(program, label, self._values, structure, rule)
-        from desire_tui.engine.lowering.lowering import lower
+        def made() -> Segment:
+            if self._expressions is not None:
+                return self._expressions.lower(program, label, self._values, structure, rule)
+            from desire_tui.engine.lowering.lowering import lower
 
-        return lower(program, label, self._values, structure, rule)
+            return lower(program, label, self._values, structure, rule)
+
+        if self._remembered is None:
+            return made()
+        return self._remembered.segment((program.source.text, label, rule), made)
 
     def _holds(self, segment: Segment) -> bool:
         """Whether the numbers that a segment was compiled with are what they were."""
@@ -146,6 +159,19 @@ class CompiledSegments:
 
     def model(self, segment: Segment, rule: int) -> Model:
         """Return a segment made ready for a rule; the back end keeps it."""
+        remembered = self._remembered
+        if remembered is None:
+            return self._model(segment, rule)
+        if remembered.may_use_model(segment, rule):
+            return self._model(segment, rule)
+        if remembered.forget_models(segment, rule):
+            self.backend.forget()
+        before = self._values.layout()
+        made = self._model(segment, rule)
+        remembered.note_model(segment, rule, before)
+        return made
+
+    def _model(self, segment: Segment, rule: int) -> Model:
         return self.backend.model(segment, rule, self._values)
 
     def recovering(self, segment: Segment, stash: Path) -> Segment:

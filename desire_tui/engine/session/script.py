@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from desire_tui.engine.interpreter.interpreter import Interpreter
-    from desire_tui.engine.nodes.program import Placed
+    from desire_tui.engine.nodes.program import Placed, Program
     from desire_tui.engine.session.activity import Activity
     from desire_tui.engine.session.current_interpreter import CurrentInterpreter
     from desire_tui.engine.session.listener import Listener
@@ -44,6 +44,7 @@ class ScriptRunner:
         self._runs = runs
         self._current = current
         self._host = host
+        self._states_of: tuple[Program, tuple[str, ...]] | None = None
         self.stopped: StoppedAt | None = None
         """Where it came to a STOP."""
         self.edited = False
@@ -103,13 +104,11 @@ class ScriptRunner:
         return self._ready().repeated(assignments)
 
     def _clear(self) -> None:
-        from desire_tui.engine.check.state_order import state_order
-
         workspace, values = self._workspace, self._workspace.values
         values.clear()
         self._host.begin_program()
         if workspace.program is not None:
-            for name in state_order(workspace.program):
+            for name in self._states(workspace.program if workspace.own is None else workspace.own[0]):
                 cancellation_point()
                 values.scalar(name, is_state=True)
             if workspace.overrides:
@@ -118,6 +117,14 @@ class ScriptRunner:
                 for name, value in initial_values(workspace.program, workspace.overrides).items():
                     values.assign(values.scalar(name).slot, value)
         self._listener.quantities_cleared()
+
+    def _states(self, program: Program) -> tuple[str, ...]:
+        """Return a program's scalar states in their order; overrides change nothing about it."""
+        if self._states_of is None or self._states_of[0] is not program:
+            from desire_tui.engine.check.state_order import state_order
+
+            self._states_of = program, state_order(program)
+        return self._states_of[1]
 
     def _drop(self) -> None:
         interpreter, self._current.interpreter = self._current.interpreter, None

@@ -172,13 +172,14 @@ class Session:
         from desire_tui.engine.structure.structure import structure
         from desire_tui.engine.syntax.parse import parse
 
-        began = perf_counter()
-        program = parse(source)
+        began, own = perf_counter(), self._workspace.own
+        program = own[0] if own is not None and own[0].source is source else parse(source)
         self._workspace.parse_seconds = perf_counter() - began
         if self._script.stopped is not None and source.text != self._workspace.source.text:
             self._script.edited = True
-        active, script = program, structure(program)
-        self._workspace.own = program, script
+        if own is None or own[0] is not program:
+            own = program, structure(program)
+        self._workspace.own = active, script = own
         if self._workspace.overrides:
             from desire_tui.engine.session.overrides import with_overrides
 
@@ -219,6 +220,13 @@ class Session:
     def keep(self, expressions: KeptExpressions | None) -> None:
         """Let every run from now on compute and sample some expressions besides its program's own."""
         self._workspace.segments.keep(expressions)
+
+    def remember_segments(self) -> None:
+        """Keep compiled segments while the same program is run anew again and again, as in a study.
+
+        What a model has to say before its first run is then said once.
+        """
+        self._workspace.segments.remember()
 
     def set_breakpoints(self, lines: Iterable[int]) -> None:
         """Stop the script before these lines (from 1) of the active program, as at a STOP.
