@@ -82,6 +82,11 @@ class CompiledSegments:
         elif self._backend is not None:
             self._backend.forget()
 
+    @property
+    def are_remembered(self) -> bool:
+        """Whether `remember` was called."""
+        return self._remembered is not None
+
     def remember(self) -> None:
         """From now on keep what was compiled for a program that is run anew with the same names."""
         self._remembered = RememberedSegments(self._values)

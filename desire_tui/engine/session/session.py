@@ -172,7 +172,8 @@ class Session:
         from desire_tui.engine.structure.structure import structure
         from desire_tui.engine.syntax.parse import parse
 
-        began, own = perf_counter(), self._workspace.own
+        began = perf_counter()
+        own = self._workspace.own if self._workspace.segments.are_remembered else None
         program = own[0] if own is not None and own[0].source is source else parse(source)
         self._workspace.parse_seconds = perf_counter() - began
         if self._script.stopped is not None and source.text != self._workspace.source.text:
