@@ -132,15 +132,15 @@ def test_preparation_is_broken_off_anywhere_and_leaves_all_well(backend, rule, s
 
 
 def test_an_end_while_the_text_is_read_is_heard(session, monkeypatch):
-    from desire_tui.engine.syntax import parse
+    from desire_tui.engine.syntax import parsed_lines
 
-    scan = parse.scan
+    scan = parsed_lines.scan
 
     def ending(line):
         session.end()
         return scan(line)
 
-    monkeypatch.setattr(parse, "scan", ending)
+    monkeypatch.setattr(parsed_lines, "scan", ending)
     with pytest.raises(DesireError) as caught:
         session.erun(Source("zz9 = 1\nwrite zz9\n"))
     assert [d.code for d in caught.value.diagnostics] == [301]
