@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich.text
 import textual.content
-from rich.color import ColorSystem
+from rich.color import Color, ColorSystem
 from rich.segment import Segment
 from rich.style import Style
 from textual.strip import Strip
@@ -46,13 +46,23 @@ def _render_plain(strip: Strip, console: Console) -> str:
     return _render_visible(Strip(row), console)
 
 
+_BLACK, _GREY = 0, 8
+_COLOURED = frozenset((2, 3, 6, 10, 11, 14))
+"""Green, brown, cyan: grounds on which black can be read and grey cannot."""
+
+
 @lru_cache(1000)
 def _plain_style(style: Style) -> Style:
-    """Return a style without bold black: consoles show dark grey, which is unseen on a coloured ground."""
-    color = style.color
-    if not style.bold or color is None or color.downgrade(ColorSystem.STANDARD).number != 0:
-        return style
-    return style + Style(bold=False)
+    """Return a style without dark grey on a coloured ground, which bold black is, too, on a console."""
+    number, ground = _number(style.color), _number(style.bgcolor)
+    if number == _GREY and ground in _COLOURED:
+        return style + Style(color="black", bold=False)
+    return style + Style(bold=False) if style.bold and number == _BLACK else style
+
+
+def _number(color: Color | None) -> int | None:
+    """Return which of a console's sixteen colours is meant."""
+    return None if color is None else color.downgrade(ColorSystem.STANDARD).number
 
 
 def _render_visible(strip: Strip, console: Console) -> str:

@@ -100,6 +100,10 @@ def test_a_console_gets_no_bold_black_which_it_shows_as_grey(monkeypatch):
     white = Style(bold=True, color="#ffffff", bgcolor="#0000aa")
     assert Strip([Segment("OK", black)]).render(console).startswith("\x1b[30;106mOK")
     assert Strip([Segment("OK", white)]).render(console).startswith("\x1b[1;97;44mOK")
+    grey = Style(color="#555555", bgcolor="#00aaaa")
+    assert Strip([Segment("CSV", grey)]).render(console).startswith("\x1b[30;46mCSV")
+    on_black = Style(color="#555555", bgcolor="#000000")
+    assert Strip([Segment("CSV", on_black)]).render(console).startswith("\x1b[90;40mCSV")
     visible_screen.teach()
     assert Strip([Segment("OK", black)]).render(console).startswith("\x1b[1;30;106mOK")
 
