@@ -73,6 +73,7 @@ class _Sizes:
         for begin, runs in missing:
             first, left = begin, runs
             while left:
-                count = min(left, self._size, -(-left // self._workers) + FIRST)
+                # half of a fair share: what is left at the end is small, and no thread waits long for another
+                count = min(left, self._size, -(-left // (2 * self._workers)) + FIRST)
                 yield first, count
                 first, left = first + count, left - count
