@@ -168,6 +168,7 @@ class Runs:
         problems = self.advice(model, segment)
         if problems:
             self._listener.problems(problems)
+            self._gaps.update(problem.span for problem in problems)  # 463 says why a corrector will be slow
         self._warn_once(segment.warnings)
 
     def _start_values(self, segment: Segment, start: Checkpoint | None) -> StartValues:
