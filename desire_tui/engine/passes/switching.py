@@ -107,11 +107,10 @@ class _Finder:
                 found += self._room(action.body, in_step=inner) + self._room(action.orelse, in_step=inner)
             elif isinstance(action, Terminate):
                 if is_located(action):
-                    found += 1
-                    self._condition(excess(action), action.where)
+                    found += 1 + self._condition(excess(action), action.where)
             elif id(action) in self.derivative and not in_step:
                 for node in walk_values(*expressions(action)):
-                    found += self._node(node, action)
+                    found += self._node(node, action.where, action)
         return found
 
     def is_watched(self, guard: Guard, *, in_step: bool) -> bool:
@@ -125,24 +124,33 @@ class _Finder:
         )
 
     def _condition(self, condition: Value, where: Where) -> int:
+        """Count the modes of a condition: what switches in it (`x > 1` is a jump itself), and its own."""
         depends = self.dependences.of(condition)
         if depends is Dependence.TIME:
             self.clocks.append((Op("swtch", (condition,)), where))
-        return int(depends is Dependence.STATES)
+        if depends is not Dependence.STATES:
+            return 0
+        return 1 + sum(self._node(node, where) for node in walk_values(condition))
 
-    def _node(self, node: Value, action: SimpleAction) -> int:
+    def _node(self, node: Value, where: Where, action: SimpleAction | None = None) -> int:
         if isinstance(node, Table1):
             if self.dependences.of(node.x) is Dependence.TIME:
-                self.clocks.append((node, action.where))
+                self.clocks.append((node, where))
             return 0
         if not isinstance(node, Op):
             return 0
         if node.name in JUMPS and self.is_mode(node):
-            return extent(action, node)
+            return 1 if action is None else extent(action, node)
         decides = Op("swtch", node.args[:1]) if node.name == "comp" else node
         if node.name in JUMPS | KINKS and self.dependences.of(decides) is Dependence.TIME:
-            self.clocks.append((decides, action.where))
+            self.clocks.append((decides, where))
         return 0
+
+    def needs_mode(self, condition: Value) -> bool:
+        """Whether a condition has to be frozen: one that is a jump itself already is."""
+        if isinstance(condition, Op) and condition.name in JUMPS - {"comp"} and self.is_mode(condition):
+            return False
+        return self.dependences.of(condition) is Dependence.STATES
 
     def is_mode(self, node: Op) -> bool:
         """Whether a jump depends on states (and on nothing drawn)."""
@@ -230,7 +238,7 @@ class _Rewriter:
         frozen, now = guard.condition, guard.condition
         if self._finder.is_watched(guard, in_step=in_step):
             frozen, now = self._value(guard.condition, None, live, guard.where)
-            if self._finder.dependences.of(guard.condition) is Dependence.STATES:
+            if self._finder.needs_mode(guard.condition):
                 frozen, now = self._mode("swtch", guard.condition, now, "if", guard.where, live)
         then: list[Action] = []
         other: list[Action] = []
