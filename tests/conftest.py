@@ -66,7 +66,8 @@ def pytest_collection_finish() -> None:
     """Leave all imports and 7,500 tests out of garbage collections, as the desktop does with its own imports."""
     gc.collect()
     gc.freeze()
-    gc.set_threshold(20_000, 10, 10)  # a desktop is 50,000 objects that stay until its test ends
+    # a desktop is 50,000 objects that stay until its test ends: looked through while it is there, they are for nothing
+    gc.set_threshold(200_000, 5, 5)
 
 
 def pytest_sessionfinish() -> None:
