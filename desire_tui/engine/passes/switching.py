@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.segment import Event, Segment
     from desire_tui.engine.lowered.statements import Action, SimpleAction, Where
 
 _SWITCHES = JUMPS | KINKS
@@ -92,7 +92,13 @@ class _Finder:
             if event.condition is not None and self.dependences.of(event.condition) is Dependence.TIME:
                 kink = Op("lim", (event.condition,))  # a jump only where the block makes one
                 self.clocks.append((kink, event.where))
-        return self._room(self.segment.body, in_step=False)
+        inside = sum(len(self.jumps_of_event(event)) for event in self.segment.events)
+        return inside + self._room(self.segment.body, in_step=False)
+
+    def jumps_of_event(self, event: Event) -> list[Op]:
+        """Return what jumps by states in an event's condition, `x > 1 and y < 2`: a step ends at each."""
+        nodes = walk_values(event.condition) if event.condition is not None else ()
+        return [node for node in nodes if isinstance(node, Op) and node.name in JUMPS and self.is_mode(node)]
 
     def _room(self, actions: Iterable[Action], *, in_step: bool) -> int:
         found = 0
@@ -204,8 +210,13 @@ class _Rewriter:
         return without_dead_code(tuple(self._pass), frozenset(self._kept))
 
     def body(self, actions: Iterable[Action]) -> tuple[Action, ...]:
-        """Rewrite a segment's statements."""
-        return self._actions(actions, self._pass, in_step=False)
+        """Rewrite a segment's statements; conditions of events stay what they are."""
+        made = self._actions(actions, self._pass, in_step=False)
+        for event in self._finder.segment.events:
+            self._known.clear()
+            for jump in self._finder.jumps_of_event(event):
+                self._value(jump, None, self._pass, event.where)
+        return made
 
     def _actions(self, actions: Iterable[Action], live: list[Action], *, in_step: bool) -> tuple[Action, ...]:
         made: list[Action] = []
