@@ -82,6 +82,16 @@ def found(rows: Sequence[Entry], query: str) -> list[Entry]:
     ]
 
 
+def likeliest(rows: Sequence[Entry], query: str) -> int:
+    """Return the place of what the query names by title or word, of which others only speak; else 0."""
+    named = query.strip().casefold()
+
+    def names(row: Entry) -> set[str]:
+        return {row.title.casefold(), *(BY_ID[row.command_id].words if row.command_id else ())}
+
+    return next((place for place, row in enumerate(rows) if named in names(row)), 0)
+
+
 class KeySheet(Question[str]):
     """Dismissed with the id of the action to carry out, or an empty text."""
 
@@ -131,7 +141,7 @@ class KeySheet(Question[str]):
     def _search(self, event: Input.Changed) -> None:
         event.stop()
         self._found = found(self._rows, event.value)
-        self._at = 0 if event.value.strip() and self._found else None
+        self._at = likeliest(self._found, event.value) if event.value.strip() and self._found else None
         self._show()
 
     @on(Input.Submitted)
