@@ -146,3 +146,21 @@ def test_every_root_is_in_a_part_of_its_own():
         signs = np.sign(np.polynomial.polynomial.polyval([0.0, *(right for _, right in ends)], coefficients))
         changes = np.count_nonzero(np.diff(signs[signs != 0]))
         assert changes in {len(roots), len(roots) - 1}  # the last root may lie on the last part's end
+
+
+@BACK_ENDS
+@pytest.mark.parametrize("ermax", [1e-4, 1e-12])
+def test_steps_are_short_enough_for_a_condition_that_moves_faster_than_states(ermax, back_end):
+    """cos(8·sin t) comes above 0.95 in visits that are counted and measured on a fine grid."""
+    text = PROGRAM.replace("1e-12", f"{ermax}").format(
+        end=20, start="x = 0 | y = 1 | z = 0 | n = 0 | m = 0",
+        body=CIRCLE + "d/dt z = swtch(cos(8*x) - 0.95)\nevent cos(8*x) - 0.95\nn = n + 1 | m = t",
+    )  # fmt: skip
+    outcome = execute(text, back_end, Path.cwd())
+    t = np.linspace(0.0, 20.0, 400_001)
+    above = np.cos(8 * np.sin(t)) > 0.95
+    rises = t[1:][above[1:] & ~above[:-1]]
+    assert outcome.error is None
+    assert outcome.quantities["n"] == len(rises) == 19
+    assert outcome.quantities["m"] == pytest.approx(rises[-1], abs=1e-4 + 20 * ermax)
+    assert outcome.quantities["z"] == pytest.approx(20 * above.mean(), abs=1e-3 + 20 * ermax)

@@ -55,7 +55,8 @@ class Taylor(ctypes.Structure):
         ("worst", _INT),  # state whose coefficient was not finite
         # arguments of modes, `argument_count` of them, and of events: pairs (place of coefficient 0,
         # distance), -1 for one that does not move (`roots`, `isolation`)
-        ("argument_count", _INT), ("arguments", _INTS),
+        ("argument_count", _INT), ("argument_total", _INT), ("arguments", _INTS),
+        ("argument_error", _REAL),  # relative error that these may have at a step's end
         ("work", _REALS), ("part", _REALS), ("turned", _REALS), ("halves", _INTS),
         ("left", _REAL), ("right", _REAL),
         # square roots: triples (place of coefficient 0 of the first, distance, count) (`square_roots`)
@@ -81,6 +82,11 @@ def order_for(tolerance: float) -> int:
     """Return the order for a relative tolerance: Jorba and Zou's -ln(ε)/2 + 1, rounded up."""
     wanted = ceil(-log(max(tolerance, EPSILON)) / 2.0) + 1 if tolerance < 1.0 else ORDER_LEAST
     return min(max(wanted, ORDER_LEAST), ORDER_MOST)
+
+
+def argument_error_for(tolerance: float) -> float:
+    """Return the relative error that arguments of modes and events may have for a relative tolerance."""
+    return max(tolerance, min(1e3 * tolerance, 1e-6))
 
 
 def log_part_for(tolerance: float, order: int) -> float:

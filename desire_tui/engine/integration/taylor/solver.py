@@ -9,7 +9,13 @@ import numpy as np
 
 from desire_tui.engine.integration.sundials.solver import Counts
 from desire_tui.engine.integration.taylor import step
-from desire_tui.engine.integration.taylor.memory import Arrays, Taylor, log_part_for, order_for
+from desire_tui.engine.integration.taylor.memory import (
+    Arrays,
+    Taylor,
+    argument_error_for,
+    log_part_for,
+    order_for,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,7 +75,7 @@ class TaylorSolver:
         taylor.pieces, taylor.piece_count = ctypes.cast(self._pieces.ctypes.data, _INTS), len(pieces)
         self._arguments = np.array([*layout.arguments, (-1, 0)], dtype=np.int64).reshape(-1)
         taylor.arguments = ctypes.cast(self._arguments.ctypes.data, _INTS)
-        taylor.argument_count = layout.mode_count
+        taylor.argument_count, taylor.argument_total = layout.mode_count, len(layout.arguments)
         self._roots = np.array([*layout.roots, (0, 0, 0)], dtype=np.int64).reshape(-1)
         taylor.roots, taylor.root_count = ctypes.cast(self._roots.ctypes.data, _INTS), len(layout.roots)
         for name, row in zip(("work", "part", "turned"), arrays.polynomials, strict=True):
@@ -86,6 +92,7 @@ class TaylorSolver:
         """Prepare a run: relative tolerance, absolute one, the largest step (0: none)."""
         taylor = self.taylor
         taylor.order = order_for(tolerance)
+        taylor.argument_error = argument_error_for(tolerance)
         taylor.log_part = log_part_for(tolerance, taylor.order)
         taylor.absolute = absolute / tolerance if tolerance > 0.0 else 0.0
         taylor.h_most = max(largest, 0.0)

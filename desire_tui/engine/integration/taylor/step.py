@@ -19,6 +19,9 @@ _LARGEST = 1.7976931348623157e308
 _SAFETY = 0.7
 """exp(-0.7/(order - 1)): how much less a step is than the coefficients would allow (Jorba and Zou)."""
 
+_LEAST_PART, _TRIES, _MARGIN = 1.0 / 64.0, 20, 0.9
+"""Arguments make no step shorter than this part of it: some, as sqrt(x) near 0, would never let it pass."""
+
 
 def restart(s: Taylor, t: float) -> None:
     """Begin anew from the states in `y`."""
@@ -54,6 +57,11 @@ def advance(s: Taylor, t_stop: float) -> int:
         t1 = t_stop
         flag = AT_STOP
     h = t1 - t0
+    shorter = reach_of_arguments(s, h)
+    if shorter < h:
+        h = shorter
+        t1 = t0 + h
+        flag = DONE
     s.t = t1
     if h > 0.0:
         s.h_last = h
@@ -98,6 +106,36 @@ def reach(s: Taylor) -> float:
         other = log(before) / (order - 1)
         radius = max(radius, other) if last > 0.0 else other
     return exp(s.log_part - radius - _SAFETY / (order - 1))
+
+
+def reach_of_arguments(s: Taylor, h: float) -> float:
+    """Return how much of a step of h the polynomials of what switches, and of events' conditions, hold for.
+
+    They decide by their roots alone, which places are looked at: they may be less exact than the states, but
+    cos(5·x) needs shorter steps than x does.
+    """
+    order = s.order
+    least = h * _LEAST_PART
+    for i in range(s.argument_total):
+        place = s.arguments[2 * i]
+        apart = s.arguments[2 * i + 1]
+        tries = 0
+        while place >= 0 and tries < _TRIES and h > least:
+            tries += 1
+            power = 1.0
+            size = 0.0
+            tail = 0.0
+            for k in range(order + 1):
+                part = abs(s.coefficients[place + k * apart]) * power
+                size += part
+                if k >= order - 1:
+                    tail += part
+                power *= h
+            allowed = s.argument_error * size
+            if tail <= allowed or not tail <= _LARGEST:  # inf or nan: it is not smooth here
+                break
+            h *= _MARGIN * exp(log(allowed / tail) / (order - 1)) if allowed > 0.0 else _MARGIN
+    return max(h, least)
 
 
 def find_worst(s: Taylor) -> None:
