@@ -135,7 +135,7 @@ def test_every_root_is_in_a_part_of_its_own():
         outside = rng.choice((-2.0, -1.0, 2.0, 3.0), 4)
         coefficients = np.polynomial.polynomial.polyfromroots([*roots, *outside])
         s = solver.taylor
-        s.order = len(coefficients) - 1
+        s.order = len(coefficients)
         solver.coefficients[: len(coefficients)] = coefficients
         assert begin_walk(s, 0, 0.0, 1.0)
         ends = []

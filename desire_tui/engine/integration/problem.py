@@ -85,6 +85,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "limit_step": (_REAL, (_ADDRESS, _REAL, _REAL, _REAL)),
     "look_inside": (_INT, (_ADDRESS, _REAL, _REAL)),
     "look_along_series": (_INT, (_ADDRESS, _ADDRESS, _REAL, _REAL)),
+    "cut_short": (None, (_ADDRESS,)),
     "remember_step": (None, (_ADDRESS, _REAL, _REAL)),
     "happen": (ctypes.c_int32, (_ADDRESS, _INT)),
     "at_start": (_INT, (_ADDRESS, _ADDRESS)),
@@ -190,6 +191,7 @@ class SolverProblem(ctypes.Structure):
         ("limit_step", _ADDRESS),  # functions of `runtime.moments`
         ("look_inside", _ADDRESS),
         ("look_along_series", _ADDRESS),
+        ("cut_short", _ADDRESS),
         ("remember_step", _ADDRESS),
         ("happen", _ADDRESS),
         ("first_step", _REAL),  # 0: CVODE looks for one

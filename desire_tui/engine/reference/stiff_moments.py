@@ -11,7 +11,7 @@ from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.reference.moments import connect
 from desire_tui.engine.reference.stiff import StiffReferenceModel
 from desire_tui.engine.runtime.moments.along import look_along_series
-from desire_tui.engine.runtime.moments.blocks import begin
+from desire_tui.engine.runtime.moments.blocks import begin, cut_short
 from desire_tui.engine.runtime.moments.inside import PLACES, SAME, happen, limit_step, remember_step
 from desire_tui.engine.runtime.moments.locate import look_inside
 from desire_tui.engine.runtime.moments.memory import Place
@@ -95,7 +95,10 @@ class StiffMomentModel(StiffReferenceModel):
             found = look_inside(self._moments, t0, problem.t_step)
         if found:
             self._end_step_here()
+        t1 = problem.t_step
         super()._look_back(t0)
+        if problem.t_step < t1:
+            cut_short(self._moments)
         remember_step(self._moments, t0, problem.t_step)
         problem.settled = 0
         self._leave(problem.t_step, self._solution())

@@ -67,6 +67,7 @@ _PUBLIC = (
     "remember_step",
     "happen",
     "look_along_series",
+    "cut_short",
     "begin_runs",
     "step_runs",
     "record_runs",
@@ -88,6 +89,7 @@ class MomentFunctions(NamedTuple):
     remember_step: int
     happen: int
     look_along_series: int
+    cut_short: int
     begin_runs: int
     step_runs: int
     record_runs: int

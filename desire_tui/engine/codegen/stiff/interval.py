@@ -147,6 +147,8 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
     if problem.watch != 0:
         found: int = look(problem, t_from, t)
         if found > 0:
+            if problem.moments != 0:
+                problem.cut_short(problem.moments)
             gather(problem)
             problem.t_step = values[T]
             problem.anew = 1

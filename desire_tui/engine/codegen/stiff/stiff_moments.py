@@ -53,6 +53,7 @@ class StiffMoments:
         problem.moments = self._stepper.address
         problem.limit_step, problem.look_inside = natives.limit_step, natives.look_inside
         problem.look_along_series = natives.look_along_series
+        problem.cut_short = natives.cut_short
         problem.remember_step, problem.happen = natives.remember_step, natives.happen
 
     def follow_series(self, conditions: Sequence[int]) -> None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def begin_walk(s: Taylor, argument: int, edge: float, h: float) -> int:
     """Prepare to go along a step of h, to where an argument's series reaches an edge; 0: it never does."""
-    n: int = s.order
+    n = s.order - 1  # the last coefficient is computed of states alone
     place: int = s.arguments[2 * argument]
     if place < 0:
         return 0
@@ -72,7 +72,7 @@ def next_part(s: Taylor) -> int:
 
 def root_count(s: Taylor, low: float, width: float) -> int:
     """Return how many roots the polynomial has at most from `low` to `low` + `width`: 0 and 1 are exact."""
-    n: int = s.order
+    n = s.order - 1
     whole: Reals = s.work
     part: Reals = s.part
     for k in range(n + 1):

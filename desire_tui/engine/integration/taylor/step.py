@@ -114,7 +114,7 @@ def reach_of_arguments(s: Taylor, h: float) -> float:
     They decide by their roots alone, which places are looked at: they may be less exact than the states, but
     cos(5·x) needs shorter steps than x does.
     """
-    order = s.order
+    order = s.order - 1  # the last coefficient is computed of states alone
     least = h * _LEAST_PART
     for i in range(s.argument_total):
         place = s.arguments[2 * i]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.taylor.isolation import begin_walk, next_part
 from desire_tui.engine.passes.series.nodes import NEVER_INSIDE, SAMPLED
-from desire_tui.engine.runtime.moments.blocks import any_rises
+from desire_tui.engine.runtime.moments.blocks import any_rises, keep_arms
 from desire_tui.engine.runtime.moments.locate import begin_at_left, go_to, keep, locate
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ def look_along_series(s: Taylor, m: Moments, t0: float, t1: float) -> int:
     """Find the first event in the last step of rule 17; results as of `locate.look_inside`."""
     if m.condition_count == 0 or not t1 > t0:
         return 0
+    keep_arms(m)
     m.left = 0.0
     m.right = t1 - t0
     found = 0

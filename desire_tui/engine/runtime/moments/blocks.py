@@ -112,6 +112,22 @@ def arm_fallen(m: Moments) -> None:
             m.before[i] = value
 
 
+def keep_arms(m: Moments) -> None:
+    """Remember how conditions stand at a step's start."""
+    for i in range(m.count):
+        m.kept_armed[i] = m.armed[i]
+        m.kept_doubt[i] = m.in_doubt[i]
+        m.kept_before[i] = m.before[i]
+
+
+def cut_short(m: Moments) -> None:
+    """Let conditions stand as at the step's start: it ends earlier than where they were followed to."""
+    for i in range(m.count):
+        m.armed[i] = m.kept_armed[i]
+        m.in_doubt[i] = m.kept_doubt[i]
+        m.before[i] = m.kept_before[i]
+
+
 def arrive(m: Moments, slack: float) -> int:
     """Carry out what is due at t, clocks that are `slack` away included.
 

@@ -13,6 +13,7 @@ from desire_tui.engine.runtime.moments.blocks import (
     any_rises,
     arm_fallen,
     has_doubt,
+    keep_arms,
     rises,
     take_side,
 )
@@ -63,6 +64,7 @@ def look_inside(m: Moments, t0: float, t1: float) -> int:
     if m.condition_count == 0 or not t1 > t0:
         return 0
     begin_at_left(m)
+    keep_arms(m)
     if has_doubt(m) != 0:
         go_to(m, t0, t1)
         any_rises(m)

@@ -87,6 +87,7 @@ class Moments(ctypes.Structure):
         ("places", _INT), ("place", Place), ("owner", _ADDRESS),
         # rule 17: of each condition the number of its series (`along`), where in the step it fell below 0 …
         ("arguments", _INTS), ("fell", _REALS),
+        ("kept_armed", _INTS), ("kept_doubt", _INTS), ("kept_before", _REALS),  # at its start
         ("left", _REAL), ("right", _REAL),  # … and between which places the first event comes
     )  # fmt: skip
 

@@ -83,9 +83,20 @@ class Stepper:
             m.source = values.room(max(len(segment.delays), 1))
         else:
             m.now, m.due, m.source = like.moments.now, like.moments.due, like.moments.source
-        for name in ("before", "at_left", "at_right", "fired", "ticks", "next", "came", "gap", "fell"):
+        for name in (
+            "before",
+            "at_left",
+            "at_right",
+            "fired",
+            "ticks",
+            "next",
+            "came",
+            "gap",
+            "fell",
+            "kept_before",
+        ):
             self._reals(name, np.zeros(count))
-        for name in ("armed", "in_doubt", "shrunk", "quick", "arguments"):
+        for name in ("armed", "in_doubt", "shrunk", "quick", "arguments", "kept_armed", "kept_doubt"):
             self._ints(name, np.zeros(count, dtype=np.int64))
         self._period, self._start = np.zeros(count), np.zeros(count)
         self._reals("period", self._period)
