@@ -130,7 +130,7 @@ COMMANDS = (
             ("picture",)),
     Command("graph.export", "Export samples", "Save the samples of the last run as CSV",
             words=("export",), argument="'file'"),
-    Command("graph.chart", "Plot quantity", "Plot quantities on a page of their own: an array over its "
+    Command("graph.chart", "Plot quantity", "Plot a quantity, or several on one page: an array over its "
             "index, others over the last run, columns of data files as points", "alt+g", ("graph",),
             "name, name"),
     Command("graph.overlay", "Overlay", "Lay an older graph over the one shown, or take it away", "alt+o",
