@@ -42,3 +42,16 @@ def test_samples_show_what_blocks_make_switch(rule, back_end):
     )  # fmt: skip
     assert [row[1] for row in outcome.runs[0].rows[:5]] == [0, 0, 0.3, 0.3, 0]
     assert outcome.quantities["x"] == pytest.approx(-1.03, abs=1e-9)
+
+
+@BACK_ENDS
+@EVERY_KIND
+def test_conditions_read_what_blocks_make_switch(rule, back_end):
+    """The clock turns y round; which of x and y is w is then another matter, and sets off both events."""
+    outcome = run(
+        rule, back_end,
+        "x = 0.3 | y = 0.9 | n = 0 | m = 0 | TMAX = 6 | NN = 3\ndrun\nDYNAMIC\nw = max(x, y)\nd/dt x = y\n"
+        "d/dt y = -x + 0.1*w\ndispt x, y\nevent w - 0.1\nx = 0 | y = 1 | n = n + 1\nevery 0.37, 0.25\ny = -0.8*y\n"
+        "event y - 0.2\ny = -0.8*y | m = m + 1",
+    )  # fmt: skip
+    assert (outcome.quantities["n"], outcome.quantities["m"]) == (14, 15)

@@ -87,15 +87,16 @@ class Switches:
         moments, watch = stepper.moments, self._watch
         self.remember(moments)
         self._watcher.take_step_from(*stepper.step_start)
-        moments.watch = self._watcher.address
         moments.limit = Limit(lambda _, t, wish: watching.limit(watch, t, wish))
         moments.look = Look(lambda _, t0, t1: watching.look_at_step(watch, t0, t1))
         moments.depart = Depart(lambda _: watching.depart(watch))
-        moments.settle = Settle(lambda _, t: watching.settle(watch, t))
 
     def remember(self, moments: Moments) -> None:
         """Let what is computed here look up histories."""
         self._closures.histories.append(moments)
+        watch = self._watch
+        moments.watch = self._watcher.address
+        moments.settle = Settle(lambda _, t: watching.settle(watch, t))
 
     def settle(self, t_next: float) -> int:
         """See `watch.settle`."""

@@ -163,6 +163,8 @@ class StiffModel:
             problem.watch = self._watcher.address
             problem.limit, problem.look = watching.limit, watching.look_back
             problem.settle, problem.depart = watching.settle, watching.depart
+            if self._moments is not None:
+                self._moments.watch(self._watcher, watching.settle)
             self._watcher.connect(
                 watching.begin, self._modes, self._derivatives, natives.state_at, ctypes.addressof(problem)
             )

@@ -9,7 +9,7 @@ from desire_tui.engine.codegen.moments.moment_routines import moment_functions
 from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.passes.moments import blocks_pass, conditions_pass, sources_pass
 from desire_tui.engine.runtime.moments.inside import PLACES
-from desire_tui.engine.runtime.moments.memory import Compute, Place
+from desire_tui.engine.runtime.moments.memory import Compute, Place, Settle
 from desire_tui.engine.runtime.moments.setup import Stepper
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 
@@ -59,6 +59,11 @@ class StiffMoments:
     def follow_series(self, conditions: Sequence[int]) -> None:
         """Rule 17: which of the solver's series are those of the events' conditions."""
         self._stepper.follow_series(conditions)
+
+    def watch(self, watcher: Watcher, settle: int) -> None:
+        """Let blocks take up what they make switch."""
+        self._stepper.moments.watch = watcher.address
+        self._stepper.moments.settle = ctypes.cast(settle, Settle)
 
     def remember(self, memory: RunMemory) -> None:
         """Let what a run computes look up histories."""

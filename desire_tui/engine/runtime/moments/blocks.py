@@ -166,6 +166,8 @@ def carry_out(m: Moments) -> int:
         m.blocks(m.memory, m.k_at[0])
         if has_fired(m, t) != 0:
             return 2
+        if m.watch != 0:
+            m.settle(m.watch, t)  # conditions read what switches: by the states that the blocks have left
         if m.condition_count != 0:
             m.conditions(m.memory, m.k_at[0])
         found = 0
