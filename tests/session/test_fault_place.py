@@ -83,3 +83,21 @@ def test_nor_are_steps_that_events_cut(backend) -> None:
     problem, _ = failure(text, backend)
     assert problem.key == "not-finite"
     assert problem.facts["t"] > 0.5
+
+
+def test_the_place_does_not_depend_on_where_blocks_begin(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Steps in the middle begin with derivatives from before OUT: made again from there they would differ."""
+    program = """k = -0.8 | DT = 0.01 | TMAX = 3 | NN = 301 | x = 1 | n = 0
+drun
+DYNAMIC
+d/dt x = n - k*x^3
+OUT
+n = 3*gauss(0)
+dispt x
+"""
+    found = set()
+    for seconds in (1e-9, 0.02, 10.0):
+        monkeypatch.setattr("desire_tui.engine.runtime.simulator.BLOCK_SECONDS", seconds)
+        found |= {failure(f"SEED {seed}\n{program}")[0].message for seed in (3, 4, 5)}
+    assert all("'x^3' is too large for a number" in message for message in found)
+    assert len(found) == 3

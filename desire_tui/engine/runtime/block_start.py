@@ -1,4 +1,8 @@
-"""Where a run stood at the start of its last block, so that a failure in it can be looked at again."""
+"""Where a run stood at the start of a block, so that a failure behind it can be looked at again.
+
+A run that is short enough is looked at from its start: that is exact, whereas the derivatives that a step
+in the middle began with are gone, and where a block begins depends on the clock.
+"""
 
 from __future__ import annotations
 
@@ -16,6 +20,10 @@ if TYPE_CHECKING:
 
 NUMBERS_MOST = 20_000
 """Of larger models no copy is kept: it would take a noticeable part of the 20 ms of a block."""
+SAMPLES_MOST = 10_000
+"""From there to the failure: each is perhaps looked at."""
+WORK_MOST = 20_000_000
+"""Steps from there to the failure, times numbers of the model: some tenths of a second."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +42,12 @@ class BlockStart:
         if values.numbers_used > NUMBERS_MOST:
             return None
         return cls(memory, bytes(memory), counters, counters.copy(), values.saved())
+
+    def is_far(self, memory: RunMemory, values: Values) -> bool:
+        """Whether a run has gone so far from here that looking at it again would take too long."""
+        begun = type(memory).from_buffer_copy(self.content)
+        work = (memory.steps - begun.steps) * values.numbers_used
+        return int(memory.row) - begun.row > SAMPLES_MOST or int(work) > WORK_MOST
 
     def put_back(self, values: Values) -> None:
         """Go back to it."""

@@ -67,7 +67,7 @@ class Simulator:
         self.memory: RunMemory | None = None
         """The run's memory while one goes on."""
         self.block_start: BlockStart | None = None
-        """Where the last block began; its failure can be looked at again from there."""
+        """Where the run, or a late block of it, began; its failure can be looked at again from there."""
         self.direction = 1.0
         """-1 while a run goes backward: t is then what the program calls -t (`passes.backward`)."""
         self._began = 0.0
@@ -181,7 +181,7 @@ class Simulator:
             if first >= len(record.rows):
                 _grow(record, memory)
             memory.row_limit = min(first + (1 if segment.pictures else int(block)), len(record.rows))
-            if first == 0 or block > BLOCK_GROWTH:  # a short run is looked at again from its start
+            if first == 0 or (self.block_start and self.block_start.is_far(memory, self._values)):
                 self.block_start = BlockStart.taken(memory, memory.keep[0], self._values)
             began = perf_counter()
             self._heartbeat.block()
