@@ -81,7 +81,7 @@ def test_programs_with_other_names(unlearned):
         forget_lines()
         assert meaning(more) == expected, path
         read += sum(line_patterns.read(row) is not None for row in rows)
-    assert read > 80
+    assert read > 20, "or no pattern was at work"
 
 
 @pytest.mark.parametrize("line", ODD)
