@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypeVar, dataclass_transform
 
-from desire_tui.engine.data_classes import dataclass
+from desire_tui.engine.data_classes import dataclass, field
 
 T = TypeVar("T")
 _PLACE = ("start", "end")
@@ -13,21 +13,17 @@ _PLACE = ("start", "end")
 
 @dataclass_transform(frozen_default=True)
 def node(cls: type[T]) -> type[T]:
-    """Make a `data_classes.dataclass` with slots, frozen for the type checker; its place is not compared."""
-    methods: Any = cls
-    methods.__eq__, methods.__repr__ = _equal, _shown
-    return dataclass(slots=True)(cls)
+    """Make a slotted record class with the methods of a dataclass, frozen for the type checker only.
 
-
-def _equal(self: Any, other: Any) -> bool:
-    if type(self) is not type(other):
-        return NotImplemented  # type: ignore[no-any-return]  # the protocol of ==, no bool
-    return all(getattr(self, name) == getattr(other, name) for name in self.__slots__ if name not in _PLACE)
-
-
-def _shown(self: Any) -> str:
-    parts = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.__slots__ if name not in _PLACE)
-    return f"{type(self).__name__}({parts})"
+    Freezing at run time would cost another 1.5 µs a node.
+    """
+    own: dict[str, Any] = dict(vars(cls))
+    for name in _PLACE:
+        if name in own.get("__annotations__", ()):
+            given = {"default": own[name]} if name in own else {}
+            setattr(cls, name, field(repr=False, compare=False, **given))
+    made: type[T] = dataclass(slots=True)(cls)
+    return made
 
 
 class Node:
