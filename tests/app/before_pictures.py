@@ -16,27 +16,20 @@ COMMIT = "c7d4fd2"
 """The last one before the work on the desktop's looks began."""
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "docs" / "pictures" / "before"
-PLAYED = '''
+PLAYED = """
 import asyncio, os, sys
 from pathlib import Path
 from tests.app.scenes import Scene, app_for, play
 from tests.app.svg import tidy
 
-FIRST = """x = 10 | y = 2
-TMAX = 20
-drun
-DYNAMIC
-d/dt x = x - 0.1*x*y
-d/dt y = 0.075*x*y - 1.5*y
-dispt x, y
-"""
+FIRST, PLANE, FAILED = sys.argv[2:]
 SCENES = (
     Scene("main-80x24", (80, 24)),
     Scene("main-160x50", (160, 50), ("alt+q",)),
     Scene("live-100x30", (100, 30), words=("live",)),
     Scene("first-model-100x30", (100, 30), text=FIRST, file="hares.src"),
-    Scene("phase-plane-120x34", (120, 34), text=FIRST.replace("dispt", "dispxy"), file="hares.src"),
-    Scene("failed-100x30", (100, 30), text=FIRST.replace("- 1.5*y", "- 1.5*y*sqrt(40 - x)/5"), file="hares.src"),
+    Scene("phase-plane-120x34", (120, 34), text=PLANE, file="hares.src"),
+    Scene("failed-100x30", (100, 30), text=FAILED, file="hares.src"),
     Scene("palette-100x30", (100, 30), ("ctrl+p", *"csv")),
     Scene("save-100x30", (100, 30), ("ctrl+n", "x", "=", "1", "ctrl+s", *"my", "underscore", *"model")),
     Scene("keys-120x40", (120, 40), ("shift+f1",)),
@@ -52,12 +45,13 @@ async def main():
         Path(scene.file).unlink()
 
 asyncio.run(main())
-'''
+"""
 
 
 def main() -> None:
     """Take them."""
-    from .svg import smaller
+    from tests.app.scenes import FAILED, FIRST
+    from tests.app.svg import smaller
 
     FOLDER.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as places:
@@ -66,7 +60,8 @@ def main() -> None:
         _git("worktree", "add", "--quiet", "--detach", str(tree), COMMIT)
         try:
             subprocess.run(
-                [sys.executable, "-c", PLAYED, str(FOLDER)], check=True, cwd=models,
+                [sys.executable, "-c", PLAYED, str(FOLDER), FIRST, FIRST.replace("dispt", "dispxy"), FAILED],
+                check=True, cwd=models,
                 env={**os.environ, "PYTHONPATH": str(tree), "COLORTERM": "truecolor",
                      "XDG_CONFIG_HOME": places, "XDG_STATE_HOME": places},
             )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import signal
@@ -632,7 +633,9 @@ def on_terminal(*args, env=None):
     while True:
         try:
             piece = os.read(master, 65536)
-        except OSError:  # Linux: the other side is closed
+        except OSError as error:
+            if error.errno != errno.EIO:  # Linux: the other side is closed
+                raise
             break
         if not piece:
             break

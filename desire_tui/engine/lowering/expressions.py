@@ -110,18 +110,14 @@ def _binary(context: LoweringContext, node: Binary, extent: Extent) -> Value:
         return products.product(context, node, extent)
     # a name that can be read is most of what there is, and `lower` would take as long again for it
     ready = context.flow.ready.get if context.plain else _nothing_ready
-    part = node.left
-    if type(part) is Name and (load := ready(part.name)) is not None:
-        context.reads[part.name] = load.slot
-        left: Value = load
-    else:
-        left = context.lower(part, extent)
-    part = node.right
-    if type(part) is Name and (load := ready(part.name)) is not None:
-        context.reads[part.name] = load.slot
-        right: Value = load
-    else:
-        right = context.lower(part, extent)
+    parts: list[Value] = []
+    for part in (node.left, node.right):
+        if type(part) is Name and (load := ready(part.name)) is not None:
+            context.reads[part.name] = load.slot
+            parts.append(load)
+        else:
+            parts.append(context.lower(part, extent))
+    left, right = parts
     operation = OPERATIONS.get(op)
     if operation is not None:
         return Op(operation, (left, right))
