@@ -57,12 +57,6 @@ def _obey(arguments: list[str] | None) -> None:
 
             if is_possible():
                 open_desktop(tuple(words))
-        if words[:1] in (["run"], ["check"]):
-            from desire_tui.plain_words import obey
-
-            status = obey(words)
-            if status is not None:
-                sys.exit(status)
         from desire_tui.cli import main as command_line
 
         command_line(arguments, prog_name="desire")

@@ -1,4 +1,4 @@
-"""`desire run`: its options. `plain_words` reads the same ones: a new option has its line there too."""
+"""`desire run`: its options."""
 
 from __future__ import annotations
 
@@ -84,9 +84,13 @@ def run(files: tuple[str, ...], **options: Any) -> None:
     name with {}, which stands for the program's name. Exit status: 0 done, 1 a program failed, 2 wrong usage,
     3 stopped by a limit or Ctrl-C.
     """
-    from desire_tui.batch.run_programs import run_programs
+
+    def work() -> int:
+        from desire_tui.batch.run_programs import run_programs  # Ctrl-C may come while this loads
+
+        return run_programs(files, options)
 
     try:
-        sys.exit(guarded(lambda: run_programs(files, options)))
+        sys.exit(guarded(work))
     except WrongUsage as wrong:
         raise click.UsageError(str(wrong)) from None

@@ -407,7 +407,7 @@ def test_ctrl_c_ends_with_status_3(tmp_path):
 
 @pytest.mark.parametrize(
     "module",
-    ["desire_tui.plain_words", "numpy", "desire_tui.batch.cli_commands", "desire_tui.engine.session"],
+    ["click", "numpy", "desire_tui.batch.cli_commands", "desire_tui.engine.session"],
 )
 @pytest.mark.parametrize("command", ["run", "check"])
 def test_ctrl_c_while_the_program_is_still_loading(decay, command, module):
@@ -568,7 +568,7 @@ def test_headless_runs_load_neither_textual_nor_matplotlib(decay):
     code = (
         "import sys\nfrom desire_tui.__main__ import main\n"
         f"try: main(['run', {str(decay)!r}])\nexcept SystemExit: pass\n"
-        "unwanted = 'textual', 'rich', 'matplotlib', 'plotext', 'scipy', 'click', 'dataclasses'\n"
+        "unwanted = 'textual', 'rich', 'matplotlib', 'plotext', 'scipy', 'dataclasses'\n"
         "bad = [m for m in unwanted if m in sys.modules]\n"
         "sys.exit(repr(bad) if bad else 0)"
     )
