@@ -8,6 +8,7 @@ from time import monotonic, sleep
 import pytest
 
 from desire_tui.engine.diagnostics import DesireError
+from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.session.status import State
 from desire_tui.engine.source import Source
@@ -203,3 +204,29 @@ def test_many_long_runs_do_not_fill_the_memory(monkeypatch):
     assert curves[0].count <= 100
     x, y = curves[0].samples()
     assert y == pytest.approx(1 + x, abs=1e-9)
+
+
+def test_blocks_that_the_heartbeat_ends_become_shorter(monkeypatch):
+    """The first sample takes no step, so the second block is far too long: curves must not go on by its beats."""
+    from desire_tui.engine.codegen.native_model import NativeModel
+
+    now, asked = [0.0], []
+    advance = NativeModel.advance
+
+    def by_beats(model, memory):
+        wanted, limit = int(memory.row_limit - memory.row), memory.row_limit
+        asked.append(wanted)
+        rows = min(wanted, 50)
+        memory.row_limit = memory.row + rows
+        ended = advance(model, memory)
+        memory.row_limit = limit
+        now[0] += 1e-3 * rows if len(asked) > 1 else 0.0
+        return Ended.STOPPED if rows < wanted and ended is Ended.RUNNING else ended
+
+    monkeypatch.setattr(NativeModel, "advance", by_beats)
+    monkeypatch.setattr("desire_tui.engine.runtime.simulator.perf_counter", lambda: now[0])
+    session = Session()
+    session.erun(Source("x = 1 | DT = 0.01 | TMAX = 10 | NN = 501\ndrun\nDYNAMIC\nd/dt x = -x\ndispt x\n"))
+    assert session.runs[0].count == 501
+    assert asked[1] > 50
+    assert max(asked[2:]) <= 25  # BLOCK_SECONDS of 1 ms a sample: 20

@@ -180,7 +180,8 @@ class Simulator:
             first = int(memory.row)
             if first >= len(record.rows):
                 _grow(record, memory)
-            memory.row_limit = min(first + (1 if segment.pictures else int(block)), len(record.rows))
+            limit = min(first + (1 if segment.pictures else int(block)), len(record.rows))
+            memory.row_limit = limit
             if first == 0 or (self.block_start and self.block_start.is_far(memory, self._values)):
                 self.block_start = BlockStart.taken(memory, memory.keep[0], self._values)
             began = perf_counter()
@@ -205,9 +206,9 @@ class Simulator:
                     return ended
             elif ended is not Ended.RUNNING:
                 return ended
-            else:
-                block *= min(BLOCK_GROWTH, BLOCK_SECONDS / max(took, 1e-6))
-                block = max(1.0, min(block, float(len(record.rows))))
+            done = max(int(memory.row) - first, 1) / max(limit - first, 1)  # the heartbeat ends long blocks
+            block *= min(BLOCK_GROWTH, done * BLOCK_SECONDS / max(took, 1e-6))
+            block = max(1.0, min(block, float(len(record.rows))))
 
     def _stands_still(self, headway: Headway, segment: Segment, memory: RunMemory) -> bool:
         """Whether the run gets nowhere; looked at once in half a million steps."""
