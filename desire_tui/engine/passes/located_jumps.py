@@ -21,7 +21,7 @@ from desire_tui.engine.passes.derivative_rules import ONE, ZERO, op
 from desire_tui.engine.passes.differentiate import Differentiator
 from desire_tui.engine.passes.moments import definitions
 from desire_tui.engine.passes.slices import derivative_slice
-from desire_tui.engine.passes.switching import is_scalar
+from desire_tui.engine.passes.switch_finder import is_scalar
 from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.values import T
 
