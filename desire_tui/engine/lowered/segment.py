@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.data_classes import dataclass, field
@@ -169,7 +170,7 @@ class Segment:
         """What a row of samples holds behind t: the requests' variables in turn, then the stashed ones."""
         return tuple(column for request in self.requests for column in request.columns) + self.stash
 
-    @property
+    @cached_property
     def order(self) -> int:
         """Number of states."""
         return sum(r.count for r in self.states)

@@ -24,41 +24,53 @@ ROOM = 5_000
 """Expressions of earlier programs in a cache: some 2 KB each."""
 
 
-class _Cached(NamedTuple):
-    """`node` is held so that its id stays taken."""
+class Cached(NamedTuple):
+    """What an expression became, and the slots of its names; `node` is held so that its id stays taken."""
 
     node: Expr
     reads: tuple[tuple[str, int], ...]
     value: Value
 
 
-_live: RecentlyUsed[int, _Cached] = RecentlyUsed(ROOM)
-_checked: RecentlyUsed[int, _Cached] = RecentlyUsed(ROOM)
+_live: RecentlyUsed[int, Cached] = RecentlyUsed(ROOM)
+_checked: RecentlyUsed[int, Cached] = RecentlyUsed(ROOM)
 """Checks number the slots in their own way."""
+
+
+def cache_of(context: LoweringContext) -> RecentlyUsed[int, Cached]:
+    """Return the expressions lowered in scopes of this kind, by the ids of their nodes."""
+    return _live if isinstance(context.scope, LiveScope) else _checked
+
+
+def known_value(context: LoweringContext, node: Expr, cache: RecentlyUsed[int, Cached]) -> Value | None:
+    """Return what an expression became an earlier time, if it must become the same."""
+    known = cache[id(node)]
+    if known is None:
+        return None
+    ready = context.flow.ready.get
+    for name, slot in known.reads:
+        load = ready(name)
+        if load is None or load.slot != slot:
+            return None
+    return known.value
 
 
 def lower_cached(context: LoweringContext, node: Expr) -> Value:
     """Return `context.lower(node)`, from the cache if it must be the same."""
     if not context.plain or context.redefines_library:
         return context.lower(node)
-    cache = _live if isinstance(context.scope, LiveScope) else _checked
-    ready = context.flow.ready
-    known = cache[id(node)]
+    cache = cache_of(context)
+    known = known_value(context, node, cache)
     if known is not None:
-        for name, slot in known.reads:
-            load = ready.get(name)
-            if load is None or load.slot != slot:
-                break
-        else:
-            return known.value
+        return known
     reads = context.reads
     reads.clear()
     before = len(context.problems)
     value = context.lower(node)
     if len(context.problems) == before:
         if UNKNOWN_SLOT in reads.values():
-            _read_by_now(reads, ready)
-        cache.keep(id(node), _Cached(node, tuple(reads.items()), value))
+            _read_by_now(reads, context.flow.ready)
+        cache.keep(id(node), Cached(node, tuple(reads.items()), value))
     return value
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from desire_tui.engine.lowered.expressions import Value
-    from desire_tui.engine.lowered.segment import Breakpoints, DelayedValue
+    from desire_tui.engine.lowered.segment import Breakpoints, DelayedValue, StateRange
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.lowering.scope import SegmentScope
     from desire_tui.engine.nodes.declarations import Function
@@ -103,7 +103,10 @@ class LoweringContext(ABC):
         """Names read as they are written: the frame replaces none."""
         self.problems: list[Diagnostic] = []
         self.assigned: dict[str, tuple[Span, ...]] = {}
-        self.derivative_places: dict[int, Where] = {}
+        self.plain_states: dict[int, StateRange] = {}
+        """A segment's states, where all are plain (`plain_lines`), by the ids of their `d/dt` lines."""
+        self.reads_as_written = False
+        """Whether all names of all lines stand for themselves: no submodel, no library function redefined."""
         self.assigned_arrays = False
         self.expansions = 0
         self.assigned_scalar: str | None = None

@@ -87,6 +87,8 @@ class Flow:
 
         `states`: slot and count of each range of states.
         """
+        if not self.assignments:
+            return
         slots, ranges = self.early_slots, self.early_ranges
         for slot, count in states:
             if count == 1:

@@ -9,10 +9,10 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING, Protocol
 
-from desire_tui.engine.values import SYSTEM_SLOTS, SYSTEM_VARIABLES, Quantity, Values
+from desire_tui.engine.values import SYSTEM_SLOTS, SYSTEM_VARIABLES, Kind, Quantity, Values
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
 UNKNOWN = -1
 
@@ -25,6 +25,11 @@ def agree(a: int, b: int) -> bool:
 def size_of(quantity: Quantity) -> int:
     """Return the number of elements, or UNKNOWN."""
     return UNKNOWN if UNKNOWN in quantity.shape else prod(quantity.shape)
+
+
+def _are_real_scalars(quantities: Iterable[Quantity | None]) -> bool:
+    """Whether all that are there are scalars of kind REAL."""
+    return all(q is None or (not q.shape and q.kind is Kind.REAL) for q in quantities)
 
 
 class SegmentScope(Protocol):
@@ -46,6 +51,10 @@ class SegmentScope(Protocol):
 
     def scalar(self, name: str, *, is_state: bool = False) -> Quantity:
         """Return the scalar of that name, made if new."""
+        ...
+
+    def states(self, names: Sequence[str]) -> list[int] | None:
+        """Return the slots of the scalars of these names, made if new, as states; None: one cannot be one."""
         ...
 
     def hidden(self, count: int) -> int:
@@ -77,6 +86,16 @@ class LiveScope:
         if is_state and not made.is_state:
             made.is_state = True
         return made
+
+    def states(self, names: Sequence[str]) -> list[int] | None:
+        """Return the slots of the scalars of these names, made if new, as states; None: one cannot be one."""
+        known = [*map(self.names.get, names)]
+        if not _are_real_scalars(known):
+            return None
+        made = [quantity or self.values.scalar(name) for quantity, name in zip(known, names, strict=True)]
+        for quantity in made:
+            quantity.is_state = True
+        return [quantity.slot for quantity in made]
 
     def hidden(self, count: int) -> int:
         """Return the first of `count` slots of the compiler's own."""
@@ -122,6 +141,12 @@ class StaticScope:
         if is_state and not known.is_state:
             known = self.names[name] = Quantity(name, known.slot, known.shape, known.kind, is_state=True)
         return known
+
+    def states(self, names: Sequence[str]) -> list[int] | None:
+        """Return the slots of the scalars of these names, made if new, as states; None: one cannot be one."""
+        if not _are_real_scalars(map(self.names.get, names)):
+            return None
+        return [self.scalar(name, is_state=True).slot for name in names]
 
     def hidden(self, count: int) -> int:
         """Return the first of `count` slots of the compiler's own."""

@@ -22,6 +22,7 @@ from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
 from desire_tui.engine.lowering.expressions import ExpressionLowering
 from desire_tui.engine.lowering.jacobian import lower_jacobian
+from desire_tui.engine.lowering.plain_lines import lower_plain_lines, scalar_states
 from desire_tui.engine.lowering.recursions import recursions
 from desire_tui.engine.lowering.scope import UNKNOWN, size_of
 from desire_tui.engine.lowering.states import StateTable
@@ -81,6 +82,7 @@ def lower_segment(
     submodels, faults = structure.submodels, structure.faults
     lowering_cache.age()
     context = ExpressionLowering(scope, source, functions)
+    context.reads_as_written = not (submodels or context.redefines_library)
     lines = expand(context, text.body, submodels)
     jacobian_lines = expand(context, text.jacobian, submodels)
     if faults:
@@ -94,7 +96,10 @@ def lower_segment(
     if ranges and ("t" in context.assigned or any(states.name == "t" for states in ranges)):
         _refuse_to_set_time(context, [*lines, *jacobian_lines])
     with handing_over(context.problems, lambda: context.span(node).start):
-        for node, frame in lines:
+        done = 0
+        while (done := lower_plain_lines(builder, lines, done)) < len(lines):
+            node, frame = lines[done]
+            done += 1
             context.enter(frame)
             cancellation_point()
             outer, place = builder.body, len(builder.body)
@@ -223,10 +228,8 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
 
 def _collect_targets(context: LoweringContext, lines: Sequence[Line]) -> None:
     """Note where each scalar of the segment is first assigned, and whether arrays are."""
-    for node, frame in lines:
+    for node, frame in [line for line in lines if type(line[0]) not in _ASSIGN_NOTHING_IN_A_PASS]:
         cancellation_point()
-        if node.__class__ in _ASSIGN_NOTHING_IN_A_PASS:
-            continue
         found = assigned(node)
         if found.arrays:
             context.assigned_arrays = True
@@ -256,6 +259,9 @@ def _refuse_to_set_time(context: LoweringContext, lines: Sequence[Line]) -> None
 
 
 def _states(context: LoweringContext, lines: Sequence[Line]) -> StateTable:
+    plain = scalar_states(context, lines) if context.reads_as_written else None
+    if plain is not None:
+        return StateTable(plain)
     found: list[StateRange] = []
     for node, frame in lines:
         cancellation_point()
@@ -269,8 +275,7 @@ def _states(context: LoweringContext, lines: Sequence[Line]) -> StateTable:
                     if known is None or not known.is_state:
                         known = context.scope.scalar(name, is_state=True)
                     slot = known.slot
-                    where = context.derivative_places[id(node)] = context.where(node)
-                    found.append(StateRange(name, slot, len(found), 1, where))
+                    found.append(StateRange(name, slot, len(found), 1, context.where(node)))
             else:
                 found.extend(_element_state(context, node, target, len(found)))
         elif isinstance(node, VectorDerivative):
@@ -310,11 +315,11 @@ def _ready_from_start(builder: SegmentBuilder, lines: Sequence[Line]) -> None:
     ready = context.flow.ready
     if "t" not in context.assigned:
         ready["t"] = Load(T)
-    for state in builder.states.ranges:
-        if state.count == 1 and state.name not in context.assigned:
-            ready[state.name] = Load(state.slot)
-            builder.names[state.slot] = state.name
-    for node, frame in lines:
+    states = [s for s in builder.states.ranges if s.count == 1 and s.name not in context.assigned]
+    names, slots = [state.name for state in states], [state.slot for state in states]
+    ready.update(zip(names, map(Load, slots), strict=True))
+    builder.names.update(zip(slots, names, strict=True))
+    for node, frame in [line for line in lines if type(line[0]) is Request]:
         if isinstance(node, Request) and node.kind == "recover":
             context.enter(frame)
             for item in node.items:

@@ -76,8 +76,7 @@ def derivative(builder: SegmentBuilder, node: Derivative) -> None:
         other = builder.overlaid(slot, 1, array_of)
         if other is not None:
             context.report("state-twice-overlaid", node.target, name=array_of.name, other=other)
-    where = context.derivative_places.get(id(node)) if context.plain else None
-    builder.derivative(slot, 1, value, where or context.where(node))
+    builder.derivative(slot, 1, value, context.where(node))
 
 
 def term(builder: SegmentBuilder, node: Term) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import repeat
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
@@ -11,6 +12,8 @@ from desire_tui.engine.lowering.lowering_context import DEPTH_MAX, ExpansionFram
 from desire_tui.engine.nodes.assignments import Bare
 from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.nodes.names import invocation
+from desire_tui.engine.nodes.segment import Invoke
+from desire_tui.engine.quick_tuples import tuples
 from desire_tui.engine.structure.expanded_lines import LINES_MOST, expanded_lines
 
 if TYPE_CHECKING:
@@ -23,12 +26,20 @@ if TYPE_CHECKING:
     from desire_tui.engine.structure.structure import SubmodelText
 
 Line = tuple["Statement", ExpansionFrame]
+_INVOKING = frozenset({Invoke, Bare})
+"""Kinds of statements that may be invocations (`nodes.names.invocation`)."""
 
 
 def expand(
     context: LoweringContext, statements: Sequence[Placed], submodels: Mapping[str, SubmodelText]
 ) -> list[Line]:
     """Return the statements with every invocation replaced by its body. Errors 201, 56, 52, 209."""
+    kinds = {type(placed.node) for placed in statements}
+    if kinds.isdisjoint(_INVOKING):
+        cancellation_point()
+        places = [placed.at for placed in statements]
+        frames = tuples(ExpansionFrame, places, *map(repeat, ExpansionFrame(0)[1:]))
+        return list(zip([placed.node for placed in statements], frames, strict=True))
     lines: list[Line] = []
     expanded = expanded_lines(submodels) if submodels else {}
     total = 0

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.structure.blocks import BlockSurvey
 
+_BLOCK_STATEMENTS = frozenset({Faulty, If, Simple})
+"""Classes of what opens or closes an `if` of a segment."""
+
 
 def check_jumps(survey: BlockSurvey, segments: set[str | None] | None) -> None:
     """Check where every `go to` and `restore` leads, and give every `exit` its loop's end."""
@@ -84,7 +87,7 @@ def match_segments(survey: BlockSurvey, segments: Sequence[SegmentText]) -> None
 
 def _segment(survey: BlockSurvey, body: Sequence[Placed], partner: dict[int, int]) -> None:
     opened: list[int] = []
-    for place, placed in enumerate(body):
+    for place, placed in [pair for pair in enumerate(body) if type(pair[1].node) in _BLOCK_STATEMENTS]:
         cancellation_point()
         node = placed.node
         if isinstance(node, Faulty):
