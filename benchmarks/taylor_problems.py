@@ -170,8 +170,13 @@ YEAR = 365.25
 
 
 def outer_planets(years: float) -> SmoothProblem:
-    """Sun, Jupiter, Saturn, Uranus, Neptune, Pluto."""
+    """Sun, Jupiter, Saturn, Uranus, Neptune, Pluto; places and speeds from their centre of mass.
+
+    Relative to the Sun at the start, as the tables have them, all six would have drifted 200 units away
+    behind 100,000 years, and distances be differences of large numbers: errors would grow with t^1.5.
+    """
     bodies = range(6)
+    places, speeds = _from_centre(_PLACES), _from_centre(_SPEEDS)
     forces: dict[tuple[str, int], list[str]] = {(axis, i): [] for axis in "xyz" for i in bodies}
     helpers: dict[str, str] = {}
     for i in bodies:
@@ -183,11 +188,17 @@ def outer_planets(years: float) -> SmoothProblem:
                 helpers[f"f{axis}{i}{j}"] = f"d{axis}{i}{j}*w{i}{j}"
                 forces[axis, i].append(f"+ {GRAVITY * MASSES[j]!r}*f{axis}{i}{j}")
                 forces[axis, j].append(f"- {GRAVITY * MASSES[i]!r}*f{axis}{i}{j}")
-    start = {f"{axis}{i}": _PLACES[i][k] for k, axis in enumerate("xyz") for i in bodies}
-    start |= {f"v{axis}{i}": _SPEEDS[i][k] for k, axis in enumerate("xyz") for i in bodies}
+    start = {f"{axis}{i}": places[i][k] for k, axis in enumerate("xyz") for i in bodies}
+    start |= {f"v{axis}{i}": speeds[i][k] for k, axis in enumerate("xyz") for i in bodies}
     rates = {f"{axis}{i}": f"v{axis}{i}" for axis in "xyz" for i in bodies}
     rates |= {f"v{axis}{i}": "0 " + " ".join(forces[axis, i]) for axis in "xyz" for i in bodies}
     return SmoothProblem(f"outer solar system, {years:g} years", years * YEAR, start, rates, helpers)
+
+
+def _from_centre(table: tuple[tuple[float, ...], ...]) -> list[list[float]]:
+    """Return vectors of the six bodies less that of their centre of mass."""
+    vectors, masses = np.array(table), np.array(MASSES)
+    return (vectors - masses @ vectors / masses.sum()).tolist()
 
 
 def energy(states: np.ndarray) -> np.longdouble:

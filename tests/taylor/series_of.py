@@ -24,7 +24,11 @@ WAYS = ("reference", "quick", "fast")
 
 
 def coefficients(
-    text: str, way: str, given: dict[str, float | np.ndarray], states: tuple[str, ...] = ()
+    text: str,
+    way: str,
+    given: dict[str, float | np.ndarray],
+    states: tuple[str, ...] = (),
+    error_max: float = 0.0,
 ) -> dict[str, np.ndarray]:
     """Return the coefficients of all states in the first step from t = 0, by name.
 
@@ -43,7 +47,7 @@ def coefficients(
     if way == "fast":
         improve(model._series)
         improve(model._functions)
-    memory, _ = memory_for(values, segment, t_max=1e-3, dt=1e-3, nn=2, error_max=0.0)
+    memory, _ = memory_for(values, segment, t_max=1e-3, dt=1e-3, nn=2, error_max=error_max)
     model.advance(memory)
     solver = model.system.solver
     assert isinstance(solver, TaylorSolver)

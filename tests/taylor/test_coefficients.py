@@ -5,6 +5,7 @@ import cmath
 import numpy as np
 import pytest
 
+from desire_tui.engine.integration.taylor.memory import ORDER_MOST
 from tests.taylor.series_of import WAYS, by_cauchy, coefficients
 
 A, B = 0.3, 0.7
@@ -184,3 +185,29 @@ def test_arrays(way):
         if not error < 4e-15:
             wrong[expression] = error
     assert not wrong
+
+
+@pytest.mark.parametrize("error_max", [0.0, 1e-5])
+def test_quick_and_fast_code_have_the_same_bits(error_max):
+    """A run changes over when the clock says so; small models' fast code has no loop over the order."""
+    few = {"a*t", "a*a", "t/(1 + a)", "(1 + a)^1.7", "sqrt(1 + a)", "sin(a)*cos(a)", "atan(a)", "abs(-a)"}
+    for text in few:
+        body = f"DYNAMIC\nd/dt a = 0.7 - 0.4*t*a\nd/dt y = {text}\nd/dt z = a*y - z/3\n"
+        quick, fast = (
+            coefficients(body, way, {"a": A, "y": 0.1, "z": 1.3}, error_max=error_max)
+            for way in ("quick", "fast")
+        )
+        order = 20 if error_max == 0.0 else 8
+        for name in "ayz":
+            assert (quick[name][: order + 1] == fast[name][: order + 1]).all(), text
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_states_coefficients_are_divided_by_the_order(way):
+    """Times a rounded 1/k they would be off to one side in every step, and energies drift."""
+    body = "DYNAMIC\nd/dt v = -1.7*v\nd/dt x = v\nVectr d/dt W = -1.7*W\nVectr d/dt X = W\n"
+    start = np.array([0.3, 1.1, 2.3])
+    found = coefficients(body, way, {"v": 0.7, "x": 0.0, "W": start, "X": 0 * start}, ("W", "X"))
+    for k in range(1, ORDER_MOST + 1):
+        assert found["x"][k] == found["v"][k - 1] / k
+        assert (found["X"][k] == found["W"][k - 1] / k).all()

@@ -38,6 +38,8 @@ class TargetMachine:
         self.triple: str = llvm.get_process_triple()
         self.cpu: str = llvm.get_host_cpu_name()
         self.features: str = llvm.get_host_cpu_features().flatten()
+        self.fuses = "+fma" in self.features.split(",") or self.triple.startswith(("aarch64", "arm64"))
+        """Whether a·b + c is one instruction."""
         self._target = target
         self._options: dict[int, Any] = {}
         self._symbols: dict[str, int] = {}

@@ -1,8 +1,11 @@
-"""Recurrences of Taylor coefficients as native code (rule 17): a loop over the order, a function for a model.
+"""Recurrences of Taylor coefficients as native code (rule 17): a function for a model.
 
 `layout`       where coefficients stand
 `scalar`       series of numbers
 `vector`       series of arrays: loops over elements
-`recurrences`  the function that holds them
+`sums`         their sums of products, kept in registers as the order rises
+`recurrences`  the function that holds them: a loop over the order
+`straight_line`, `straight_sums`  the same without a loop, for fast code of small models
+`fused`        products and sums rounded once
 `series_code`  it compiled, quick code first
 """

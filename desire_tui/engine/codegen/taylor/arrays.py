@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import literal
+from desire_tui.engine.codegen.taylor.fused import Fused
 from desire_tui.engine.codegen.taylor.layout import apart
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
@@ -25,7 +26,7 @@ class Arrays:
 
     def __init__(self, frame: Frame, width: int) -> None:
         self._frame = frame
-        self._narrow = Lanes(frame.text, width)
+        self._narrow = Fused(frame.text, width)
         """For sums of elements, whose order must not depend on the array's length."""
         self._lanes = self._narrow
 

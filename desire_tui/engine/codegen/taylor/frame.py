@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.text import literal
+from desire_tui.engine.codegen.taylor.fused import Fused
 from desire_tui.engine.codegen.taylor.layout import apart
 from desire_tui.engine.lowered.expressions import Const
 from desire_tui.engine.passes.series.nodes import Constant, Series
@@ -18,11 +19,14 @@ class Frame:
     """Names of values in the text.
 
     `%v` are the values, `%c` the coefficients, `%p` the order; inside the loop `%k` is the order in turn,
-    `%kf` the same as a double, `%ki` one over it. `now` holds the k-th coefficients of numbers' series.
+    `%kf` the same as a double. In straight-line code `order` is the order in turn, and neither is there.
+    `now` holds the k-th coefficients of numbers' series.
     """
 
     def __init__(self, text: IrText, layout: Layout) -> None:
         self.text, self.layout = text, layout
+        self.order: int | None = None
+        self.lanes = Fused(text)
         self.now: dict[int, str] = {}
         self._first: dict[int, str] = {}
         self._constants: dict[int, str] = {}
@@ -49,6 +53,28 @@ class Frame:
         if key not in self._reciprocals:
             one = literal(1.0)
             self._reciprocals[key] = self.text.op(f"fdiv double {one}, {self.first(operand)}")
+
+    # ------------------------------------------------------------------ the order in turn
+
+    @property
+    def index(self) -> str:
+        """Return the order in turn as an index."""
+        return "%k" if self.order is None else str(self.order)
+
+    def times_order(self, value: str) -> str:
+        """Return a number times the order in turn."""
+        if self.order == 1:
+            return value
+        return self.lanes.mul("%kf" if self.order is None else literal(float(self.order)), value)
+
+    def over_order(self, value: str) -> str:
+        """Return a number over the order in turn, rounded once.
+
+        A product with 1/k would be off to the same side in every step, so that energies drift.
+        """
+        if self.order is None:
+            return self.lanes.div(value, "%kf")
+        return self.lanes.over(value, self.order)
 
     # ------------------------------------------------------------------ anywhere
 

@@ -6,18 +6,21 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
-from desire_tui.engine.codegen.ir.text import IrText, literal
+from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.taylor.arrays import scattered
 from desire_tui.engine.codegen.taylor.frame import Frame
-from desire_tui.engine.codegen.taylor.scalar import ScalarRecurrences
+from desire_tui.engine.codegen.taylor.scalar import WITH_SUMS, ScalarRecurrences
 from desire_tui.engine.codegen.taylor.sums import Sums
 from desire_tui.engine.codegen.taylor.vector import VectorRecurrences
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from desire_tui.engine.codegen.taylor.layout import Layout
+    from desire_tui.engine.codegen.taylor.straight_sums import StraightSums
     from desire_tui.engine.passes.series.nodes import SeriesProgram
 
 REGISTERS_MOST = 24
@@ -31,28 +34,106 @@ def recurrences(program: SeriesProgram, layout: Layout) -> Piece:
     Coefficients 0 are taken from the values (`SeriesProgram.values_pass` has put them there). `layout` is
     finished here.
     """
-    return _Function(program, layout).piece()
+    frame = Frame(IrText(), layout)
+    many = sum(node.kind in WITH_SUMS for node in program.nodes if node.count is None)
+    sums = Sums(frame, in_memory=many > REGISTERS_MOST)
+    function = _Loop(program, frame, sums)
+    sums.finish_layout()
+    return function.piece()
 
 
-class _Function:
-    def __init__(self, program: SeriesProgram, layout: Layout) -> None:
-        self._program = program
-        self._text = text = IrText()
-        self._frame = frame = Frame(text, layout)
+class Recurrences:
+    """The function but for how one order follows another: `orders` writes that."""
+
+    def __init__(self, program: SeriesProgram, frame: Frame, sums: Sums | StraightSums) -> None:
+        self.program, self.frame, self.text = program, frame, frame.text
+        self.scalar = ScalarRecurrences(frame, sums)
         numbers = [node for node in program.nodes if node.count is None]
-        many = sum(node.kind in {"mul", "div", "sqrt", "integral", "quotient"} for node in numbers)
-        self._sums = Sums(frame, in_memory=many > REGISTERS_MOST)
-        self._scalar = ScalarRecurrences(frame, self._sums)
-        self._has_sums = [self._scalar.announce(node) for node in numbers].count(True) > 0
-        self._sums.finish_layout()
-        self._vector = VectorRecurrences(frame, machine().width)
+        self.has_sums = [self.scalar.announce(node) for node in numbers].count(True) > 0
+        self.vector = VectorRecurrences(frame, machine().width)
         self._kept = _kept(program)
-        self._derivatives = {piece.series.number: piece.derivative for piece in program.states}
+        self.derivatives = {piece.series.number: piece.derivative for piece in program.states}
 
     def piece(self) -> Piece:
         """Write everything."""
-        text = self._text
         self._begin()
+        self.orders()
+        body = self.text.body()
+        digest = "t" + blake2b(body.encode(), digest_size=10).hexdigest()
+        function = f"define void @{digest}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}"
+        return Piece(digest, function, frozenset(self.text.declarations))
+
+    def orders(self) -> None:
+        """Write all orders from 1 on, and the function's end."""
+        raise NotImplementedError
+
+    def prepare(self) -> None:
+        """Write what stands before the coefficients 0 are read."""
+
+    def _begin(self) -> None:
+        """Write what comes before the orders."""
+        self.prepare()
+        frame = self.frame
+        for node in self.program.nodes:
+            if node.count is not None:
+                self.vector.load_first(node)
+            else:
+                frame.load_first(node)
+                if node.number in self._kept:
+                    frame.put(frame.layout.place(node), frame.first(node))
+        for node in self.program.nodes:
+            for operand in node.operands:
+                if isinstance(operand, Constant):
+                    frame.load_constant(operand)
+            if node.count is None:
+                self.scalar.prepare(node)
+        for derivative in self.derivatives.values():
+            if isinstance(derivative, Constant):
+                frame.load_constant(derivative)
+
+    def states(self, slopes: Mapping[int, str]) -> None:
+        """Write what computes the states' coefficients; `slopes`: numbers' derivatives, one order lower."""
+        frame = self.frame
+        for piece in self.program.states:
+            node = piece.series
+            if node.count is not None:
+                self.vector.state(node, piece.derivative)
+                continue
+            frame.now[node.number] = frame.over_order(slopes[node.number])
+            frame.put(frame.layout.place(node), frame.now[node.number], frame.index)
+
+    def others(self) -> None:
+        """Write what computes all others' coefficients."""
+        frame = self.frame
+        for node in self.program.nodes:
+            cancellation_point()
+            if node.kind == "state":
+                continue
+            if node.count is not None:
+                self.vector.write(node)
+                continue
+            if node.kind in _OF_ARRAYS:
+                frame.now[node.number] = self.vector.number(node)
+            else:
+                self.scalar.write(node)
+            if node.number in self._kept:
+                frame.put(frame.layout.place(node), frame.now[node.number], frame.index)
+
+
+class _Loop(Recurrences):
+    def __init__(self, program: SeriesProgram, frame: Frame, sums: Sums) -> None:
+        super().__init__(program, frame, sums)
+        self._sums = sums
+
+    def prepare(self) -> None:
+        text, cleared = self.text, self.frame.layout.cleared
+        if cleared:
+            text.declarations.add("declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)")
+            text.do(f"call void @llvm.memset.p0.i64(ptr %c, i8 0, i64 {8 * cleared}, i1 false)")
+        self._sums.begin()
+
+    def orders(self) -> None:
+        text = self.text
         cells = self._derivative_cells()
         text.jump("begun")
         text.begin("begun")
@@ -60,90 +141,31 @@ class _Function:
         text.begin("orders")
         text.do("%k = phi i64 [ 1, %begun ], [ %k.next, %turn ]")
         text.do("%kf = sitofp i64 %k to double")
-        text.do(f"%ki = fdiv double {literal(1.0)}, %kf")
-        self._states(cells)
+        self.states({number: text.op(f"load double, ptr {cell}") for number, cell in cells.items()})
         text.branch(text.op("icmp slt i64 %k, %p"), "inner", "last")
         text.begin("inner")
-        self._turn(cells)
+        if self.has_sums:
+            self._sums.turn()
+        self.others()
+        if self.has_sums:
+            self._sums.end_turn(self.scalar.factors(self._sums.factors))
+        for number, cell in cells.items():
+            text.do(f"store double {self.frame.coefficient(self.derivatives[number])}, ptr {cell}")
         text.jump("turn")
         text.begin("turn")
         text.do("%k.next = add i64 %k, 1")
         text.jump("orders")
         text.begin("last")
         text.do("ret void")
-        body = text.body()
-        digest = "t" + blake2b(body.encode(), digest_size=10).hexdigest()
-        function = f"define void @{digest}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}"
-        return Piece(digest, function, frozenset(text.declarations))
-
-    def _begin(self) -> None:
-        """Write what comes before the loop."""
-        text, frame = self._text, self._frame
-        if frame.layout.cleared:
-            text.declarations.add("declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)")
-            size = 8 * frame.layout.cleared
-            text.do(f"call void @llvm.memset.p0.i64(ptr %c, i8 0, i64 {size}, i1 false)")
-        self._sums.begin()
-        for node in self._program.nodes:
-            if node.count is not None:
-                self._vector.load_first(node)
-            else:
-                frame.load_first(node)
-                if node.number in self._kept:
-                    frame.put(frame.layout.place(node), frame.first(node))
-        for node in self._program.nodes:
-            for operand in node.operands:
-                if isinstance(operand, Constant):
-                    frame.load_constant(operand)
-            if node.count is None:
-                self._scalar.prepare(node)
-        for derivative in self._derivatives.values():
-            if isinstance(derivative, Constant):
-                frame.load_constant(derivative)
 
     def _derivative_cells(self) -> dict[int, str]:
         """Make cells for numbers' derivatives, which are one order behind."""
         cells: dict[int, str] = {}
-        for piece in self._program.states:
+        for piece in self.program.states:
             if piece.series.count is None:
-                cell = cells[piece.series.number] = self._text.alloca("double")
-                self._text.do(f"store double {self._frame.first(piece.derivative)}, ptr {cell}")
+                cell = cells[piece.series.number] = self.text.alloca("double")
+                self.text.do(f"store double {self.frame.first(piece.derivative)}, ptr {cell}")
         return cells
-
-    def _states(self, cells: dict[int, str]) -> None:
-        """Write what computes the states' coefficients."""
-        text, frame = self._text, self._frame
-        for piece in self._program.states:
-            node = piece.series
-            if node.count is not None:
-                self._vector.state(node, piece.derivative)
-                continue
-            slope = text.op(f"load double, ptr {cells[node.number]}")
-            frame.now[node.number] = text.op(f"fmul double {slope}, %ki")
-            frame.put(frame.layout.place(node), frame.now[node.number], "%k")
-
-    def _turn(self, cells: dict[int, str]) -> None:
-        """Write what computes all others' coefficients, and hands on what the next turn needs."""
-        text, frame = self._text, self._frame
-        if self._has_sums:
-            self._sums.turn()
-        for node in self._program.nodes:
-            cancellation_point()
-            if node.kind == "state":
-                continue
-            if node.count is not None:
-                self._vector.write(node)
-                continue
-            if node.kind in _OF_ARRAYS:
-                frame.now[node.number] = self._vector.number(node)
-            else:
-                self._scalar.write(node)
-            if node.number in self._kept:
-                frame.put(frame.layout.place(node), frame.now[node.number], "%k")
-        if self._has_sums:
-            self._sums.end_turn(self._scalar.factors(self._sums.factors))
-        for number, cell in cells.items():
-            text.do(f"store double {frame.coefficient(self._derivatives[number])}, ptr {cell}")
 
 
 def _kept(program: SeriesProgram) -> set[int]:
@@ -152,7 +174,6 @@ def _kept(program: SeriesProgram) -> set[int]:
     found |= {operand.number for operand, _ in program.arguments if isinstance(operand, Series)}
     found |= {node.number for node in program.nodes if node.kind == "sqrt"}
     for node in program.nodes:
-        reads = {"mul", "div", "sqrt", "integral", "quotient"}
-        if node.count is not None and (node.kind in reads or (node.kind == "gather" and scattered(node))):
+        if node.count is not None and (node.kind in WITH_SUMS or (node.kind == "gather" and scattered(node))):
             found |= {operand.number for operand in node.operands if isinstance(operand, Series)}
     return found

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import literal
 from desire_tui.engine.codegen.taylor.sums import Factor
 from desire_tui.engine.passes.series.nodes import Constant, Series
@@ -13,24 +12,26 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from desire_tui.engine.codegen.taylor.frame import Frame
+    from desire_tui.engine.codegen.taylor.straight_sums import StraightSums
     from desire_tui.engine.codegen.taylor.sums import Sums
 
-_WITH_SUMS = frozenset(("mul", "div", "sqrt", "integral", "quotient"))
+WITH_SUMS = frozenset(("mul", "div", "sqrt", "integral", "quotient"))
+"""Kinds whose coefficients are sums of products."""
 
 
 class ScalarRecurrences:
     """Writes the turns of numbers' series."""
 
-    def __init__(self, frame: Frame, sums: Sums) -> None:
+    def __init__(self, frame: Frame, sums: Sums | StraightSums) -> None:
         self._frame, self._sums = frame, sums
-        self._lanes = Lanes(frame.text)
+        self._lanes = frame.lanes
         self._slopes: dict[int, str] = {}
 
     # ------------------------------------------------------------------ before the loop
 
     def announce(self, node: Series) -> bool:
         """Tell `sums` the sum of products that a series consists of; whether there is one."""
-        if node.kind not in _WITH_SUMS:
+        if node.kind not in WITH_SUMS:
             return False
         factors = _factors(node)
         if factors is not None:
@@ -51,6 +52,10 @@ class ScalarRecurrences:
         write: Callable[[Series], str] = getattr(self, f"_{node.kind}")
         self._frame.now[node.number] = write(node)
 
+    def begin_turn(self) -> None:
+        """Forget what belongs to the order before, in straight-line code."""
+        self._slopes.clear()
+
     def factors(self, wanted: list[Factor]) -> dict[tuple[str, int], str]:
         """Return the k-th coefficients of factors."""
         return {
@@ -64,11 +69,13 @@ class ScalarRecurrences:
         """Return k·a_k, for products with a derivative."""
         value = self._slopes.get(series.number)
         if value is None:
-            product = self._lanes.mul("%kf", self._frame.coefficient(series))
-            value = self._slopes[series.number] = product
+            value = self._frame.times_order(self._frame.coefficient(series))
+            self._slopes[series.number] = value
         return value
 
     def _time(self, _node: Series) -> str:
+        if self._frame.order is not None:
+            return literal(float(self._frame.order == 1))
         one = self._frame.text.op("icmp eq i64 %k, 1")
         return self._lanes.choose(one, literal(1.0), literal(0.0))
 
@@ -99,19 +106,17 @@ class ScalarRecurrences:
     def _mul(self, node: Series) -> str:
         a, b = node.operands
         lanes, frame = self._lanes, self._frame
+        known = self._sums.known(node)
         if a is b:
-            ends = lanes.mul(lanes.mul(literal(2.0), frame.first(a)), frame.coefficient(a))
-        else:
-            ends = lanes.add(
-                lanes.mul(frame.coefficient(a), frame.first(b)),
-                lanes.mul(frame.first(a), frame.coefficient(b)),
-            )
-        return lanes.add(self._sums.known(node), ends)
+            return lanes.mul_add(lanes.mul(literal(2.0), frame.first(a)), frame.coefficient(a), known)
+        first, second = sorted((a, b), key=_number)  # what is known later is added last
+        known = lanes.mul_add(frame.coefficient(first), frame.first(second), known)
+        return lanes.mul_add(frame.first(first), frame.coefficient(second), known)
 
     def _div(self, node: Series) -> str:
         a, b = node.operands
         lanes, frame = self._lanes, self._frame
-        known = lanes.add(self._sums.known(node), lanes.mul(frame.first(node), frame.coefficient(b)))
+        known = lanes.mul_add(frame.first(node), frame.coefficient(b), self._sums.known(node))
         rest = lanes.neg(known) if isinstance(a, Constant) else lanes.sub(frame.coefficient(a), known)
         return lanes.mul(rest, frame.reciprocal(b))
 
@@ -126,8 +131,8 @@ class ScalarRecurrences:
         lanes, frame = self._lanes, self._frame
         if isinstance(factor, Constant):
             return lanes.mul(frame.first(factor), frame.coefficient(inner))
-        known = lanes.add(self._sums.known(node), lanes.mul(self._slope(inner), frame.first(factor)))
-        return lanes.mul(known, "%ki")
+        known = lanes.mul_add(self._slope(inner), frame.first(factor), self._sums.known(node))
+        return frame.over_order(known)
 
     def _quotient(self, node: Series) -> str:
         a, b = node.operands
@@ -135,7 +140,7 @@ class ScalarRecurrences:
         lanes, frame = self._lanes, self._frame
         rest = lanes.sub(self._slope(a), self._sums.known(node))
         slope = self._slopes[node.number] = lanes.mul(rest, frame.reciprocal(b))
-        return lanes.mul(slope, "%ki")
+        return frame.over_order(slope)
 
     def _select(self, node: Series) -> str:
         condition, yes, no = node.operands
@@ -159,3 +164,7 @@ def _factors(node: Series) -> tuple[Factor, Factor] | None:
             if len(series) == 1:
                 return None
             return Factor("slope", series[1]), Factor("value", series[0])
+
+
+def _number(operand: Series | Constant) -> int:
+    return operand.number if isinstance(operand, Series) else -1

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.taylor.layout import Layout
 from desire_tui.engine.codegen.taylor.recurrences import recurrences
+from desire_tui.engine.codegen.taylor.straight_line import straight_line
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,8 +25,10 @@ class SeriesCode:
     def __init__(self, code: CodeCache, program: SeriesProgram) -> None:
         self.layout = Layout(program)
         self._store = code
-        self._piece = recurrences(program, self.layout)
-        self._compiled = [code.quick([self._piece])[self._piece.name]]
+        quick = recurrences(program, self.layout)
+        self._piece = straight_line(program, self.layout) or quick
+        """What fast code is made of; its bits are those of the loop over the order."""
+        self._compiled = [code.find(self._piece.name, fast=True) or code.quick([quick])[quick.name]]
         self._users: list[Taylor] = []
 
     def give(self, taylor: Taylor) -> None:

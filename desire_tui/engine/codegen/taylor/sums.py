@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import literal
+from desire_tui.engine.codegen.taylor.fused import Fused
 from desire_tui.engine.codegen.taylor.layout import ROW
 from desire_tui.engine.integration.taylor.memory import ORDER_MOST
 
@@ -46,7 +46,7 @@ class Sums:
     def __init__(self, frame: Frame, *, in_memory: bool) -> None:
         self._frame, self._in_memory = frame, in_memory
         self._text = frame.text
-        self._one, self._wide = Lanes(frame.text), Lanes(frame.text, LANES)
+        self._one, self._wide = Fused(frame.text), Fused(frame.text, LANES)
         self._sums: dict[int, tuple[Series, Factor, Factor]] = {}
         self._factors: dict[tuple[str, int], Factor] = {}
         self._cells: dict[tuple[str, str, int], str] = {}
@@ -95,10 +95,12 @@ class Sums:
         _, first, second = self._sums[node.number]
         one = self._one
         squares = self._frame.get(self._frame.layout.squares(node), "%k")
-        total = one.add(self._get("sums", node.number, "next"), squares)
-        a = one.mul(self._factor(first, "before"), self._factor(second, "first"))
-        b = one.mul(self._factor(first, "first"), self._factor(second, "before"))
-        return one.add(total, one.add(a, b))
+        total = self._get("sums", node.number, "next")
+        total = one.mul_add(self._factor(first, "first"), self._factor(second, "before"), total)
+        if first == second:
+            return one.mul_add(literal(2.0), total, squares)
+        total = one.mul_add(self._factor(first, "before"), self._factor(second, "first"), total)
+        return one.add(total, squares)
 
     def end_turn(self, coefficients: dict[tuple[str, int], str]) -> None:
         """Write what adds a turn's products to the sums to come; `coefficients`: the factors' k-th."""
@@ -117,8 +119,10 @@ class Sums:
             ahead = text.op(
                 f"shufflevector {wide.kind} {sums}, {wide.kind} zeroinitializer, <{LANES} x i32> {moved}"
             )
-            products = wide.add(wide.mul(splats[a], vectors[b]), wide.mul(splats[b], vectors[a]))
-            self._put("sums", number, "vector", wide.add(ahead, products))
+            grown = wide.mul_add(splats[a], vectors[b], ahead)
+            if a != b:
+                grown = wide.mul_add(splats[b], vectors[a], grown)
+            self._put("sums", number, "vector", grown)
             self._frame.put(
                 self._frame.layout.squares(node), one.mul(coefficients[a], coefficients[b]), double
             )

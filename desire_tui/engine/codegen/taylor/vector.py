@@ -8,6 +8,7 @@ from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import literal
 from desire_tui.engine.codegen.taylor.arrays import Arrays
+from desire_tui.engine.codegen.taylor.fused import Fused
 from desire_tui.engine.codegen.taylor.layout import apart, strip
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
@@ -30,7 +31,7 @@ class VectorRecurrences(Arrays):
 
     def write(self, node: Series) -> None:
         """Write what computes an array's k-th coefficients."""
-        self._lanes = Lanes(self._frame.text, strip(node.size))
+        self._lanes = Fused(self._frame.text, strip(node.size))
         write: Callable[[Series], None] | None = getattr(self, f"_{node.kind}", None)
         if write is not None:
             write(node)
@@ -42,7 +43,7 @@ class VectorRecurrences(Arrays):
 
     def state(self, node: Series, derivative: Series | Constant) -> None:
         """Write an array of states' k-th coefficients: the derivatives' one order lower, divided by k."""
-        self._lanes = Lanes(self._frame.text, strip(node.size))
+        self._lanes = Fused(self._frame.text, strip(node.size))
         text, lanes = self._frame.text, self._lanes
         target = self._frame.row(node)
         before = text.op("sub i64 %k, 1")
@@ -56,9 +57,9 @@ class VectorRecurrences(Arrays):
             loop(text, "0", str(apart(node)), lanes.width, constant)
             return
         source = self._frame.row(derivative, before)
-        scale = lanes.splat("%ki")
+        scale = lanes.splat("%kf")
         loop(text, "0", str(apart(node)), lanes.width,
-             lambda i: put(lanes, target, i, lanes.mul(fetch(lanes, source, i), scale)))  # fmt: skip
+             lambda i: put(lanes, target, i, lanes.div(fetch(lanes, source, i), scale)))  # fmt: skip
 
     def number(self, node: Series) -> str:
         """Write a number that is an array's element, or the sum of its elements."""
@@ -114,14 +115,14 @@ class VectorRecurrences(Arrays):
         if isinstance(factor, Constant):
             return self._lanes.mul(self._constant(factor, i), self._of(inner, i))
         total = self._products(inner, factor, i, 1, 0, slope=True)
-        return self._lanes.mul(total, self._lanes.splat("%ki"))
+        return self._lanes.div(total, self._lanes.splat("%kf"))
 
     def _element_quotient(self, node: Series, i: str) -> str:
         lanes = self._lanes
         a, b = node.operands
         known = self._products(node, b, i, 1, 1, slope=True)
         rest = lanes.sub(lanes.mul(lanes.splat("%kf"), self._of(a, i)), known)
-        return lanes.mul(lanes.div(rest, self._first(b, i)), lanes.splat("%ki"))
+        return lanes.div(lanes.div(rest, self._first(b, i)), lanes.splat("%kf"))
 
     def _element_select(self, node: Series, i: str) -> str:
         condition, yes, no = node.operands
@@ -154,7 +155,7 @@ class VectorRecurrences(Arrays):
                 left = lanes.mul(lanes.splat(text.op(f"sitofp i64 {j} to double")), left)
             right = self._at_order(b, text.op(f"sub i64 %k, {j}"), i)
             before = text.op(f"load {lanes.kind}, ptr {cell}")
-            text.do(f"store {lanes.kind} {lanes.add(before, lanes.mul(left, right))}, ptr {cell}")
+            text.do(f"store {lanes.kind} {lanes.mul_add(left, right, before)}, ptr {cell}")
 
         loop(text, str(first), end, 1, turn)
         return text.op(f"load {lanes.kind}, ptr {cell}")
