@@ -35,10 +35,10 @@ def test_the_first_back_ends_of_several_threads_share_one_state(monkeypatch):
     made = []
 
     class Slow(CompilerState):
-        def __init__(self):
+        def __init__(self, **how):
             made.append(self)
             threading.Event().wait(0.05)
-            super().__init__()
+            super().__init__(**how)
 
     monkeypatch.setattr(compiler_state, "CompilerState", Slow)
     compiler_state._shared_state.cache_clear()

@@ -7,7 +7,8 @@ and the threads that compile it, is one `compiler_state`. The rooms, from text t
     `scalar`  statements and expressions over numbers
     `vector`  statements over arrays: loops over strips of elements, neighbours of one length fused
     `jit`     LLVM: texts compiled, kept by their digests; quick code first, fast code from `background`,
-              bitwise the same results
+              bitwise the same results; what was compiled is on disk (`stored_code`), and is put into memory
+              without LLVM (`object_file`, `placed_code`)
     `threads` loops of large models on all cores
     `exact_functions` sin, exp and the like for many numbers at a time, with the C library's bits
     `pieces`  a pass (`passes.slices`) as functions of some dozen statements in tables of addresses

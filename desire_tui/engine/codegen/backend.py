@@ -27,10 +27,7 @@ _MODELS_MOST = 32
 
 
 class NativeBackend:
-    """Native code through LLVM, for all rules.
-
-    LLVM is loaded in a thread that starts with the first back end: it is there when somebody types `zz`.
-    """
+    """Native code through LLVM, for all rules."""
 
     name = "native"
 

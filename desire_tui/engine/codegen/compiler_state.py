@@ -5,19 +5,19 @@ from __future__ import annotations
 import atexit
 import functools
 import threading
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.jit import llvm_turn
 from desire_tui.engine.codegen.jit.background import Improver
 from desire_tui.engine.codegen.jit.cache import CodeCache
-from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.jit.compiler import load_llvm
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop
 from desire_tui.engine.integration.rules import MOST_USED_FIRST
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.stiff.solver_routines import SolverRoutines
 
-_END_SECONDS = 1.0
 _ABANDONED_SECONDS = 30.0
 """For a compilation that nobody waits for any more."""
 _MAKING = threading.Lock()
@@ -27,17 +27,16 @@ class CompilerState:
     """One for all sessions of a process (`shared_state`): code depends on nothing but its text.
 
     A session that is to share nothing may own one; who makes it closes it. LLVM itself and its symbols
-    (`jit.compiler.machine`) are always the process's.
+    (`jit.compiler.machine`) are always the process's. `keep`: what is compiled is kept on disk, and found
+    there.
     """
 
-    def __init__(self) -> None:
-        self.code = CodeCache()
+    def __init__(self, *, keep: bool = False) -> None:
+        self.code = CodeCache(keep=keep)
         self.improver = Improver()
         self._routines: SolverRoutines | None = None
         self._lock = threading.Lock()
         self._ending = threading.Event()
-        self._warming = threading.Thread(target=self._warm_up, name="desire starts LLVM", daemon=True)
-        self._warming.start()
         atexit.register(self.close)
 
     @property
@@ -55,18 +54,12 @@ class CompilerState:
         atexit.unregister(self.close)
         self._ending.set()
         self.improver.close()
-        self._warming.join(_END_SECONDS)
         llvm_turn.wait(_ABANDONED_SECONDS)
 
-    def _warm_up(self) -> None:
-        """Load LLVM."""
-        try:
-            machine()
-        except Exception:  # noqa: BLE001 - the engine meets the same fault when it compiles, and reports it there
-            return
-
     def prepare_loops(self) -> None:
-        """Compile every rule's loop, so that the next program need not: where more programs will be run."""
+        """Load LLVM, compile every rule's loop, so that the next program need not: where more will be run."""
+        with suppress(Exception):  # the engine meets the same fault when it compiles, and reports it there
+            load_llvm()
         for rule in MOST_USED_FIRST:
             if self._ending.is_set():
                 return
@@ -74,11 +67,11 @@ class CompilerState:
 
 
 def shared_state() -> CompilerState:
-    """Return the state that sessions share; the first call starts to load LLVM in a thread."""
+    """Return the state that sessions share."""
     with _MAKING:
         return _shared_state()
 
 
 @functools.cache
 def _shared_state() -> CompilerState:
-    return CompilerState()
+    return CompilerState(keep=True)

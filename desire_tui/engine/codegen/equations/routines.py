@@ -22,7 +22,7 @@ from desire_tui.engine.values import T
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
 
 _MODULES = (model_calls, jacobian_fill, model_functions)
 _ENGINE = files("desire_tui.engine")

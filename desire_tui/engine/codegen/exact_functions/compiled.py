@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
 
     Floats = NDArray[np.float64]
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+from contextlib import suppress
 
 from desire_tui.engine.codegen.ir.functions import C_FUNCTIONS
 
@@ -23,6 +24,7 @@ def scalar_addresses() -> dict[str, int]:
     return {name: _address(library, name) for name in C_FUNCTIONS.values()}
 
 
+@functools.cache
 def _mathematical_library() -> ctypes.CDLL:
     try:
         return ctypes.CDLL("libm.so.6")
@@ -70,6 +72,19 @@ def sine_and_cosine() -> int | None:
         if (sine.value, cosine.value) != (library.sin(x), library.cos(x)):
             return None
     return _address(library, "sincos")
+
+
+def process_address(name: str) -> int:
+    """Return the address of a function that the process has loaded: memmove and the like. KeyError."""
+    for library in (_process(), _mathematical_library()):
+        with suppress(AttributeError):
+            return _address(library, name)
+    raise KeyError(name)
+
+
+@functools.cache
+def _process() -> ctypes.CDLL:
+    return ctypes.CDLL(None)
 
 
 def lane_by_lane(name: str, width: int) -> str:

@@ -11,7 +11,7 @@ from desire_tui.engine.codegen.jit.compiler import compile_text, module_text
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
     from desire_tui.engine.codegen.jit.piece import Piece
 
 _BYTES_MOST = 12_000_000
@@ -30,9 +30,10 @@ class Compiled(NamedTuple):
 
 
 class CodeCache:
-    """Functions by name (which is a digest of the text) and quality."""
+    """Functions by name (which is a digest of the text) and quality; `keep`: on disk too."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, keep: bool = False) -> None:
+        self._keep_on_disk = keep
         self._known: OrderedDict[tuple[str, bool], Compiled] = OrderedDict()
         self._lock = threading.Lock()
         self._bytes = 0
@@ -61,7 +62,7 @@ class CodeCache:
             else:
                 missing[piece.name] = piece
         for together in _modules(missing.values()):
-            code = compile_text(_module(together), level=0)
+            code = compile_text(_module(together), level=0, keep=self._keep_on_disk)
             share = code.size // len(together)
             for piece in together:
                 compiled = Compiled(code.address(piece.name), code, share)
@@ -73,7 +74,7 @@ class CodeCache:
         known = self.find(piece.name, fast=True)
         if known is not None:
             return known
-        code = compile_text(_module([piece]), level=2, slp=slp)
+        code = compile_text(_module([piece]), level=2, slp=slp, keep=self._keep_on_disk)
         return self._keep(piece.name, Compiled(code.address(piece.name), code, code.size), fast=True)
 
     def _keep(self, name: str, compiled: Compiled, *, fast: bool) -> Compiled:

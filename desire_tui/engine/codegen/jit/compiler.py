@@ -5,42 +5,43 @@ from __future__ import annotations
 import functools
 import re
 import threading
+from contextlib import suppress
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
-from desire_tui.engine import disk_cache
 from desire_tui.engine.codegen.ir import symbols
+from desire_tui.engine.codegen.jit import stored_code
+from desire_tui.engine.codegen.jit.host import Host, find_host
 from desire_tui.engine.codegen.jit.linker import Linker
 from desire_tui.engine.codegen.jit.llvm_turn import in_turn
+from desire_tui.engine.codegen.jit.object_file import Image, UnknownFormError, image_of
+from desire_tui.engine.codegen.jit.placed_code import NotPlacedError, PlacedCode, can_place
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
+    from desire_tui.engine.codegen.jit.stored_code import ObjectFile
 
 _ATTRIBUTES = """
 attributes #0 = { nounwind }
 attributes #1 = { nounwind willreturn memory(none) }
 attributes #2 = { nounwind willreturn memory(argmem: read) }
 """
-_FORMAT = 2
-"""Of stored code: exported names before the object file."""
 _STARTING = threading.Lock()
 _DEFINITION = re.compile(r"^define (?!internal|private)[^@\n]*@([\w.$]+)\(", re.MULTILINE)
 
 
 class TargetMachine:
-    """The machine compiled for: LLVM's binding, its target, and the widest useful vector of doubles."""
+    """The machine compiled for. LLVM's library is loaded by the first who wants something compiled."""
 
-    def __init__(self, llvm: Any, target: Any, width: int) -> None:
-        self.llvm = llvm
-        self.width = width
-        self.triple: str = llvm.get_process_triple()
-        self.cpu: str = llvm.get_host_cpu_name()
-        self.features: str = llvm.get_host_cpu_features().flatten()
+    def __init__(self, host: Host) -> None:
+        self.host = host
+        self.width = host.width
+        """The widest useful vector of doubles."""
+        self.triple, self.cpu, self.features = host.triple, host.cpu, host.features
         self.fuses = "+fma" in self.features.split(",") or self.triple.startswith(("aarch64", "arm64"))
         """Whether a·b + c is one instruction."""
-        self._target = target
         self._options: dict[int, Any] = {}
         self._symbols: dict[str, int] = {}
         self._linker: Linker | None = None
@@ -51,8 +52,10 @@ class TargetMachine:
         with self._lock:
             known = self._options.get(level)
             if known is None:
-                known = self._options[level] = self._target.create_target_machine(
-                    cpu=self.cpu, features=self.features, opt=level, jit=True
+                known = self._options[level] = (
+                    _llvm()
+                    .Target.from_default_triple()
+                    .create_target_machine(cpu=self.cpu, features=self.features, opt=level, jit=True)
                 )
             return known
 
@@ -66,36 +69,64 @@ class TargetMachine:
         if linker is not None:
             linker.close()
 
+    def address_of(self, name: str) -> int:
+        """Return the address of a function of this process. KeyError: there is none."""
+        with self._lock:
+            known = self._symbols.get(name)
+        return known if known is not None else symbols.process_address(name)
+
     def link(self, content: bytes, exported: Iterable[str]) -> MachineCode:
-        """Put an object file into memory."""
+        """Put an object file into memory as LLVM does it."""
         options = self.options(0)
         with self._lock:
             if self._linker is None or self._linker.is_full:
-                self._linker = Linker(self.llvm, options, self._symbols)
+                self._linker = Linker(_llvm(), options, self._symbols)
             return self._linker.link(content, exported)
 
 
 @functools.cache
-def _machine() -> TargetMachine:
+def _llvm() -> Any:
+    """Load LLVM, which takes 50 ms."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
-    host = llvm.get_host_cpu_features()
-    width = 8 if host.get("avx512f") and host.get("avx512dq") else 4 if host.get("avx2") else 2
-    found = TargetMachine(llvm, llvm.Target.from_default_triple(), width)
+    return llvm
+
+
+def load_llvm() -> None:
+    """Load LLVM before somebody waits for it."""
+    with _STARTING:
+        _llvm()
+
+
+def _ask_llvm(library: str) -> Host:
+    llvm = _llvm()
+    features = llvm.get_host_cpu_features().flatten()
+    return Host(llvm.get_process_triple(), llvm.get_host_cpu_name(), features, library or _version())
+
+
+def _version() -> str:
+    import llvmlite
+
+    return str(llvmlite.__version__)
+
+
+@functools.cache
+def _machine() -> TargetMachine:
+    found = TargetMachine(find_host(_ask_llvm))
     for name, address in symbols.scalar_addresses().items():
         found.add_symbol(f"desire.{name}.1", address)
     both = symbols.sine_and_cosine()
     if both is not None:
         found.add_symbol("desire.sincos.1", both)
-    for name, address in symbols.vector_addresses(width).items():
-        found.add_symbol(f"desire.{name}.{width}", address)
+    for name, address in symbols.vector_addresses(found.width).items():
+        found.add_symbol(f"desire.{name}.{found.width}", address)
     return found
 
 
 def machine() -> TargetMachine:
-    """Return the machine; the first call loads LLVM (about 60 ms)."""
+    """Return the machine."""
     with _STARTING:
         return _machine()
 
@@ -135,28 +166,67 @@ def _scalar_declaration(name: str) -> str:
     return f"declare double @desire.{name}.1({arguments}) #1"
 
 
-def compile_text(text: str, *, level: int, slp: bool = False, vectorize: bool = False) -> MachineCode:
-    """Compile a module at level 0 … 3. Level 0 is for quick code: no optimisation passes at all."""
-    host = machine()
+def compile_text(
+    text: str, *, level: int, slp: bool = False, vectorize: bool = False, keep: bool = False
+) -> MachineCode:
+    """Compile a module at level 0 … 3. Level 0 is for quick code: no optimisation passes at all.
+
+    `keep`: later processes find the code, and so does this one if an earlier one compiled the same.
+    """
+    if keep:
+        name = _name_of(text, level, slp=slp, vectorize=vectorize)
+        return kept_code(name) or compile_and_keep(text, name, level=level, slp=slp, vectorize=vectorize)
+    return in_turn(lambda: _placed(_compiled(text, level, slp=slp, vectorize=vectorize)), len(text))
+
+
+def kept_code(name: str) -> MachineCode | None:
+    """Return code that `compile_and_keep` stored for a processor like this one; None if there is none."""
+    found = stored_code.find(name, machine().host)
+    if found is None:
+        return None
+    try:
+        return _placed(found) if isinstance(found, Image) else in_turn(lambda: _placed(found), 0)
+    except (NotPlacedError, KeyError):
+        return None
+
+
+def compile_and_keep(
+    text: str, name: str, *, level: int, slp: bool = False, vectorize: bool = False
+) -> MachineCode:
+    """Compile as `compile_text` does; later processes find the code under `name`."""
 
     def make() -> MachineCode:
-        return host.link(_object_file(text, level, slp=slp, vectorize=vectorize), _exported(text))
+        made = _compiled(text, level, slp=slp, vectorize=vectorize)
+        stored_code.keep(name, machine().host, made)
+        return _placed(made)
 
     return in_turn(make, len(text))
 
 
-def _exported(text: str) -> list[str]:
-    """Return the names of the functions that a module defines for others."""
-    return _DEFINITION.findall(text)
+def _name_of(text: str, level: int, *, slp: bool, vectorize: bool) -> str:
+    how = f"{level} {slp:d} {vectorize:d}\n"
+    return blake2b((how + text).encode(), digest_size=16).hexdigest()
+
+
+def _compiled(text: str, level: int, *, slp: bool, vectorize: bool) -> Image | ObjectFile:
+    content = _object_file(text, level, slp=slp, vectorize=vectorize)
+    if can_place():
+        with suppress(UnknownFormError):
+            return image_of(content)
+    return content, tuple(_DEFINITION.findall(text))
+
+
+def _placed(code: Image | ObjectFile) -> MachineCode:
+    host = machine()
+    return PlacedCode(code, host.address_of) if isinstance(code, Image) else host.link(*code)
 
 
 def _object_file(text: str, level: int, *, slp: bool, vectorize: bool) -> bytes:
     """Optimise a module and translate it."""
-    host = machine()
-    llvm = host.llvm
+    llvm = _llvm()
     context = llvm.create_context()  # the global one would keep every constant of every program
     module = llvm.parse_assembly(text, context=context)
-    options = host.options(level)
+    options = machine().options(level)
     if level:
         tuning = llvm.create_pipeline_tuning_options(speed_level=level)
         tuning.slp_vectorization = slp
@@ -174,38 +244,3 @@ def _object_file(text: str, level: int, *, slp: bool, vectorize: bool) -> bytes:
     module.close()
     context.close()
     return content
-
-
-def kept_code(name: str) -> MachineCode | None:
-    """Return code that `compile_and_keep` stored for a processor like this one; None if there is none."""
-    file = _file_of(name)
-    content = disk_cache.read(file) if disk_cache.holds_only_ours() else None  # native code is run unseen
-    if content is None or not content.startswith(_mark(file)):  # LLVM aborts the process on anything else
-        return None
-    exported, _, code = content[len(_mark(file)) :].partition(b"\n")
-    host = machine()
-    return in_turn(lambda: host.link(code, exported.decode("ascii").split()), 0)
-
-
-def compile_and_keep(text: str, name: str, *, level: int, vectorize: bool) -> MachineCode:
-    """Compile as `compile_text` does; later processes find the code under `name`."""
-    host, exported, file = machine(), _exported(text), _file_of(name)
-
-    def make() -> MachineCode:
-        content = _object_file(text, level, slp=False, vectorize=vectorize)
-        disk_cache.write(file, _mark(file) + " ".join(exported).encode("ascii") + b"\n" + content)
-        return host.link(content, exported)
-
-    return in_turn(make, len(text))
-
-
-def _mark(file: str) -> bytes:
-    return file.encode() + b"\n"
-
-
-def _file_of(name: str) -> str:
-    import llvmlite
-
-    host = machine()
-    made_for = f"{_FORMAT} {llvmlite.__version__} {host.triple} {host.cpu} {host.features}"
-    return f"code-{name}-{blake2b(made_for.encode(), digest_size=8).hexdigest()}.o"

@@ -1,4 +1,4 @@
-"""Puts object code into memory where functions can be called, and takes it out again when nobody needs it.
+"""LLVM's linker: puts object code into memory where `placed_code` cannot, and takes it out again.
 
 All code of a linker shares one engine of LLVM's, which costs 0.8 MB; a piece by itself takes some 40 KB. What
 LLVM keeps of a piece that was taken out goes with its linker: it takes so many pieces, then the next begins.
@@ -23,8 +23,8 @@ _linkers: set[Linker] = set()
 """Those with code in use, and the present one: LLVM wants the engine to live longer than its code."""
 
 
-class MachineCode:
-    """Compiled functions; their memory is freed with this object."""
+class LinkedCode:
+    """See `machine_code.MachineCode`."""
 
     def __init__(self, linker: Linker, number: int, size: int) -> None:
         self._linker = linker
@@ -57,14 +57,14 @@ class Linker:
         self._outside = outside.link(self._engine, _OUTSIDE)
         _linkers.add(self)
 
-    def link(self, content: bytes, exported: Iterable[str]) -> MachineCode:
+    def link(self, content: bytes, exported: Iterable[str]) -> LinkedCode:
         """Return the functions of an object file; those named in `exported` have addresses."""
         number = next(self._numbers)
         builder = self._llvm.JITLibraryBuilder().add_object_img(content).add_jit_library(_OUTSIDE)
         for name in exported:
             builder.export_symbol(name)
         self._living[number] = builder.link(self._engine, f"code{number}")
-        code = MachineCode(self, number, len(content) + _OVERHEAD)
+        code = LinkedCode(self, number, len(content) + _OVERHEAD)
         if number >= _PIECES_MOST:
             self.close()
         return code

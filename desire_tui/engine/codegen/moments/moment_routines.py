@@ -44,7 +44,7 @@ from desire_tui.engine.runtime.run_memory import RunMemory
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
 
 _MODULES = (histories, blocks, stages, locate, steps, inside, isolation, along, side_by_side)
 _ENGINE = files("desire_tui.engine")

@@ -23,7 +23,7 @@ from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code, 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
 
 _PANEL = 32
 """Columns whose pivots are sought together: of 1,000 states, a panel stays in the second cache."""

@@ -53,7 +53,7 @@ from desire_tui.engine.values import DT, T
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
 
 _CALLED = (
     "CVode", "CVodeGetDky", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",

@@ -30,7 +30,7 @@ from desire_tui.engine.lowered import switching as lowered_switching
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
 
 _MODULES = (bounds, ahead, margins, located, clearance, watch)
 _ENGINE = files("desire_tui.engine")

@@ -14,7 +14,7 @@ from desire_tui.engine.codegen.threads.pool_code import MEMBERS_MOST, pool_text
 from desire_tui.engine.thread_count import thread_count
 
 if TYPE_CHECKING:
-    from desire_tui.engine.codegen.jit.linker import MachineCode
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
 
 _END_SECONDS = 1.0
 _ONE_NUMBER = ctypes.CFUNCTYPE(None, ctypes.c_int64)
