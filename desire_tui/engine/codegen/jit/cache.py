@@ -69,12 +69,15 @@ class CodeCache:
                 found[piece.name] = self._keep(piece.name, compiled, fast=False)
         return found
 
-    def fast(self, piece: Piece, *, slp: bool = True) -> Compiled:
-        """Return a piece compiled as well as LLVM can; `slp`: several neighbours at a time."""
+    def fast(self, piece: Piece, *, slp: bool = True, passes: bool = True) -> Compiled:
+        """Return a piece compiled as well as LLVM can; `slp`: several neighbours at a time.
+
+        Without `passes`: they find nothing in straight-line code whose values are named once.
+        """
         known = self.find(piece.name, fast=True)
         if known is not None:
             return known
-        code = compile_text(_module([piece]), level=2, slp=slp, keep=self._keep_on_disk)
+        code = compile_text(_module([piece]), level=2, slp=slp, passes=passes, keep=self._keep_on_disk)
         return self._keep(piece.name, Compiled(code.address(piece.name), code, code.size), fast=True)
 
     def _keep(self, name: str, compiled: Compiled, *, fast: bool) -> Compiled:

@@ -167,16 +167,24 @@ def _scalar_declaration(name: str) -> str:
 
 
 def compile_text(
-    text: str, *, level: int, slp: bool = False, vectorize: bool = False, keep: bool = False
+    text: str,
+    *,
+    level: int,
+    slp: bool = False,
+    vectorize: bool = False,
+    passes: bool = True,
+    keep: bool = False,
 ) -> MachineCode:
     """Compile a module at level 0 … 3. Level 0 is for quick code: no optimisation passes at all.
 
+    Without `passes` neither at other levels: only registers and the order of instructions are chosen well.
     `keep`: later processes find the code, and so does this one if an earlier one compiled the same.
     """
+    how = {"slp": slp, "vectorize": vectorize, "passes": passes}
     if keep:
-        name = _name_of(text, level, slp=slp, vectorize=vectorize)
-        return kept_code(name) or compile_and_keep(text, name, level=level, slp=slp, vectorize=vectorize)
-    return in_turn(lambda: _placed(_compiled(text, level, slp=slp, vectorize=vectorize)), len(text))
+        name = _name_of(text, level, **how)
+        return kept_code(name) or compile_and_keep(text, name, level=level, **how)
+    return in_turn(lambda: _placed(_compiled(text, level, **how)), len(text))
 
 
 def kept_code(name: str) -> MachineCode | None:
@@ -191,25 +199,25 @@ def kept_code(name: str) -> MachineCode | None:
 
 
 def compile_and_keep(
-    text: str, name: str, *, level: int, slp: bool = False, vectorize: bool = False
+    text: str, name: str, *, level: int, slp: bool = False, vectorize: bool = False, passes: bool = True
 ) -> MachineCode:
     """Compile as `compile_text` does; later processes find the code under `name`."""
 
     def make() -> MachineCode:
-        made = _compiled(text, level, slp=slp, vectorize=vectorize)
+        made = _compiled(text, level, slp=slp, vectorize=vectorize, passes=passes)
         stored_code.keep(name, machine().host, made)
         return _placed(made)
 
     return in_turn(make, len(text))
 
 
-def _name_of(text: str, level: int, *, slp: bool, vectorize: bool) -> str:
-    how = f"{level} {slp:d} {vectorize:d}\n"
+def _name_of(text: str, level: int, *, slp: bool, vectorize: bool, passes: bool) -> str:
+    how = f"{level} {slp:d} {vectorize:d} {passes:d}\n"
     return blake2b((how + text).encode(), digest_size=16).hexdigest()
 
 
-def _compiled(text: str, level: int, *, slp: bool, vectorize: bool) -> Image | ObjectFile:
-    content = _object_file(text, level, slp=slp, vectorize=vectorize)
+def _compiled(text: str, level: int, **how: bool) -> Image | ObjectFile:
+    content = _object_file(text, level, **how)
     if can_place():
         with suppress(UnknownFormError):
             return image_of(content)
@@ -221,24 +229,24 @@ def _placed(code: Image | ObjectFile) -> MachineCode:
     return PlacedCode(code, host.address_of) if isinstance(code, Image) else host.link(*code)
 
 
-def _object_file(text: str, level: int, *, slp: bool, vectorize: bool) -> bytes:
+def _object_file(text: str, level: int, *, slp: bool, vectorize: bool, passes: bool = True) -> bytes:
     """Optimise a module and translate it."""
     llvm = _llvm()
     context = llvm.create_context()  # the global one would keep every constant of every program
     module = llvm.parse_assembly(text, context=context)
     options = machine().options(level)
-    if level:
+    if level and passes:
         tuning = llvm.create_pipeline_tuning_options(speed_level=level)
         tuning.slp_vectorization = slp
         tuning.loop_vectorization = vectorize
         tuning.loop_unrolling = vectorize
         tuning.loop_interleaving = vectorize
         builder = llvm.create_pass_builder(options, tuning)
-        passes = builder.getModulePassManager()
-        passes.run(module, builder)
-        # `passes.close` finds the wrong base class's method and frees nothing: 90 KB each time
-        llvm.newpassmanagers.NewPassManager._dispose(passes)  # noqa: SLF001
-        passes.detach()
+        manager = builder.getModulePassManager()
+        manager.run(module, builder)
+        # `manager.close` finds the wrong base class's method and frees nothing: 90 KB each time
+        llvm.newpassmanagers.NewPassManager._dispose(manager)  # noqa: SLF001
+        manager.detach()
         builder.close()
     content = bytes(options.emit_object(module))
     module.close()

@@ -46,9 +46,9 @@ class LooseCode(CodeCache):
         found = self._strict.quick([loosened(piece) for piece in every])
         return {piece.name: found[_loose(piece.name)] for piece in every}
 
-    def fast(self, piece: Piece, *, slp: bool = True) -> Compiled:
+    def fast(self, piece: Piece, *, slp: bool = True, passes: bool = True) -> Compiled:
         """See `CodeCache.fast`."""
-        return self._strict.fast(loosened(piece), slp=slp)
+        return self._strict.fast(loosened(piece), slp=slp, passes=passes)
 
 
 def loosened(piece: Piece) -> Piece:

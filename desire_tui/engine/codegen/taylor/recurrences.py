@@ -54,14 +54,14 @@ class Recurrences:
         self._kept = _kept(program)
         self.derivatives = {piece.series.number: piece.derivative for piece in program.states}
 
-    def piece(self) -> Piece:
-        """Write everything."""
+    def piece(self, name: str | None = None) -> Piece:
+        """Write everything; without a name it is the text's digest."""
         self._begin()
         self.orders()
         body = self.text.body()
-        digest = "t" + blake2b(body.encode(), digest_size=10).hexdigest()
-        function = f"define void @{digest}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}"
-        return Piece(digest, function, frozenset(self.text.declarations))
+        name = name or "t" + blake2b(body.encode(), digest_size=10).hexdigest()
+        function = f"define void @{name}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}"
+        return Piece(name, function, frozenset(self.text.declarations))
 
     def orders(self) -> None:
         """Write all orders from 1 on, and the function's end."""

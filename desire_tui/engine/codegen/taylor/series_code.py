@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.taylor.layout import Layout
 from desire_tui.engine.codegen.taylor.recurrences import recurrences
-from desire_tui.engine.codegen.taylor.straight_line import straight_line
+from desire_tui.engine.codegen.taylor.straight_line import is_small, straight_line
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,11 +24,12 @@ class SeriesCode:
 
     def __init__(self, code: CodeCache, program: SeriesProgram) -> None:
         self.layout = Layout(program)
-        self._store = code
-        quick = recurrences(program, self.layout)
-        self._piece = straight_line(program, self.layout) or quick
-        """What fast code is made of; its bits are those of the loop over the order."""
-        self._compiled = [code.find(self._piece.name, fast=True) or code.quick([quick])[quick.name]]
+        self._store, self._program = code, program
+        self._quick = recurrences(program, self.layout)
+        self._straight = f"{self._quick.name}s" if is_small(program) else None
+        """Name of the function without a loop, whose bits are those of the loop over the order."""
+        known = self._straight and code.find(self._straight, fast=True)
+        self._compiled = [known or code.quick([self._quick])[self._quick.name]]
         self._users: list[Taylor] = []
 
     def give(self, taylor: Taylor) -> None:
@@ -38,9 +39,15 @@ class SeriesCode:
 
     def improve(self) -> Iterator[None]:
         """Compile fast code (`background.Improvable`); where that would take minutes quick code has to do."""
-        if len(self._piece.text) > _TEXT_MOST:
+        if self._straight is not None:
+            better = self._store.find(self._straight, fast=True) or self._store.fast(
+                straight_line(self._program, self.layout, self._straight), passes=False
+            )
+        elif len(self._quick.text) <= _TEXT_MOST:
+            # what may be done side by side is arrays already
+            better = self._store.fast(self._quick, slp=False)
+        else:
             return
-        better = self._store.fast(self._piece, slp=False)  # what may be done side by side is arrays already
         self._compiled.append(better)
         for taylor in self._users:
             taylor.recurrences = better.address  # one aligned store: who calls sees the old or the new

@@ -23,23 +23,25 @@ SUMS_MOST = 16
 """Sums of products of a small model: each has 200 products up to order 20."""
 
 
-def straight_line(program: SeriesProgram, layout: Layout) -> Piece | None:
-    """Write what `recurrences` writes, with the same bits; None: the model is not small.
+def is_small(program: SeriesProgram) -> bool:
+    """Whether straight-line code is short enough."""
+    sums = sum(node.kind in WITH_SUMS for node in program.nodes)
+    return sums <= SUMS_MOST and all(node.count is None for node in program.nodes)
 
-    `layout` is finished.
-    """
-    if any(node.count is not None for node in program.nodes):
-        return None
-    if sum(node.kind in WITH_SUMS for node in program.nodes) > SUMS_MOST:
-        return None
+
+def straight_line(program: SeriesProgram, layout: Layout, name: str) -> Piece:
+    """Write what `recurrences` writes, with the same bits, for a small model; `layout` is finished."""
     frame = Frame(IrText(), layout)
-    return _StraightLine(program, frame, StraightSums(frame)).piece()
+    return _StraightLine(program, frame, StraightSums(frame)).piece(name)
 
 
 class _StraightLine(Recurrences):
     def __init__(self, program: SeriesProgram, frame: Frame, sums: StraightSums) -> None:
         super().__init__(program, frame, sums)
         self._sums = sums
+
+    def prepare(self) -> None:
+        self._sums.begin()
 
     def orders(self) -> None:
         text, frame = self.text, self.frame
@@ -51,6 +53,7 @@ class _StraightLine(Recurrences):
             if order < ORDER_MOST:
                 text.branch(text.op(f"icmp eq i64 %p, {order}"), "last", f"order{order}")
                 text.begin(f"order{order}")
+                self._sums.turn()
                 self.others()
                 self._sums.end_turn(self.scalar.factors(self._sums.factors))
                 slopes = {number: frame.coefficient(d) for number, d in self.derivatives.items()}
