@@ -12,7 +12,7 @@ from tests.batch.command_line import desire
 
 PROGRAM = "TMAX = 1 | DT = 0.1 | NN = 11\nwrite 'begun'\ndrun\nDYNAMIC\nd/dt x = 1\ndispt x\n"
 STAGES = {
-    "parse": "desire_tui.engine.syntax.parse:logical_lines",
+    "parse": "desire_tui.engine.syntax.parse:lines_and_runs",
     "structure": "desire_tui.engine.structure.structure:check_jumps",
     "lower": "desire_tui.engine.lowering.segments:_lower_statement",
     "compile": "desire_tui.engine.codegen.backend:NativeBackend.model",

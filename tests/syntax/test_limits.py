@@ -71,12 +71,13 @@ def test_messages_quote_only_the_beginning_of_long_words() -> None:
     assert all(len(problem.message) < 120 for problem in problems)
 
 
-def test_the_store_of_lines_is_bounded(monkeypatch) -> None:
+@pytest.mark.parametrize(("store", "line"), [("_lines", "write {}.{}"), ("_plain", "x = {}.{}")])
+def test_the_stores_of_lines_are_bounded(monkeypatch, store: str, line: str) -> None:
     module = sys.modules[forget_lines.__module__]
     lines = RecentlyUsed(10_000, cost=lambda line: len(line) + module.LINE_COST)
-    monkeypatch.setattr(module, "_lines", lines)
+    monkeypatch.setattr(module, store, lines)
     for program in range(100):
-        parse(Source("\n".join(f"x = {program}.{i}" for i in range(50))))
+        parse(Source("\n".join(line.format(program, i) for i in range(50))))
     assert 50 <= lines.size <= 300
 
 

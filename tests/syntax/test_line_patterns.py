@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 from hypothesis import given
@@ -87,12 +88,42 @@ def test_programs_with_other_names(unlearned):
 @pytest.mark.parametrize("line", ODD)
 def test_odd_lines(line, unlearned):
     before = "\n".join(
-        f"{kind.replace('a', name)}" for kind in ODD for name in ("a", "u1", "w27", "f") if kind != line
+        f"{kind.replace('a', name)}"
+        for kind in ODD
+        for name in ("a", "u1", "w27", "f", "g", "b", "e", "c")
+        if kind != line
     )
     text = before + "\n" + line
     expected = unlearned(text)
     forget_lines()
     assert meaning(text) == expected
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["x = 2e5*a", "x = 2b5*a", "x = 2E5*a", "x = 2B5*a"],
+        ["d/dt x = a*b", "q/dt x = a*b", "d/dt c = a*b", "d/ds x = a*b", "b/dt x = a*b"],
+        ["a = 2*x", "d = 2*x", "go = 2*x", "to = 2*x", "if = 2*x", "ab = 2*x"],
+        ["x = 1.5", "x = 1_5", "x = a.5", "x = a_5", "x = a$5", "x = 1$5"],
+    ],
+)
+def test_lines_of_one_layout(lines, unlearned):
+    """Each is read after many that have letters and digits at the same places."""
+    text = "\n".join(
+        line for one in lines for line in [*[one.replace("x", name) for name in "pqrstu"], *lines]
+    )
+    expected = unlearned(text)
+    forget_lines()
+    assert meaning(text) == expected
+
+
+def test_the_place_of_words_is_known_from_lines_before():
+    parse(Source("\n".join(f"d/dt x{i} = a*(y{i} - x{i})" for i in range(10, 20))))
+    with patch.object(line_patterns, "_skeleton", side_effect=AssertionError):
+        assert line_patterns.read("d/dt y77 = b*(z77 - y77)") is not None
+        with pytest.raises(AssertionError):
+            line_patterns.read("d/dt y777 = b*(z77 - y77)")
 
 
 def test_a_line_that_is_too_long_looks_like_none(unlearned):

@@ -7,7 +7,7 @@ ordinary way, `statements` with `expressions`, would come to the same; every oth
 
 from __future__ import annotations
 
-from itertools import islice, repeat
+from itertools import repeat
 from operator import add, attrgetter
 from typing import TYPE_CHECKING
 
@@ -93,7 +93,7 @@ def lower_plain_lines(builder: SegmentBuilder, lines: Sequence[Line], at: int) -
     flow, body = context.flow, builder.body
     states = {} if builder.guards else context.plain_states
     cache = cache_of(context)
-    for node, frame in islice(lines, at, at + _LINES_AT_ONCE):
+    for node, frame in lines[at : at + _LINES_AT_ONCE]:
         if type(node) is Derivative:
             state = states.get(id(node))
             value = None if state is None else _lowered(context, node.value, cache)

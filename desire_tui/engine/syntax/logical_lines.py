@@ -3,22 +3,34 @@
 from __future__ import annotations
 
 import re
+from itertools import accumulate, repeat
+from operator import add
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.nodes.assignments import Bare
-from desire_tui.engine.syntax.parsed_lines import has_fault, known_line, parsed_line
+from desire_tui.engine.nodes.program import Placed
+from desire_tui.engine.quick_tuples import tuples
+from desire_tui.engine.syntax.parsed_lines import (
+    has_fault,
+    known_line,
+    known_plain_line,
+    parsed_line,
+    plain_line,
+)
 from desire_tui.engine.syntax.tokens import CONTINUES, scan
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from desire_tui.engine.syntax.parsed_lines import Entry
+    from desire_tui.engine.syntax.parsed_lines import Entry, Item
 
 FIRST_NUMBER, NUMBER_STEP = 210, 10
 """How the lines of a program without numbers count."""
 ROWS_LOOKED_AT = 50
 """Of more joined rows, the last one is looked at alone: else long statements would take time squared."""
+_ROWS_AT_ONCE = 500
+"""Of plain rows, between two points where the work can be broken off."""
 
 _NUMBERED = re.compile(r"[ \t]*([0-9]+)(?=[ \t]*(?:\r?\Z|--|—)|[ \t]+[A-Za-z|])")
 _HEADER = re.compile(r"[ \t]*(?:/[ \t]*(?:NEW)?[ \t\r]*\Z|PIC[ \t]*['\"‘’“”])")
@@ -30,19 +42,31 @@ def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, 
 
     Lines without statements are left out, unless they are numbered. Rows are counted from 0.
     """
+    for piece in lines_and_runs(text, runs=False, command=command):
+        assert not isinstance(piece, list)
+        yield piece
+
+
+def lines_and_runs(
+    text: str, *, runs: bool = True, command: bool = False
+) -> Iterator[list[Placed] | tuple[Entry, int, int | None, range]]:
+    """Yield what `logical_lines` does; with `runs`, of neighbouring plain rows only their statements."""
     known = known_line
     rows = text.split("\n")
     count = len(rows)
-    at = i = 0
+    starts = [*accumulate(map(add, map(len, rows), repeat(1)), initial=0)]
+    i = 0
     while i < count:
-        line = rows[i]
+        if runs and (plain := _plain_rows(rows[i : i + _ROWS_AT_ONCE])):
+            yield _placed(plain, starts[i : i + len(plain)])
+            i += len(plain)
+            continue
+        at, line = starts[i], rows[i]
         first = i
         i += 1
         number = None
-        next_at = at + len(line) + 1
         if line[:1] in _STARTS_ODD and line and not command:
             if _HEADER.match(line):
-                at = next_at
                 continue
             found = _NUMBERED.match(line)
             if found:
@@ -55,21 +79,37 @@ def logical_lines(text: str, *, command: bool = False) -> Iterator[tuple[Entry, 
             more = entry[1]
             while more and i < count:
                 parts.append(rows[i])
-                next_at += len(rows[i]) + 1
                 more = goes_on(rows[i], more, parts)
                 i += 1
             whole = parsed_line("\n".join(parts))
             if _swallowed(line, whole, parts):
-                i -= (
-                    len(parts) - 1
-                )  # the next line is a statement of its own: report the unfinished one alone
-                next_at = at + len(line) + 1
+                i = first + 1  # the next line is a statement of its own: report the unfinished one alone
             else:
                 entry = whole
         cancellation_point()
         if entry[0] or number is not None:
             yield entry, at, number, range(first, i)
-        at = next_at
+
+
+def _plain_rows(rows: Sequence[str]) -> list[Item]:
+    """Return the statements of rows that are one assignment or equation each, up to the first that is not."""
+    cancellation_point()
+    found: list[Item] = []
+    for row in rows:
+        item = known_plain_line(row)
+        if item is None:
+            if row[:1] in _STARTS_ODD and numbered(row):
+                break
+            item = plain_line(row)
+            if item is None:
+                break
+        found.append(item)
+    return found
+
+
+def _placed(items: Sequence[Item], starts: Sequence[int]) -> list[Placed]:
+    nodes, offsets = zip(*items, strict=True)
+    return [*tuples(Placed, nodes, map(add, starts, offsets), repeat(None))]
 
 
 def goes_on(row: str, before: str = "", rows: Sequence[str] = ()) -> str:

@@ -14,7 +14,7 @@ from desire_tui.engine.nodes.files import Restore
 from desire_tui.engine.nodes.program import Placed, Program, SegmentText
 from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax import parsed_lines
-from desire_tui.engine.syntax.logical_lines import logical_lines, numbered_lines
+from desire_tui.engine.syntax.logical_lines import lines_and_runs, logical_lines, numbered_lines
 from desire_tui.engine.syntax.statement_tokens import TokenFault, shown
 from desire_tui.engine.syntax.tokens import scan
 from desire_tui.engine.syntax.words import keyword_like
@@ -46,7 +46,13 @@ def parse(source: Source) -> Program:
     is_numbered = False
     reached = 0
     with handing_over(problems, lambda: reached):
-        for entry, at, number, _ in logical_lines(source.text):
+        for piece in lines_and_runs(source.text):
+            if isinstance(piece, list):
+                if body is not None:
+                    body += piece
+                reached = piece[-1].at
+                continue
+            entry, at, number, _ = piece
             reached = at
             if number is not None:
                 is_numbered = is_numbered or bool(entry[0])

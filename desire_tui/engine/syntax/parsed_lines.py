@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.nodes.assignments import Assign
+from desire_tui.engine.nodes.segment import Derivative
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.syntax import line_patterns, shapes
 from desire_tui.engine.syntax.automaton import Unexpected
@@ -26,15 +28,34 @@ LINE_COST = 100
 """What a line adds to that beside its characters."""
 
 _lines: RecentlyUsed[str, Entry] = RecentlyUsed(ROOM, cost=lambda line: len(line) + LINE_COST)
+_plain: RecentlyUsed[str, Item] = RecentlyUsed(ROOM, cost=lambda line: len(line) + LINE_COST)
+"""The statements of those that are one assignment or equation, and complete."""
+_PLAIN = frozenset({Assign, Derivative})
 _BEHIND_NAMES = frozenset({"=", "[", "("})
 
 known_line = _lines.__getitem__
 """The entry of a line that was parsed before, or None."""
+known_plain_line = _plain.__getitem__
+"""The statement of a line that was found to be plain before, or None."""
 
 
 def parsed_line(line: str) -> Entry:
     """Return the statements of a logical line."""
     return _lines[line] or _parse_line(line)
+
+
+def plain_line(line: str) -> Item | None:
+    """Return the statement of a line that is one assignment or equation, if that can be found at once."""
+    entry = _lines[line]
+    found: Item | None = None
+    if entry is None:
+        found = line_patterns.read(line)
+    elif len(entry[0]) == 1 and not entry[1]:
+        found = entry[0][0]
+    if found is None or type(found[0]) not in _PLAIN:
+        return None
+    _plain.keep(line, found)
+    return found
 
 
 def has_fault(entry: Entry) -> bool:
@@ -45,6 +66,7 @@ def has_fault(entry: Entry) -> bool:
 def age() -> None:
     """Between two programs: forget lines, and what they look like, that no program of late had."""
     _lines.age()
+    _plain.age()
     shapes.age()
     line_patterns.age()
 
@@ -52,12 +74,13 @@ def age() -> None:
 def forget_lines() -> None:
     """Empty the store of parsed lines, and of what they look like."""
     _lines.forget()
+    _plain.forget()
     line_patterns.forget()
 
 
 def _parse_line(line: str) -> Entry:
     """Parse the statements of a logical line, and keep them."""
-    read = line_patterns.read(line)
+    read = _plain[line] or line_patterns.read(line)
     if read is not None:
         entry: Entry = ((read,), "")
     else:

@@ -20,12 +20,13 @@ from desire_tui.engine.syntax.literals import octal_value
 from desire_tui.engine.syntax.statement_tokens import NUMBER, STRING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
     Maker = Callable[[StatementTokens], Statement]
+    MakerOfWords = Callable[[Sequence[str], Sequence[int]], Statement]
 
 SHAPES_ROOM = 500
 """Shapes of earlier programs: with its function, one takes some 10 KB."""
@@ -61,7 +62,7 @@ def statement(chunk: StatementTokens) -> Statement:
 
 def function_of_words(
     chunk: StatementTokens, places: WordPlaces, number: Callable[[str], float]
-) -> Callable[[list[str], list[int]], Statement] | None:
+) -> MakerOfWords | None:
     """Return a function of a line's words `v` and their lengths added up, `c`, for statements of this shape.
 
     None for a shape that was not seen before, and for a statement nested too deep.
@@ -72,7 +73,7 @@ def function_of_words(
     names: dict[str, Any] = {"octal_value": octal_value, "number": number}
     code = _Code(names, places, "number")
     try:
-        made: Callable[[list[str], list[int]], Statement] = eval(f"lambda v, c: {code.of(pattern)}", names)  # noqa: S307 - see _Code
+        made: MakerOfWords = eval(f"lambda v, c: {code.of(pattern)}", names)  # noqa: S307 - see _Code
     except (SyntaxError, MemoryError, RecursionError):
         return None
     return made
