@@ -1,11 +1,15 @@
 """Runs of scalar statements of one shape become loops, and the numbers stay the same."""
 
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from desire_tui.engine.codegen.scalar import rerolling
 from desire_tui.engine.codegen.scalar.rerolling import Rolled, roll
+from desire_tui.engine.lowered.expressions import Const, Load, Op
+from desire_tui.engine.lowered.statements import Deriv, Set, Where
 from desire_tui.engine.lowering.lowering import lower
-from desire_tui.engine.source import Source
+from desire_tui.engine.source import Source, Span
 from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.values import Values
 from tests.codegen.conftest import run
@@ -75,3 +79,51 @@ def test_library_functions_stay_alone():
         values.assign(values.scalar(name).slot, 1.0)
     segment = lower(parse(Source("DYNAMIC\n" + "\n".join(lines) + "\n")), None, values)
     assert not any(isinstance(r, Rolled) for r in roll(segment.body, 4))
+
+
+PLACE = Where(Span(0, 1))
+OPERANDS = {
+    "side by side": lambda k: Load(20 + k),
+    "in turn": lambda k: Const((1.5, 2.5)[k % 2]),
+    "zeros": lambda k: Const(-0.0 if k == 57 else 0.0),
+    "two, a slot or a number": lambda k: Load(2) if k % 50 else Const(2.0),
+    "side by side, then in turn": lambda k: Load(20 + k) if k < 24 else Load(36 + k % 8),
+    "eight in turn": lambda k: Load(20 + k % 8),
+    "a number among slots": lambda k: Const(20.0 + k) if k == 44 else Load(20 + k),
+    "always one": lambda k: Load(7),
+}
+ODD = {
+    "jump": lambda k, value: Deriv(k + 1, value, PLACE),
+    "other kind": lambda k, value: Set(k, value, PLACE),
+    "other shape": lambda k, value: Deriv(k, Op("sub", value.args), PLACE),
+    "no shape": lambda k, value: Deriv(k, Op("ran", ()), PLACE),
+}
+
+
+@given(
+    st.tuples(st.sampled_from(sorted(OPERANDS)), st.sampled_from(sorted(OPERANDS))),
+    st.dictionaries(st.integers(0, 119), st.sampled_from(sorted(ODD)), max_size=4),
+    st.sampled_from([2, 4, 8]),
+    st.sampled_from([8, 9, 16]),
+)
+@example(("side by side, then in turn", "always one"), {}, 8, 8)
+@example(("eight in turn", "always one"), {}, 8, 8)
+def test_whole_columns_are_compared_as_single_operands_are(operands, odd, width, alone):
+    left, right = (OPERANDS[name] for name in operands)
+    values = [Op("add", (left(k), right(k))) for k in range(120)]
+    actions = [
+        ODD[odd[k]](k, value) if k in odd else Deriv(k, value, PLACE) for k, value in enumerate(values)
+    ]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rerolling, "_ONE_BY_ONE", 10**9)
+        expected = roll(actions, width)
+        patch.setattr(rerolling, "_ONE_BY_ONE", alone)
+        found = roll(actions, width)
+    assert [shown(action) for action in found] == [shown(action) for action in expected]
+
+
+def shown(action):
+    """What a statement is: the very one, or a loop with the signs of its zeros."""
+    return (
+        (id(action.first), action.count, repr(action.operands)) if isinstance(action, Rolled) else id(action)
+    )

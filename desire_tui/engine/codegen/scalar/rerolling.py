@@ -8,6 +8,8 @@ have other last bits in vectors than alone, and results must not depend on a nei
 
 from __future__ import annotations
 
+from itertools import compress, count, repeat
+from operator import ne
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
@@ -18,13 +20,15 @@ from desire_tui.engine.lowered.statements import Deriv, Set
 from desire_tui.engine.recently_used import RecentlyUsed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action
 
 _RUN_LEAST = 16
 """Shorter runs are not worth a loop."""
+_ONE_BY_ONE = 16
+"""Statements at the start of a run before whole columns of operands are compared; no less than a vector's."""
 _INEXACT = frozenset((*C_FUNCTIONS, "sinc", "sigmoid"))
 
 _Shape = tuple[tuple[object, ...], list[int | float]]
@@ -61,17 +65,19 @@ class _Run:
         self.contiguous = [type(leaf) is int for leaf in leaves]
         self.periodic = [True] * len(leaves)
 
-    def extend(self, action: Set | Deriv, leaves: list[int | float], width: int) -> bool:
-        """Add a statement of the same shape if it continues the run."""
-        count = len(self.actions)
-        if _target(action) != self.target + count:
+    def extend(self, action: Action, found: _Shape | None, width: int) -> bool:
+        """Add a statement if it has the same shape and continues the run."""
+        if found is None or found[0] != self.key or type(action) is not self.kind:
+            return False
+        size, leaves = len(self.actions), found[1]
+        if _target(action) != self.target + size:
             return False
         first = self.leaves[0]
-        earlier = self.leaves[count - width] if count >= width else None
+        earlier = self.leaves[size - width] if size >= width else None
         contiguous, periodic = self.contiguous, self.periodic
         changed = []
         for q, leaf in enumerate(leaves):
-            is_contiguous = contiguous[q] and leaf == first[q] + count and type(leaf) is int
+            is_contiguous = contiguous[q] and leaf == first[q] + size and type(leaf) is int
             is_periodic = periodic[q] and (earlier is None or leaf is earlier[q] or _same(leaf, earlier[q]))
             if not (is_contiguous or is_periodic):
                 return False
@@ -83,10 +89,39 @@ class _Run:
         self.leaves.append(leaves)
         return True
 
+    def extend_many(self, actions: Sequence[Action], shapes: Sequence[_Shape | None], width: int) -> int:
+        """Add the first of some statements that continue the run, `width` long at least; return how many.
+
+        The same as `extend` for one after the other, by comparing whole columns of operands.
+        """
+        size = len(self.actions)
+        keys, kinds = [found and found[0] for found in shapes], [*map(type, actions)]
+        most = min(_alike(keys, repeat(self.key)), _alike(kinds, repeat(self.kind)))
+        added: list[Set | Deriv] = actions[:most]  # type: ignore[assignment]  # as their kind says
+        most = _alike([*map(_target, added)], count(self.target + size))
+        if not most:
+            return 0
+        leaves = [found[1] for found in shapes[:most] if found is not None]
+        earlier = [*self.leaves[-width:], *leaves]
+        lengths: list[tuple[int, int]] = []
+        for q, (ours, before) in enumerate(
+            zip(zip(*leaves, strict=True), zip(*earlier, strict=True), strict=True)
+        ):
+            side = _slots_from(ours, self.leaves[0][q] + size) if self.contiguous[q] else 0
+            turn = _same_from_start(ours, before) if self.periodic[q] else 0
+            lengths.append((side, turn))
+            most = min(most, max(side, turn))
+        for q, (side, turn) in enumerate(lengths):
+            self.contiguous[q] = self.contiguous[q] and side >= most
+            self.periodic[q] = self.periodic[q] and turn >= most
+        self.actions += added[:most]
+        self.leaves += leaves[:most]
+        return most
+
     def result(self, width: int) -> list[Action | Rolled]:
         """Return the run as one, or its statements if it is short or a statement reads what another sets."""
-        count = len(self.actions)
-        if count < _RUN_LEAST:
+        size = len(self.actions)
+        if size < _RUN_LEAST:
             return list(self.actions)
         operands: list[int | tuple[int | float, ...]] = []
         for q, leaf in enumerate(self.leaves[0]):
@@ -96,9 +131,31 @@ class _Run:
             else:
                 operands.append(tuple(leaves[q] for leaves in self.leaves[:width]))
         action = self.actions[0]
-        if isinstance(action, Set) and _reads_its_targets(operands, action.slot, count):
+        if isinstance(action, Set) and _reads_its_targets(operands, action.slot, size):
             return list(self.actions)
-        return [Rolled(action, count, tuple(operands))]
+        return [Rolled(action, size, tuple(operands))]
+
+
+def _alike(ours: Sequence[object], theirs: Iterable[object]) -> int:
+    """Return how many values are equal to the others before the first that is not."""
+    return next(compress(count(), map(ne, ours, theirs)), len(ours))
+
+
+def _slots_from(column: Sequence[float], first: float) -> int:
+    """Return how many operands are slots that follow one another from `first` on."""
+    most = _alike(column, count(first))
+    kinds = [*map(type, column[:most])]
+    return kinds.index(float) if float in kinds else most
+
+
+def _same_from_start(ours: Sequence[float], theirs: Sequence[float]) -> int:
+    """Return how many operands are the same as the others, signs of zeros and kinds included."""
+    most = _alike(ours, theirs)
+    kinds = {*map(type, ours[:most]), *map(type, theirs[:most])}
+    if kinds == {int} or (kinds == {float} and 0.0 not in ours[:most]):
+        return most
+    different = (at for at in range(most) if not (ours[at] is theirs[at] or _same(ours[at], theirs[at])))
+    return next(different, most)
 
 
 def _same(a: float, b: float) -> bool:
@@ -119,27 +176,30 @@ def _reads_its_targets(operands: Iterable[int | tuple[int | float, ...]], first:
     return False
 
 
-def roll(actions: Iterable[Action], width: int) -> list[Action | Rolled]:
+def roll(actions: Sequence[Action], width: int) -> list[Action | Rolled]:
     """Return the statements with long runs of one shape rolled up; order and meaning stay."""
     done: list[Action | Rolled] = []
-    run: _Run | None = None
-    for action in actions:
+    shapes = [*map(_plain, actions)]
+    at, end = 0, len(actions)
+    while at < end:
         cancellation_point()
-        found = _plain(action)
+        found = shapes[at]
         if found is None:
-            if run is not None:
-                done += run.result(width)
-                run = None
-            done.append(action)
+            done.append(actions[at])
+            at += 1
             continue
-        key, leaves = found
-        assert type(action) is Set or type(action) is Deriv
-        if run is not None:
-            if run.kind is type(action) and run.key == key and run.extend(action, leaves, width):
-                continue
-            done += run.result(width)
-        run = _Run(action, key, leaves)
-    if run is not None:
+        run = _Run(actions[at], *found)  # type: ignore[arg-type]  # what has a shape is Set or Deriv
+        at += 1
+        while at < end:
+            size = len(run.actions)
+            if size < _ONE_BY_ONE:
+                wanted, taken = 1, int(run.extend(actions[at], shapes[at], width))
+            else:
+                wanted = 2 * size  # growing, so that all that is looked at stays a multiple of what is taken
+                taken = run.extend_many(actions[at : at + wanted], shapes[at : at + wanted], width)
+            at += taken
+            if taken < wanted:
+                break
         done += run.result(width)
     return done
 
