@@ -6,6 +6,7 @@ import ctypes
 import gc
 import time
 from concurrent.futures import ThreadPoolExecutor
+from fractions import Fraction
 from functools import cache
 from math import sqrt
 
@@ -19,6 +20,7 @@ from desire_tui.engine.codegen.plain_python.library import copy
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.refusal import PlainPythonError
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
+from desire_tui.engine.integration.switching.mathematics import fused
 
 TEXT = """
 LIMIT = 7
@@ -324,6 +326,21 @@ def test_a_field_that_is_known_cannot_be_set():
     text = "def f(s: Store) -> None:\n    s.count = 3\n"
     with pytest.raises(PlainPythonError, match=r"'s\.count'"):
         write_program([Module(text, NAMES)], Outside({"Store": Store}, known={"count": 2}), "")
+
+
+@pytest.mark.parametrize("level", [0, 2])
+def test_a_fused_sum_is_rounded_once_or_twice(level):
+    text = "def f(a: float, b: float, c: float) -> float:\n    return fused(a, b, c)\n"
+    written = write_program([Module(text, NAMES | {"fused": fused})], Outside({}), "plain_")
+    code = compile_text(written, level=level)
+    native = ctypes.CFUNCTYPE(REAL, REAL, REAL, REAL)(code.address("plain_f"))
+    assert native(3.0, 0.5, -2.25) == -0.75
+    third = 1 / 3
+    once = float(Fraction(third) * 3 - 1)
+    assert once != 0.0
+    assert native(third, 3.0, -1.0) in {0.0, once}
+    with pytest.raises(PlainPythonError, match="2 arguments"):
+        write_program([Module(text.replace(", c)\n", ")\n"), NAMES | {"fused": fused})], Outside({}), "")
 
 
 WHOLE, FLOATS, FLAGS = ("i", "j", "n"), ("a", "b", "x"), ("p", "q")

@@ -82,6 +82,13 @@ class Calls(Expressions):
 
     _call_sin = _call_cos = _call_exp = _call_log = _call_atan = _call_tanh = _call_of_mathematics
 
+    def _call_fused(self, node: ast.Call) -> Value:
+        if len(node.args) != 3:
+            self.refuse(node, f"'{ast.unparse(node)}' with {len(node.args)} arguments")
+        a, b, c = (self.as_real(self.number(argument)) for argument in node.args)
+        product = self.text.op(f"fmul contract double {a}, {b}")
+        return Value(self.text.op(f"fadd contract double {product}, {c}"), REAL)
+
     def _call_abs(self, node: ast.Call) -> Value:
         value = self._single(node)
         if value.kind != REAL:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 BUILTINS = {
     "range": range, "abs": abs, "min": min, "max": max, "sqrt": math.sqrt, "copy": library.copy,
     "floor": mathematics.floor, "exp": mathematics.exp, "log": mathematics.log, "sin": mathematics.sin,
-    "cos": mathematics.cos, "atan": mathematics.atan, "tanh": mathematics.tanh,
+    "cos": mathematics.cos, "atan": mathematics.atan, "tanh": mathematics.tanh, "fused": mathematics.fused,
 }  # fmt: skip
 
 

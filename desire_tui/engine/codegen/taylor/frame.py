@@ -30,7 +30,7 @@ class Frame:
         self.now: dict[int, str] = {}
         self._first: dict[int, str] = {}
         self._constants: dict[int, str] = {}
-        self._reciprocals: dict[int, str] = {}
+        self._reciprocals: dict[tuple[int, float], str] = {}
 
     # ------------------------------------------------------------------ before the loop
 
@@ -47,12 +47,11 @@ class Frame:
         """Read coefficient 0 of a number's series."""
         self._first[node.number] = self.text.op(f"load double, ptr {self.slot(node.slot)}")
 
-    def load_reciprocal(self, operand: Series | Constant) -> None:
-        """Compute one over a number's coefficient 0."""
-        key = id(operand)
+    def load_reciprocal(self, operand: Series | Constant, part: float = 1.0) -> None:
+        """Compute one over a number's coefficient 0, or a part of that."""
+        key = id(operand), part
         if key not in self._reciprocals:
-            one = literal(1.0)
-            self._reciprocals[key] = self.text.op(f"fdiv double {one}, {self.first(operand)}")
+            self._reciprocals[key] = self.text.op(f"fdiv double {literal(part)}, {self.first(operand)}")
 
     # ------------------------------------------------------------------ the order in turn
 
@@ -82,9 +81,9 @@ class Frame:
         """Return a number's coefficient 0."""
         return self._constants[id(operand)] if isinstance(operand, Constant) else self._first[operand.number]
 
-    def reciprocal(self, operand: Series | Constant) -> str:
-        """Return one over a number's coefficient 0."""
-        return self._reciprocals[id(operand)]
+    def reciprocal(self, operand: Series | Constant, part: float = 1.0) -> str:
+        """Return one over a number's coefficient 0, or a part of that."""
+        return self._reciprocals[id(operand), part]
 
     def coefficient(self, operand: Series | Constant) -> str:
         """Return a number's k-th coefficient."""

@@ -1,4 +1,8 @@
-"""Recurrences of numbers' series."""
+"""Recurrences of numbers' series.
+
+Each turn waits for the one before: what can be computed from lower orders alone is (`Sums.known`, and that
+over the order), so that as little as possible stands between an operand's newest coefficient and the result.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +47,7 @@ class ScalarRecurrences:
         if node.kind in {"div", "quotient", "over"}:
             self._frame.load_reciprocal(node.operands[1])
         if node.kind == "sqrt":
-            self._frame.load_reciprocal(node)
+            self._frame.load_reciprocal(node, 0.5)
 
     # ------------------------------------------------------------------ in the loop
 
@@ -123,7 +127,7 @@ class ScalarRecurrences:
     def _sqrt(self, node: Series) -> str:
         lanes, frame = self._lanes, self._frame
         rest = lanes.sub(frame.coefficient(node.operands[0]), self._sums.known(node))
-        return lanes.mul(lanes.mul(literal(0.5), rest), frame.reciprocal(node))
+        return lanes.mul(rest, frame.reciprocal(node, 0.5))
 
     def _integral(self, node: Series) -> str:
         factor, inner = node.operands
@@ -131,16 +135,15 @@ class ScalarRecurrences:
         lanes, frame = self._lanes, self._frame
         if isinstance(factor, Constant):
             return lanes.mul(frame.first(factor), frame.coefficient(inner))
-        known = lanes.mul_add(self._slope(inner), frame.first(factor), self._sums.known(node))
-        return frame.over_order(known)
+        return lanes.mul_add(
+            frame.coefficient(inner), frame.first(factor), frame.over_order(self._sums.known(node))
+        )
 
     def _quotient(self, node: Series) -> str:
         a, b = node.operands
-        assert isinstance(a, Series)
         lanes, frame = self._lanes, self._frame
-        rest = lanes.sub(self._slope(a), self._sums.known(node))
-        slope = self._slopes[node.number] = lanes.mul(rest, frame.reciprocal(b))
-        return frame.over_order(slope)
+        rest = lanes.sub(frame.coefficient(a), frame.over_order(self._sums.known(node)))
+        return lanes.mul(rest, frame.reciprocal(b))
 
     def _select(self, node: Series) -> str:
         condition, yes, no = node.operands

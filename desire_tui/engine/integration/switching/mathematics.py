@@ -20,6 +20,11 @@ def log(x: float) -> float:
     return math.log(x) if x > 0.0 else -math.inf if x == 0.0 else math.nan
 
 
+def fused(a: float, b: float, c: float) -> float:
+    """Return a·b + c; where the processor can, code compiled well rounds it once."""
+    return a * b + c
+
+
 def sin(x: float) -> float:
     """Return the sine."""
     return math.sin(x) if abs(x) < math.inf else math.nan

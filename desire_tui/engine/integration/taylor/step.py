@@ -6,7 +6,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.problem import FLOOR
-from desire_tui.engine.integration.switching.mathematics import exp, log
+from desire_tui.engine.integration.switching.mathematics import exp, fused, log
 from desire_tui.engine.integration.taylor.memory import GAVE_UP, NO_COEFFICIENTS
 from desire_tui.engine.integration.taylor.square_roots import before_zero
 
@@ -74,7 +74,8 @@ def reach(s: Taylor) -> float:
     """Return how far the series may be trusted: from the last two coefficients. -1: one is not finite."""
     order = s.order
     total = 0.0
-    floor = max(s.most * FLOOR, s.absolute)
+    most: float = s.most
+    floor = max(most * FLOOR, s.absolute)
     before = 0.0
     last = 0.0
     for k in range(s.piece_count):
@@ -84,7 +85,7 @@ def reach(s: Taylor) -> float:
         for i in range(s.pieces[4 * k + 1]):
             size = max(s.largest[first + i], abs(s.y[first + i]))
             s.largest[first + i] = size
-            s.most = max(s.most, size)
+            most = max(most, size)
             if size == 0.0:
                 size = 1.0
             size = 1.0 / max(size, floor)
@@ -95,6 +96,7 @@ def reach(s: Taylor) -> float:
             if b > last:
                 last = b
                 s.worst = first + i
+    s.most = most
     if not total <= _LARGEST:
         return -1.0
     if before == 0.0 and last == 0.0:
@@ -187,17 +189,17 @@ def sum_up(s: Taylor, h: float, out: Reals) -> None:
             one = 0.0
             other = 0.0
             while j >= 2:
-                one = one * square + c[base + j * apart]
-                other = other * square + c[base + (j - 1) * apart]
+                one = fused(one, square, c[base + j * apart])
+                other = fused(other, square, c[base + (j - 1) * apart])
                 j -= 2
             if j == 1:
-                out[first] = (one * square + c[base + apart]) + h * other
+                out[first] = fused(h, other, fused(one, square, c[base + apart]))
             else:
-                out[first] = other + h * one
+                out[first] = fused(h, one, other)
         else:
             for i in range(count):
                 out[first + i] = c[base + j * apart + i]
             while j >= 2:
                 j -= 1
                 for i in range(count):
-                    out[first + i] = out[first + i] * h + c[base + j * apart + i]
+                    out[first + i] = fused(out[first + i], h, c[base + j * apart + i])

@@ -16,12 +16,15 @@ from desire_tui.engine.passes.series.nodes import Constant, Series
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.passes.series.graph import Graph
     from desire_tui.engine.passes.series.nodes import Kind, Operand
 
     Function = Callable[[Graph, Series], Operand]
 
 
+_ROOTS = (0.5, 1.5, 2.5)
+"""Powers that are a root times a few factors."""
 _SINC_SMALL, _SINC_TERMS = 1.0, 16
 """Below, sin(x)/x is taken from its power series up to x^32: its 20th coefficient at 1 has eleven digits."""
 
@@ -91,8 +94,19 @@ def power(g: Graph, a: Operand, b: Operand) -> Operand:
     count = widest(a, b)
     base = a if count == a.count else _spread(g, a, count)
     b = g.stored(b)
-    made = g.integral(Op("pow", (g.value(base), b.value)), base)
+    made = g.integral(_power_now(g.value(base), b.value), base)
     return g.complete(made, div(g, mul(g, b, made), base), base)
+
+
+def _power_now(base: Value, exponent: Value) -> Value:
+    """Return a power at a step's start: r^(-1.5) and the like by a root, in a third of the time."""
+    n = exponent.value if isinstance(exponent, Const) else 0.0
+    if abs(n) not in _ROOTS:
+        return Op("pow", (base, exponent))
+    value: Value = Op("sqrt", (base,))
+    for _ in range(int(abs(n))):
+        value = Op("mul", (base, value))
+    return value if n > 0.0 else Op("div", (Const(1.0), value))
 
 
 def angle(g: Graph, y: Operand, x: Operand) -> Operand:
