@@ -9,6 +9,7 @@ width 1, so that columns counted in the text are columns on the screen.
 from __future__ import annotations
 
 import re
+from functools import cache
 from typing import IO
 
 HIDDEN = (
@@ -21,19 +22,17 @@ HIDDEN = (
     "\ud800-\udfff"  # halves of a character: no terminal's encoding has them
 )
 """The characters that are replaced, as the inside of a regular expression's `[…]`."""
-_HIDDEN = re.compile(f"[{HIDDEN}]")
-_HIDDEN_IN_LINE = re.compile(f"[\t\n{HIDDEN}]")
 REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
 def visible(text: str) -> str:
     """Return the text, as long as it was, with only tab and newline left of what is not shown."""
-    return text if text.isprintable() and text.isascii() else _HIDDEN.sub(_sign, text)
+    return text if text.isprintable() and text.isascii() else _hidden().sub(_sign, text)
 
 
 def visible_line(text: str) -> str:
     """Return text that has to stay in one line, such as a name: tab and newline are made visible, too."""
-    return text if text.isprintable() and text.isascii() else _HIDDEN_IN_LINE.sub(_sign, text)
+    return text if text.isprintable() and text.isascii() else _hidden("\t\n").sub(_sign, text)
 
 
 def visible_whole(text: str) -> str:
@@ -44,6 +43,12 @@ def visible_whole(text: str) -> str:
 def for_stream(text: str, stream: IO[str]) -> str:
     """Return what to write to a stream: a terminal gets visible text, files and pipes the text itself."""
     return visible(text) if stream.isatty() else text
+
+
+@cache
+def _hidden(others: str = "") -> re.Pattern[str]:
+    """Return the pattern, made at first use: most processes show ASCII only, and this takes 1 ms."""
+    return re.compile(f"[{others}{HIDDEN}]")
 
 
 def _sign(match: re.Match[str]) -> str:

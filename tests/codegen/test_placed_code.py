@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from desire_tui.engine.codegen.jit import compiler, placed_code
+from desire_tui.engine.codegen.jit import object_file as object_file_module
 from desire_tui.engine.codegen.jit.compiler import compile_text
 from desire_tui.engine.codegen.jit.linker import LinkedCode
 from desire_tui.engine.codegen.jit.object_file import UnknownFormError, image_of
@@ -159,7 +160,7 @@ def test_a_form_that_is_not_known_is_linked_by_llvm(monkeypatch):
     def unknown(content):
         raise UnknownFormError
 
-    monkeypatch.setattr(compiler, "image_of", unknown)
+    monkeypatch.setattr(object_file_module, "image_of", unknown)
     code = compile_text(TEXT, level=0)
     assert isinstance(code, LinkedCode)
     assert results(code)[1][2:4] == [91, 34]

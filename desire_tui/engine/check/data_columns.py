@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.data_classes import dataclass, field
-from desire_tui.engine.data_files.data_file import time_column
-from desire_tui.engine.data_files.table_names import columns_beside, table_names
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.nodes.display import Request
 from desire_tui.engine.nodes.expressions import Call, Element, Name
@@ -45,6 +43,9 @@ def data_columns(program: Program) -> DataColumns:
     statements = [placed for placed in program.script if isinstance(placed.node, LoadData)]
     if not statements:
         return found
+    from desire_tui.engine.data_files.data_file import time_column  # few programs read files: 2 ms
+    from desire_tui.engine.data_files.table_names import columns_beside, table_names
+
     elsewhere = segment_targets(program)
     for placed in statements:
         assert isinstance(placed.node, LoadData)

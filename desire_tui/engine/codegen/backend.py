@@ -6,7 +6,6 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
-from desire_tui.engine.codegen.jit.loose_code import LooseCode
 from desire_tui.engine.codegen.native_model import NativeModel
 from desire_tui.engine.codegen.scalar import rerolling, templates
 from desire_tui.engine.diagnostics import Diagnostic
@@ -107,7 +106,11 @@ class NativeBackend:
 
     def _make(self, segment: Segment, rule: int, values: Values) -> Model:
         improver = self._compiler.improver
-        code = LooseCode(self._compiler.code) if segment.may_rearrange else self._compiler.code
+        code = self._compiler.code
+        if segment.may_rearrange:
+            from desire_tui.engine.codegen.jit.loose_code import LooseCode
+
+            code = LooseCode(code)
         if rule_numbered(rule).has_interpolant and segment.order:
             from desire_tui.engine.codegen.stiff.stiff_model import StiffModel
 

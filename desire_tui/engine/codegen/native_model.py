@@ -18,7 +18,6 @@ from desire_tui.engine.codegen.scalar.slot_usage import survey
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
-from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.vital_columns import vital_columns
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
@@ -61,6 +60,8 @@ class NativeModel:
         segment, self._numbers = stepped_segment(segment, values.room, variable=variable)
         switching = None
         if variable:
+            from desire_tui.engine.passes.switching import switching as switches  # 2 ms
+
             segment, switching = switches(segment, values.room)
         self._store = code
         self._segment = segment

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Literal
 
 from desire_tui.engine.data_classes import dataclass, field
-from desire_tui.engine.data_files.data_table import DataTable, begins_with_number, column_names, separator_of
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.program_files import open_for_program
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from desire_tui.engine.data_files.data_table import DataTable
     from desire_tui.engine.interpreter.host import Host
 
 MOST_CHANNELS = 10
@@ -62,6 +62,14 @@ class Channel:
         """If nothing was read yet, see whether the first line that holds anything names columns."""
         if self.line or self.waiting:
             return
+        # few programs read files: 1 ms
+        from desire_tui.engine.data_files.data_table import (
+            DataTable,
+            begins_with_number,
+            column_names,
+            separator_of,
+        )
+
         is_table = self.path.suffix.lower() in _TABLE_ENDINGS
         looked_at = list(islice(self.lines(), 1 if is_table else 2))
         self.waiting = looked_at[::-1]

@@ -14,7 +14,6 @@ from desire_tui.engine.interpreter import (
     writing,
 )
 from desire_tui.engine.interpreter.assignment import assign
-from desire_tui.engine.interpreter.data_tables import load_data
 from desire_tui.engine.interpreter.declarations import declare
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.fourier import fft
@@ -94,6 +93,8 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
         case Declare():
             return declare(context, node)
         case LoadData():
+            from desire_tui.engine.interpreter.data_tables import load_data  # few programs read files: 2 ms
+
             return load_data(context, node)
         case Read():
             return data_and_input.read(context, node)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -46,6 +45,8 @@ class MadeFiles:
         record[key[0]] = files[-_FILES_MAX:]  # the newest program last
         kept = dict(list(record.items())[-_PROGRAMS_MAX:])
         with suppress(OSError):
+            import json
+
             user_folders.write_private(_path(), json.dumps(kept).encode(), sync=False)
 
 
@@ -54,6 +55,8 @@ def _path() -> str:
 
 
 def _read() -> dict[str, list[str]]:
+    import json  # few programs make files: 2 ms
+
     try:
         with open(_path(), "rb") as file:  # noqa: PTH123 - the path is a text
             stored = json.load(file)

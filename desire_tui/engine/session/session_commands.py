@@ -10,7 +10,6 @@ from desire_tui.engine.interpreter.host import Interrupted
 from desire_tui.engine.nodes.commands import FileCommand, Simple
 from desire_tui.engine.nodes.control import For, If, While
 from desire_tui.engine.nodes.files import Dump
-from desire_tui.engine.session.comparison import Variation, compare_runs
 from desire_tui.engine.session.report import run_report
 from desire_tui.engine.session.status import State
 
@@ -196,6 +195,8 @@ class SessionCommands:
         return with_numbers(text) if numbered else text
 
     def _compare(self, argument: str | None) -> None:
+        from desire_tui.engine.session.comparison import Variation, compare_runs
+
         change = Variation.parse(argument or "")
         try:
             with self._activity.working(State.RUNNING):

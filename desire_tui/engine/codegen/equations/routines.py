@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from ctypes import sizeof
-from hashlib import blake2b
 from importlib.resources import files
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -15,6 +14,7 @@ from desire_tui.engine.codegen.plain_python.kinds import of_declaration
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
 from desire_tui.engine.codegen.stiff import jacobian_fill, model_calls
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.integration import problem
 from desire_tui.engine.integration.problem import FUNCTIONS, SolverProblem
 from desire_tui.engine.values import T

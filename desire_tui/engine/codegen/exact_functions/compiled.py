@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-from hashlib import blake2b
 from threading import Lock
 from typing import TYPE_CHECKING
 
@@ -18,6 +17,7 @@ import numpy as np
 
 from desire_tui.engine.codegen.exact_functions.vector_functions import NAMES, ways, written
 from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code, machine, module_text
+from desire_tui.engine.digest import blake2b
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

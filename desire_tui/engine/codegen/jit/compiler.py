@@ -6,20 +6,20 @@ import functools
 import re
 import threading
 from contextlib import suppress
-from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.codegen.ir import symbols
 from desire_tui.engine.codegen.jit import stored_code
 from desire_tui.engine.codegen.jit.host import Host, find_host
-from desire_tui.engine.codegen.jit.linker import Linker
+from desire_tui.engine.codegen.jit.image import Image
 from desire_tui.engine.codegen.jit.llvm_turn import in_turn
-from desire_tui.engine.codegen.jit.object_file import Image, UnknownFormError, image_of
 from desire_tui.engine.codegen.jit.placed_code import NotPlacedError, PlacedCode, can_place
+from desire_tui.engine.digest import blake2b
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from desire_tui.engine.codegen.jit.linker import Linker
     from desire_tui.engine.codegen.jit.machine_code import MachineCode
     from desire_tui.engine.codegen.jit.stored_code import ObjectFile
 
@@ -77,6 +77,8 @@ class TargetMachine:
 
     def link(self, content: bytes, exported: Iterable[str]) -> MachineCode:
         """Put an object file into memory as LLVM does it."""
+        from desire_tui.engine.codegen.jit.linker import Linker
+
         options = self.options(0)
         with self._lock:
             if self._linker is None or self._linker.is_full:
@@ -219,6 +221,8 @@ def _name_of(text: str, level: int, *, slp: bool, vectorize: bool, passes: bool)
 def _compiled(text: str, level: int, **how: bool) -> Image | ObjectFile:
     content = _object_file(text, level, **how)
     if can_place():
+        from desire_tui.engine.codegen.jit.object_file import UnknownFormError, image_of
+
         with suppress(UnknownFormError):
             return image_of(content)
     return content, tuple(_DEFINITION.findall(text))

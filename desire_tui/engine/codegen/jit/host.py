@@ -5,11 +5,11 @@ from __future__ import annotations
 import marshal
 import os
 import sys
-from hashlib import blake2b
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine import disk_cache
+from desire_tui.engine.digest import blake2b
 
 if TYPE_CHECKING:
     from collections.abc import Callable

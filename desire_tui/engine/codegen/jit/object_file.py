@@ -10,7 +10,8 @@ from __future__ import annotations
 import struct
 from typing import NamedTuple
 
-PAGE = 4096
+from desire_tui.engine.codegen.jit.image import PAGE, Image
+
 _HEADER = struct.Struct("<16sHHIQQQIHHHHHH")
 _SECTION = struct.Struct("<IIQQQQIIQQ")
 _SYMBOL = struct.Struct("<IBBHQQ")
@@ -25,21 +26,6 @@ _ABSOLUTE_64 = 1
 
 class UnknownFormError(Exception):
     """The file holds something that only LLVM's own linker knows."""
-
-
-class Image(NamedTuple):
-    """What is mapped: `code`, at the next page `data`; offsets count from the start of the code."""
-
-    code: bytes
-    """Functions and constants."""
-    data: bytes
-    """Variables."""
-    functions: dict[str, int]
-    """Offset of each function that others may call."""
-    inside: tuple[tuple[int, int], ...]
-    """(place, offset): where the address of something in the image belongs."""
-    outside: tuple[tuple[int, str, int], ...]
-    """(place, name, addend): where the address of a function of the process belongs."""
 
 
 class _Section(NamedTuple):

@@ -15,12 +15,12 @@ import struct
 import sys
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.jit.object_file import PAGE
+from desire_tui.engine.codegen.jit.image import PAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from desire_tui.engine.codegen.jit.object_file import Image
+    from desire_tui.engine.codegen.jit.image import Image
 
 _ADDRESS = struct.Struct("<Q")
 _ALL_BITS = (1 << 64) - 1

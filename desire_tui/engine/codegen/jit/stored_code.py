@@ -6,11 +6,11 @@ The folder keeps what was used lately, within bounds. What cannot be read, writt
 from __future__ import annotations
 
 import marshal
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine import disk_cache
-from desire_tui.engine.codegen.jit.object_file import Image
+from desire_tui.engine.codegen.jit.image import Image
+from desire_tui.engine.digest import blake2b
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.host import Host

@@ -12,7 +12,6 @@ state, a fault) is flagged: whoever called makes that run again alone, for its m
 
 from __future__ import annotations
 
-from hashlib import blake2b
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.ir.symbols import sine_and_cosine
@@ -32,6 +31,7 @@ from desire_tui.engine.codegen.lanes.lane_steps import LaneSteps
 from desire_tui.engine.codegen.lanes.lane_variables import LaneVariables
 from desire_tui.engine.codegen.lanes.replicas import Replicas
 from desire_tui.engine.codegen.scalar.slot_usage import survey
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.lowered.effects import expressions
 from desire_tui.engine.lowered.expressions import Op
 from desire_tui.engine.lowered.walk import walk_actions, walk_values

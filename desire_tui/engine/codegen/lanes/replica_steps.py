@@ -6,7 +6,6 @@ whole vectors: the same operations, the same functions of the vector library.
 
 from __future__ import annotations
 
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.lanes import Lanes
@@ -18,6 +17,7 @@ from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
 from desire_tui.engine.codegen.lanes.lane_expressions import LaneExpressions
 from desire_tui.engine.codegen.lanes.lane_stages import advance, save
 from desire_tui.engine.codegen.lanes.replicas import Replicas
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.lowered.statements import Set
 from desire_tui.engine.values import T
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.text import IrText
@@ -13,8 +12,8 @@ from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
 from desire_tui.engine.codegen.loop.looks import no_looks
 from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
 from desire_tui.engine.codegen.loop.run_loop import Driver
-from desire_tui.engine.codegen.loop.shared_storage import SharedStorage
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.integration.tableaus import TABLEAUS
 
 if TYPE_CHECKING:
@@ -32,11 +31,11 @@ def array_loop(rule: int, *, contiguous: bool, watched: Watched = NOTHING, share
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1
     width = machine().width
-    storage = (
-        SharedStorage(text, stages, width, share)
-        if share
-        else ArrayStorage(text, stages, width, contiguous=contiguous)
-    )
+    storage = ArrayStorage(text, stages, width, contiguous=contiguous)
+    if share:
+        from desire_tui.engine.codegen.loop.shared_storage import SharedStorage  # few models are so large
+
+        storage = SharedStorage(text, stages, width, share)
     Driver(text, storage, tableau, watched=watched).write()
     return named(text)
 

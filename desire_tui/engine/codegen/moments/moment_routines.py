@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from ctypes import sizeof
-from hashlib import blake2b
 from importlib.resources import files
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -13,6 +12,7 @@ from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code
 from desire_tui.engine.codegen.plain_python.kinds import of_function
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.integration import halving, tableaus
 from desire_tui.engine.integration.switching import memory as switching
 from desire_tui.engine.integration.taylor import isolation

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +11,7 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.ir.work_memory import WorkMemory, context_fields
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
+from desire_tui.engine.digest import blake2b
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -6,7 +6,6 @@ much as fourteen with 100. A piece is kept by its text, so a one-line edit compi
 
 from __future__ import annotations
 
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.cells import MemoryCells
@@ -15,6 +14,7 @@ from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
 from desire_tui.engine.codegen.vector.array_statements import ArrayStatements
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.lowered.walk import walk_actions
 
 if TYPE_CHECKING:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import ctypes
 import functools
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir import shared_loops
@@ -19,6 +18,7 @@ from desire_tui.engine.codegen.ir.counted_loops import elementwise, fetch, loop,
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code, machine, module_text
+from desire_tui.engine.digest import blake2b
 
 if TYPE_CHECKING:
     from collections.abc import Callable

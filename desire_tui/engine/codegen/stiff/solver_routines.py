@@ -6,7 +6,6 @@ import re
 from collections import defaultdict
 from ctypes import sizeof
 from functools import lru_cache
-from hashlib import blake2b
 from importlib.resources import files
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -27,6 +26,7 @@ from desire_tui.engine.codegen.stiff import (
     rounding,
     taylor_steps,
 )
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.integration import problem, sliding
 from desire_tui.engine.integration.bdf import choice, coefficients, memory, newton, start, step
 from desire_tui.engine.integration.bdf.memory import Bdf, Evaluate, Fill, Weigh

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
@@ -10,6 +9,7 @@ from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import literal
 from desire_tui.engine.codegen.taylor.fused import Fused
 from desire_tui.engine.codegen.taylor.layout import apart
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:

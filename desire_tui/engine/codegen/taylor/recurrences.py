@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
@@ -14,6 +13,7 @@ from desire_tui.engine.codegen.taylor.frame import Frame
 from desire_tui.engine.codegen.taylor.scalar import WITH_SUMS, ScalarRecurrences
 from desire_tui.engine.codegen.taylor.sums import Sums
 from desire_tui.engine.codegen.taylor.vector import VectorRecurrences
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:

@@ -6,11 +6,11 @@ import atexit
 import ctypes
 import os
 import threading
-from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code, machine, module_text
 from desire_tui.engine.codegen.threads.pool_code import MEMBERS_MOST, pool_text
+from desire_tui.engine.digest import blake2b
 from desire_tui.engine.thread_count import thread_count
 
 if TYPE_CHECKING:
