@@ -14,7 +14,6 @@ from desire_tui.engine.codegen.loop.state_blocks import state_blocks
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
 from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
-from desire_tui.engine.codegen.scalar.slot_usage import survey
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
@@ -201,6 +200,8 @@ class NativeModel:
     def _is_small(self) -> bool:
         if self._segment.order > SMALL or len(self._segment.body) > SMALL:
             return False
+        from desire_tui.engine.codegen.scalar.slot_usage import survey  # short runs are over before that
+
         usage = survey(self._passes.values())
         return usage.only_scalars and usage.statements <= SMALL
 

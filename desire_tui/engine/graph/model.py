@@ -11,7 +11,6 @@ from desire_tui.engine.graph.axes import Axes
 from desire_tui.engine.graph.color_keys import color_keys
 from desire_tui.engine.graph.measured_curve import without_known
 from desire_tui.engine.graph.run_colors import RunColors
-from desire_tui.engine.graph.study import Study
 from desire_tui.engine.graph.units import units_of, with_units
 
 if TYPE_CHECKING:
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.graph.color_keys import Key
     from desire_tui.engine.graph.curve import Curve, Frame
+    from desire_tui.engine.graph.study import Study
     from desire_tui.engine.runtime.run_record import RunRecord
 
     Floats = NDArray[np.float64]
@@ -178,6 +178,8 @@ class Graph:
     @property
     def study(self) -> Study:
         """What varies over the runs on it; while many are made, as it was a moment ago."""
+        from desire_tui.engine.graph.study import Study
+
         known, now = self._study, (len(self.curves), self.erased)
         if known is None or not (known[0][1] == now[1] and known[0][0] <= now[0] <= known[0][0] * _GROWTH):
             curves = list(self.curves)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.interpreter import python_ast as py
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.interpreter.host import Interrupted
-from desire_tui.engine.interpreter.hot_loops import warm
 from desire_tui.engine.interpreter.run_count import loop_count
 from desire_tui.engine.nodes.control import For, GoTo, If, Until, While
 from desire_tui.engine.nodes.expressions import Name
@@ -41,7 +40,14 @@ def until(context: StatementContext, node: Until) -> Operation:
         context.translator.condition(node.condition), py.return_value(py.number(context.next))
     )
     check = py.expression_statement(py.call("check"))
-    return warm(context, context.function([leave, check, py.return_value(py.number(again))]), again)
+    return _loop(context, context.function([leave, check, py.return_value(py.number(again))]), again)
+
+
+def _loop(context: StatementContext, operation: Operation, body: int) -> Operation:
+    """Make an operation that closes a loop quicker once it was carried out often."""
+    from desire_tui.engine.interpreter.hot_loops import warm  # many scripts have no loops: 1 ms
+
+    return warm(context, operation, body)
 
 
 def _behind(context: StatementContext) -> int:
@@ -55,7 +61,7 @@ def _choose(context: StatementContext, condition: ast.expr, yes: int, no: int) -
 
 def end_while(context: StatementContext) -> Operation:
     """`end while`."""
-    return warm(context, _jump_back(context, context.partner), context.partner)
+    return _loop(context, _jump_back(context, context.partner), context.partner)
 
 
 def _jump_back(context: StatementContext, address: int) -> Operation:
@@ -135,7 +141,7 @@ def next_pass(context: StatementContext) -> Operation:
         cells[int(loop[4])] = to_integer(value) if whole else value
         return body
 
-    return warm(context, operation, body)
+    return _loop(context, operation, body)
 
 
 def leave_block(context: StatementContext) -> Operation:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from desire_tui.engine.interpreter.array_expressions import ArrayExpressions, co
 from desire_tui.engine.interpreter.assignment import storer
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
 from desire_tui.engine.left_chains import chain, signed_terms
+from desire_tui.engine.nodes.assignments import Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.expressions import Expr, Name, Number, Transposed
 from desire_tui.engine.nodes.signs import unsigned
 
@@ -20,13 +21,24 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.interpreter.code_table import Operation
     from desire_tui.engine.interpreter.statement_context import StatementContext
-    from desire_tui.engine.nodes.assignments import Dot, MatrixAssign, VectorAssign
     from desire_tui.engine.values import Quantity
 
     Array = NDArray[np.float64]
 
 TEMPORARIES = 3
 """Arrays of the target's size that a statement holds at a time."""
+
+
+def computed(context: StatementContext, node: MatrixAssign | VectorAssign | Dot) -> Operation:
+    """Make the operation of a statement that computes arrays."""
+    match node:
+        case MatrixAssign():
+            return matrix(context, node)
+        case VectorAssign():
+            return vector(context, node)
+        case Dot():
+            return dot(context, node)
+    assert_never(node)
 
 
 def matrix(context: StatementContext, node: MatrixAssign) -> Operation:

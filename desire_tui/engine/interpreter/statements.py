@@ -9,14 +9,12 @@ from desire_tui.engine.interpreter import (
     control,
     data_and_input,
     host_statements,
-    matrix_statements,
     procedures,
     writing,
 )
 from desire_tui.engine.interpreter.assignment import assign
 from desire_tui.engine.interpreter.declarations import declare
 from desire_tui.engine.interpreter.exception_mapping import ScriptFault
-from desire_tui.engine.interpreter.fourier import fft
 from desire_tui.engine.interpreter.statement_context import StatementContext
 from desire_tui.engine.nodes.assignments import Assign, Bare, Dot, MatrixAssign, VectorAssign
 from desire_tui.engine.nodes.commands import Drun, Fft, FileCommand, Irule, Seed, Simple, Word
@@ -119,6 +117,8 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
         case Drun():
             return host_statements.drun(context, node)
         case Fft():
+            from desire_tui.engine.interpreter.fourier import fft
+
             return fft(context, node)
         case Display():
             return host_statements.display(context, node)
@@ -130,12 +130,10 @@ def make(machine: ScriptMachine, code: ScriptCode, place: int) -> Operation:
             return context.then(lambda: context.host.show_area(by_size=node.by_size))
         case Show():
             return host_statements.show(context, node)
-        case MatrixAssign():
-            return matrix_statements.matrix(context, node)
-        case VectorAssign():
-            return matrix_statements.vector(context, node)
-        case Dot():
-            return matrix_statements.dot(context, node)
+        case MatrixAssign() | VectorAssign() | Dot():
+            from desire_tui.engine.interpreter import matrix_statements  # few scripts compute arrays: 2 ms
+
+            return matrix_statements.computed(context, node)
         case FileCommand():
             return host_statements.host_command(context, node)
     if isinstance(node, SegmentOnlyStatement):

@@ -11,7 +11,6 @@ from desire_tui.engine.lowered.statements import Set
 from desire_tui.engine.lowered.walk import walk_values
 from desire_tui.engine.lowering.lowering_context import BAD, UNKNOWN_SLOT
 from desire_tui.engine.lowering.scope import UNKNOWN
-from desire_tui.engine.passes.scalar_elements import element_of
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
@@ -37,6 +36,8 @@ def _array(context: LoweringContext, node: Call, values: Sequence[Value], extent
     """Compute an array of what each element was before the statement; every element has a history."""
     if UNKNOWN in extent:
         return BAD  # a check before the run: nothing is computed
+    from desire_tui.engine.passes.scalar_elements import element_of
+
     count, where = prod(extent), context.where(node)
     slot = context.scope.hidden(count)
     for at in range(count):

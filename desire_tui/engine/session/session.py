@@ -212,10 +212,11 @@ class Session:
         Names are those of scalars, `a`, or of elements, `a[2]`, `A[1,3]`; ValueError for others. Segments and
         commands change them as ever.
         """
-        from desire_tui.engine.session.overrides import name_and_subscripts
+        if settings:
+            from desire_tui.engine.session.overrides import name_and_subscripts
 
-        for name in settings:
-            name_and_subscripts(name)
+            for name in settings:
+                name_and_subscripts(name)
         self._workspace.overrides = dict(settings)
 
     def keep(self, expressions: KeptExpressions | None) -> None:

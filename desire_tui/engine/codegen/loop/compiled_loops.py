@@ -9,8 +9,6 @@ from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.loop.array_storage import ArrayStorage
-from desire_tui.engine.codegen.loop.looks import no_looks
-from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
 from desire_tui.engine.codegen.loop.run_loop import Driver
 from desire_tui.engine.codegen.loop.switched_steps import NOTHING, Watched
 from desire_tui.engine.digest import blake2b
@@ -51,6 +49,9 @@ def register_loop(
     looks: Looks | None = None,
 ) -> Piece:
     """Write the loop of a small model, its passes in line; all are slots, `vital` some of the columns'."""
+    from desire_tui.engine.codegen.loop.looks import no_looks  # short runs are over before that: 1 ms
+    from desire_tui.engine.codegen.loop.register_storage import RegisterStorage
+
     text = IrText()
     tableau = TABLEAUS.get(rule)
     stages = tableau.stages if tableau is not None else 1

@@ -6,11 +6,8 @@ from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.scalar.rerolling import Rolled
-from desire_tui.engine.codegen.vector import products
 from desire_tui.engine.codegen.vector.elements import StripExpressions, is_separable
 from desire_tui.engine.codegen.vector.fusion import groups, needs_copy, statement_footprint
-from desire_tui.engine.codegen.vector.in_place import write_in_place
-from desire_tui.engine.codegen.vector.matrices import write_dot, write_matrix
 from desire_tui.engine.codegen.vector.operands import ArrayOperands
 from desire_tui.engine.codegen.vector.rerolled_loops import write_rolled
 from desire_tui.engine.lowered.effects import count_draws, reads_replaced
@@ -43,10 +40,16 @@ class ArrayStatements(ArrayOperands):
         """Write a statement that has its own loops."""
         match action:
             case SetVec() | SetMat() if reads_replaced(action):
+                from desire_tui.engine.codegen.vector.in_place import write_in_place
+
                 write_in_place(self, action)
             case SetMat():
+                from desire_tui.engine.codegen.vector.matrices import write_matrix
+
                 write_matrix(self, action)
             case SetDot():
+                from desire_tui.engine.codegen.vector.matrices import write_dot
+
                 write_dot(self, action)
             case LearningStep():
                 from desire_tui.engine.codegen.vector.learning import write_learning  # few programs learn
@@ -138,6 +141,8 @@ class _Writer:
             return
         match action.mode:
             case "largest":
+                from desire_tui.engine.codegen.vector import products
+
                 statements.text.declarations.add(products.largest())
                 target = statements.at(action.slot)
                 arguments = f"ptr {self._target}, ptr {target}, i64 {action.count}"
