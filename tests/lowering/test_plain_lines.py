@@ -5,7 +5,7 @@ from __future__ import annotations
 from unittest.mock import patch
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from desire_tui.engine.lowering import lowering_cache, segments
@@ -47,6 +47,24 @@ def test_both_ways_come_to_the_same(lines, script, names, arrays):
     expected = ordinary(text, names, arrays)
     assert outcome(text, names, arrays) == expected
     assert outcome(text, names, arrays) == expected  # from the cache
+
+
+@settings(max_examples=20)
+@given(
+    st.dictionaries(st.integers(0, 39), st.sampled_from(LINES), max_size=3),
+    st.dictionaries(st.integers(0, 39), st.sampled_from(LINES), max_size=2),
+    st.permutations(["a", "b", "u"]),
+    st.integers(2, 3),
+)
+@example({}, {20: "d/dt x = 2"}, ["b", "a", "u"], 2)
+@example({30: "u = 2*x"}, {}, ["b", "u", "a"], 3)
+def test_an_edit_of_a_long_program_comes_to_the_same(odd, edit, others, given_names):
+    """Most derivatives are known from the first text, where parameters may have had other slots."""
+    lines = [odd.get(k, f"d/dt x{k} = a*(b - x{(7 * k) % 40})") for k in range(40)]
+    edited = [edit.get(k, line) for k, line in enumerate(lines)]
+    expected = ordinary("\n".join(["DYNAMIC", *edited, ""]), others[:given_names], set())
+    outcome("\n".join(["DYNAMIC", *lines, ""]), ["a", "b", "u"], set())
+    assert outcome("\n".join(["DYNAMIC", *edited, ""]), others[:given_names], set()) == expected
 
 
 @pytest.mark.parametrize("line", ["d/dt x = a*(1 - x)", "u = sin(a)"])

@@ -14,7 +14,7 @@ from desire_tui.engine.lowering.scope import LiveScope
 from desire_tui.engine.recently_used import RecentlyUsed
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from desire_tui.engine.lowered.expressions import Load, Value
     from desire_tui.engine.lowering.lowering_context import LoweringContext
@@ -45,14 +45,17 @@ def cache_of(context: LoweringContext) -> RecentlyUsed[int, Cached]:
 def known_value(context: LoweringContext, node: Expr, cache: RecentlyUsed[int, Cached]) -> Value | None:
     """Return what an expression became an earlier time, if it must become the same."""
     known = cache[id(node)]
-    if known is None:
-        return None
+    return known.value if known is not None and can_read(context, known.reads) else None
+
+
+def can_read(context: LoweringContext, reads: Iterable[tuple[str, int]]) -> bool:
+    """Whether names can be read without more ado, in the slots where they were."""
     ready = context.flow.ready.get
-    for name, slot in known.reads:
+    for name, slot in reads:
         load = ready(name)
         if load is None or load.slot != slot:
-            return None
-    return known.value
+            return False
+    return True
 
 
 def lower_cached(context: LoweringContext, node: Expr) -> Value:

@@ -17,7 +17,7 @@ from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowered.segment import StateRange
 from desire_tui.engine.lowered.statements import Deriv, Set, Where
-from desire_tui.engine.lowering.lowering_cache import Cached, cache_of, known_value
+from desire_tui.engine.lowering.lowering_cache import Cached, cache_of, can_read, known_value
 from desire_tui.engine.lowering.operators import COMPOSED, OPERATIONS, power
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.expressions import Binary, Call, Name, Number, Unary
@@ -28,7 +28,7 @@ from desire_tui.engine.source import Span
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.builder import SegmentBuilder
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.recently_used import RecentlyUsed
 
+_ONE_BY_ONE = 8
+"""Derivatives at the start of a run before the names that many of them read are looked up together."""
 _LINES_AT_ONCE = 200
 """Between two points where the work can be broken off."""
 _FUNCTIONS = {
@@ -63,7 +65,7 @@ def scalar_states(context: LoweringContext, lines: Sequence[Line]) -> list[State
     names = [target.name for target in targets]
     if (
         {*map(type, targets)} != {Name}
-        or any(type(node) is VectorDerivative for node, _ in lines)
+        or VectorDerivative in {type(node) for node, _ in lines}
         or len({*names}) != len(names)
         or "PI" in names
         or not context.functions.keys().isdisjoint(names)
@@ -93,27 +95,59 @@ def lower_plain_lines(builder: SegmentBuilder, lines: Sequence[Line], at: int) -
     flow, body = context.flow, builder.body
     states = {} if builder.guards else context.plain_states
     cache = cache_of(context)
-    for node, frame in lines[at : at + _LINES_AT_ONCE]:
+    derivatives = 0  # known ones that came just now, one after the other
+    for _ in range(_LINES_AT_ONCE):
+        if derivatives >= _ONE_BY_ONE:
+            stretch = lines[at : at + 2 * derivatives]  # growing, so that most of what is looked at is taken
+            made = _known_derivatives(context, stretch, states, cache)
+            body += made
+            at += len(made)
+            derivatives = derivatives + len(made) if len(made) == len(stretch) else 0
+        if at == len(lines):
+            break
+        node, frame = lines[at]
         if type(node) is Derivative:
             state = states.get(id(node))
             value = None if state is None else _lowered(context, node.value, cache)
             if state is None or value is None:
                 break
             body.append(Deriv(state.first, value, state.where))
+            derivatives += 1
         elif type(node) is Assign and type(node.target) is Name:
             slot = _slot_of(context, node.target.name)
             value = None if slot is None else _lowered(context, node.value, cache)
             if slot is None or value is None:
                 break
-            made = Set(slot, value, Where(Span(frame.at + node.start, frame.at + node.end)))
-            body.append(made)
-            flow.assignments.append(made)
+            derivatives = 0
+            definition = Set(slot, value, Where(Span(frame.at + node.start, frame.at + node.end)))
+            body.append(definition)
+            flow.assignments.append(definition)
             flow.set_slots[slot] = None
             flow.ready[node.target.name] = Load(slot)
         else:
             break
         at += 1
     return at
+
+
+def _known_derivatives(
+    context: LoweringContext,
+    lines: Sequence[Line],
+    states: Mapping[int, StateRange],
+    cache: RecentlyUsed[int, Cached],
+) -> list[Deriv]:
+    """Return the first of some lines lowered: `d/dt` lines that were lowered before and stay the same."""
+    sound: list[tuple[StateRange, Cached]] = []
+    for node, _ in lines:
+        if type(node) is not Derivative:
+            break
+        state, kept = states.get(id(node)), cache[id(node.value)]
+        if state is None or kept is None:
+            break
+        sound.append((state, kept))
+    if not can_read(context, set[tuple[str, int]]().union(*[kept.reads for _, kept in sound])):
+        return []
+    return [Deriv(state.first, kept.value, state.where) for state, kept in sound]
 
 
 def _slot_of(context: LoweringContext, name: str) -> int | None:

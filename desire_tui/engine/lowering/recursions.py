@@ -57,7 +57,7 @@ def _moves(made: Set) -> bool:
 
 
 def _in_every_pass(actions: Iterable[Action]) -> Iterator[Set]:
-    for action in actions:
+    for action in [action for action in actions if type(action) is Set or type(action) is Guard]:
         if isinstance(action, Set):
             yield action
         elif isinstance(action, Guard) and action.kind == "if":

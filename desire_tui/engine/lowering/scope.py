@@ -29,7 +29,7 @@ def size_of(quantity: Quantity) -> int:
 
 def _are_real_scalars(quantities: Iterable[Quantity | None]) -> bool:
     """Whether all that are there are scalars of kind REAL."""
-    return all(q is None or (not q.shape and q.kind is Kind.REAL) for q in quantities)
+    return not [q for q in quantities if q is not None and (q.shape or q.kind is not Kind.REAL)]
 
 
 class SegmentScope(Protocol):

@@ -93,7 +93,7 @@ def lower_segment(
     context.rule = rule if builder.states.ranges else 0
     _ready_from_start(builder, lines)
     ranges = builder.states.ranges
-    if ranges and ("t" in context.assigned or any(states.name == "t" for states in ranges)):
+    if ranges and ("t" in context.assigned or "t" in [states.name for states in ranges]):
         _refuse_to_set_time(context, [*lines, *jacobian_lines])
     with handing_over(context.problems, lambda: context.span(node).start):
         done = 0

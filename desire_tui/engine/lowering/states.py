@@ -18,7 +18,7 @@ class StateTable:
     """
 
     def __init__(self, lines: Sequence[StateRange]) -> None:
-        if all(line.count == 1 for line in lines) and len({line.slot for line in lines}) == len(lines):
+        if {line.count for line in lines} <= {1} and len({line.slot for line in lines}) == len(lines):
             self.ranges = list(lines)
         else:
             self.ranges = _merged(lines)
