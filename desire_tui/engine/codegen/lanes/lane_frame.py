@@ -60,7 +60,7 @@ _LOADED = (
     ("counts", "ptr"), ("flagged", "ptr"), ("groups", "i64"),
 )  # fmt: skip
 _FRAME = """
-define i32 @{name}(ptr %a) #0 {{
+define i32 @{name}(ptr %a) alignstack(64) #0 {{
 entry:
 {loads}
   %pstop = getelementptr i8, ptr %a, i64 {stop}
