@@ -10,7 +10,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen.exact_functions import compiled, hyperbolic_tangent, sine_and_cosine
+from desire_tui.engine.codegen.exact_functions import compiled, hyperbolic_tangent, lookups, sine_and_cosine
+from desire_tui.engine.codegen.exact_functions.angles import sines_and_cosines, step
 from desire_tui.engine.codegen.exact_functions.constants import half_pi, ln_2
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.studies import chunk as chunks
@@ -68,9 +69,40 @@ def test_constants_have_all_their_bits():
     ) < Fraction(1, 10**59)
 
 
+def test_sines_and_cosines_have_all_their_bits():
+    for k, (sine, cosine) in enumerate(sines_and_cosines()):
+        x = k * math.pi / 16
+        assert sine[0] == pytest.approx(math.sin(x), abs=1e-15)
+        assert cosine[0] == pytest.approx(math.cos(x), abs=1e-15)
+        sine_squared, cosine_squared = ((Fraction(high) + Fraction(low)) ** 2 for high, low in (sine, cosine))
+        assert abs(sine_squared + cosine_squared - 1) < Fraction(1, 2**104)
+
+
+def test_multiples_are_taken_away_without_error():
+    first, second, third = map(Fraction, step())
+    assert abs(first + second + third - half_pi() / 8) < Fraction(1, 2**142)
+    for turns in (2**20, 2**20 - 1, 699_051):
+        assert Fraction(float(turns * second)) == turns * second
+
+
+@pytest.mark.usefixtures("afresh")
+def test_tables_in_memory_give_what_tables_in_registers_do(monkeypatch):
+    width = 2 * machine().width
+    function = compiled.exact_function("sincos", width)
+    if function is None:
+        return
+    monkeypatch.setattr(compiled, "_known", {})
+    monkeypatch.setattr(lookups, "_REGISTER", 0)
+    other = compiled.exact_function("sincos", width)
+    assert other is not None
+    x = arguments(5)
+    assert np.array_equal(function.of(x), other.of(x), equal_nan=True)
+
+
 @pytest.mark.usefixtures("afresh")
 def test_a_function_that_differs_from_the_library_is_not_used(monkeypatch):
-    monkeypatch.setattr(sine_and_cosine, "_BAND", 0.0)  # nothing is in doubt
+    monkeypatch.setattr(sine_and_cosine, "_band", lambda _: 0.0)  # nothing is in doubt
+    monkeypatch.setattr(sine_and_cosine, "_RELATIVE", 0.0)
     monkeypatch.setattr(hyperbolic_tangent, "_ONE_FROM", 3.0)
     width = 2 * machine().width
     assert compiled.exact_function("sin", width) is None

@@ -12,8 +12,8 @@ from math import factorial
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.exact_functions.constants import ln_2
-from desire_tui.engine.codegen.exact_functions.pairs import Pair, Pairs, split
-from desire_tui.engine.codegen.exact_functions.rounding_test import outside, rounded
+from desire_tui.engine.codegen.exact_functions.pairs import Pairs, split
+from desire_tui.engine.codegen.exact_functions.rounding_test import Result, beyond, rounded
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.lanes import Lanes
@@ -25,8 +25,8 @@ _BAND = 0.014 * 2.0**-52
 _TERMS = 16
 
 
-def exponential(lanes: Lanes) -> tuple[str, str]:
-    """Return exp of `%x` and the flags of those in doubt."""
+def exponential(lanes: Lanes) -> Result:
+    """Return exp of `%x`."""
     text, pairs, x = lanes.text, Pairs(lanes), "%x"
     shifted = pairs.fma(x, lanes.const(float(1 / ln_2())), lanes.const(_MAGIC))
     whole = lanes.sub(shifted, lanes.const(_MAGIC))
@@ -40,13 +40,13 @@ def exponential(lanes: Lanes) -> tuple[str, str]:
     grown = pairs.sum(high, change.high)
     total = pairs.sum(lanes.const(1.0), grown.high)
     small = lanes.add(grown.low, pairs.fma(low, total.high, change.low))
-    found = Pair(total.high, lanes.add(total.low, small))
-    half = lanes.compare("olt", found.high, lanes.const(1.0))
+    half = lanes.compare("olt", total.high, lanes.const(1.0))
     band = lanes.choose(half, lanes.const(_BAND / 2), lanes.const(_BAND))
-    value, doubt = rounded(lanes, found, band)
-    doubt = text.op(f"or {lanes.flags} {doubt}, {outside(lanes, x, -_MOST, _MOST)}")
+    value, doubt = rounded(lanes, total, small, band)
+    far = beyond(lanes, lanes.intrinsic("fabs", x), _MOST)
+    doubt = text.op(f"or {lanes.integers} {doubt}, {far}")
     power = text.op(f"bitcast {lanes.kind} {shifted} to {lanes.integers}")
     power = text.op(f"shl {lanes.integers} {power}, {lanes.integer(52)}")
     bits = text.op(f"bitcast {lanes.kind} {value} to {lanes.integers}")
     bits = text.op(f"add {lanes.integers} {bits}, {power}")
-    return text.op(f"bitcast {lanes.integers} {bits} to {lanes.kind}"), doubt
+    return Result(text.op(f"bitcast {lanes.integers} {bits} to {lanes.kind}"), doubt)

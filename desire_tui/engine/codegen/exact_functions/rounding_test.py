@@ -8,7 +8,9 @@ mathematical functions with correctly rounded last bit", ACM TOMS 17, 1991).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
+
+from desire_tui.engine.codegen.jit.compiler import machine
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,59 +19,89 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.lanes import Lanes
 
 
-def rounded(lanes: Lanes, value: Pair, band: str) -> tuple[str, str]:
-    """Return the rounded value and the flags of the elements in doubt; `band` is e + d."""
-    above = lanes.add(value.high, lanes.add(value.low, band))
-    below = lanes.add(value.high, lanes.sub(value.low, band))
-    return below, lanes.compare("one", above, below)
+class Result(NamedTuple):
+    """What a function gives, as vectors."""
+
+    value: str
+    doubt: str
+    """Integers; not 0 where the element is in doubt."""
 
 
-def outside(lanes: Lanes, x: str, least: float, most: float) -> str:
-    """Return the flags of elements that are not within [least, most]; nan is not outside."""
-    low = lanes.compare("olt", x, lanes.const(least))
-    high = lanes.compare("ogt", x, lanes.const(most))
-    return lanes.text.op(f"or {lanes.flags} {low}, {high}")
+def rounded(lanes: Lanes, value: Pair, rest: str, band: str) -> Result:
+    """Return value + rest, rounded; `band` is e + d."""
+    text = lanes.text
+    above = lanes.add(value.high, lanes.add(rest, lanes.add(value.low, band)))
+    below = lanes.add(value.high, lanes.add(rest, lanes.sub(value.low, band)))
+    bits = [text.op(f"bitcast {lanes.kind} {end} to {lanes.integers}") for end in (above, below)]
+    return Result(below, text.op(f"xor {lanes.integers} {bits[0]}, {bits[1]}"))
 
 
-def function_text(name: str, lanes: Lanes, results: Sequence[tuple[str, str]], library: Sequence[str]) -> str:
+def beyond(lanes: Lanes, size: str, most: float) -> str:
+    """Return integers that are not 0 where a number is larger than `most`; nan is not."""
+    limit = lanes.const(most)
+    excess = lanes.sub(lanes.larger(size, limit), limit)
+    return lanes.text.op(f"bitcast {lanes.kind} {excess} to {lanes.integers}")
+
+
+def function_text(name: str, lanes: Lanes, results: Sequence[Result], library: Sequence[str]) -> str:
     """Return the function NAME: vectors computed for the argument `%x`, elements in doubt by the library.
 
-    `results` are (values, flags in doubt); `library` the functions of one number that are asked. One result
-    is returned as it is, several as a structure.
+    `library` are the functions of one number that are asked. One result is returned as it is, several as a
+    structure.
     """
     text = lanes.text
-    finished = []
-    for number, ((value, doubt), function) in enumerate(zip(results, library, strict=True)):
-        bits = text.op(f"bitcast {lanes.flags} {doubt} to i{lanes.width}")
-        some = text.op(f"icmp ne i{lanes.width} {bits}, 0")
-        before = f"seen{number}"
-        text.jump(before)
-        text.begin(before)
-        text.branch(some, f"ask{number}", f"known{number}")
-        text.begin(f"ask{number}")
+    text.branch(_any(lanes, [result.doubt for result in results]), "ask", "known")
+    text.begin("ask")
+    asked = []
+    for result, function in zip(results, library, strict=True):
+        flags = text.op(f"icmp ne {lanes.integers} {result.doubt}, {lanes.integer(0)}")
+        bits = text.op(f"bitcast {lanes.flags} {flags} to i{lanes.width}")
         text.declarations.add(_asking(function, lanes.width))
-        asked = text.op(
-            f"call {lanes.kind} @asked.{function}.{lanes.width}({lanes.kind} %x, {lanes.kind} {value},"
-            f" i{lanes.width} {bits})"
-        )
-        text.jump(f"known{number}")
-        text.begin(f"known{number}")
-        finished.append(text.op(f"phi {lanes.kind} [ {value}, %{before} ], [ {asked}, %ask{number} ]"))
-    if len(finished) == 1:
-        kind, result = lanes.kind, finished[0]
-    else:
-        kind = f"{{ {', '.join([lanes.kind] * len(finished))} }}"
-        result = "poison"
-        for number, value in enumerate(finished):
-            result = text.op(f"insertvalue {kind} {result}, {lanes.kind} {value}, {number}")
-    text.do(f"ret {kind} {result}")
-    return f"define {kind} @{name}({lanes.kind} %x) #1 {{\n{text.body()}\n}}"
+        given = f"{lanes.kind} %x, {lanes.kind} {result.value}, i{lanes.width} {bits}"
+        asked.append(text.op(f"call {lanes.kind} @asked.{function}.{lanes.width}({given})"))
+    _return(lanes, asked)
+    text.begin("known")
+    kind = _return(lanes, [result.value for result in results])
+    return f"define {kind} @{name}({lanes.kind} %x) alignstack(64) #1 {{\n{text.body()}\n}}"
+
+
+def _return(lanes: Lanes, values: Sequence[str]) -> str:
+    """Return values; say of which kind they are together."""
+    if len(values) == 1:
+        lanes.text.do(f"ret {lanes.kind} {values[0]}")
+        return lanes.kind
+    kind = f"{{ {', '.join([lanes.kind] * len(values))} }}"
+    whole = "poison"
+    for number, value in enumerate(values):
+        whole = lanes.text.op(f"insertvalue {kind} {whole}, {lanes.kind} {value}, {number}")
+    lanes.text.do(f"ret {kind} {whole}")
+    return kind
+
+
+def _any(lanes: Lanes, doubts: Sequence[str]) -> str:
+    """Return whether some element is in doubt: vectors are joined first, and looked at once."""
+    text, width, kind = lanes.text, lanes.width, lanes.integers
+    joined = doubts[0]
+    for doubt in doubts[1:]:
+        joined = text.op(f"or {kind} {joined}, {doubt}")
+    while width > machine().width:
+        whole, width = kind, width // 2
+        kind = f"<{width} x i64>"
+        parts = []
+        for first in (0, width):
+            places = ", ".join(f"i32 {first + k}" for k in range(width))
+            parts.append(
+                text.op(f"shufflevector {whole} {joined}, {whole} poison, <{width} x i32> <{places}>")
+            )
+        joined = text.op(f"or {kind} {parts[0]}, {parts[1]}")
+    flags = text.op(f"icmp ne {kind} {joined}, zeroinitializer")
+    bits = text.op(f"bitcast <{width} x i1> {flags} to i{width}")
+    return text.op(f"icmp ne i{width} {bits}, 0")
 
 
 def _asking(function: str, width: int) -> str:
     """Return a function that puts the library's results where a bit is set."""
-    kind, bits, whole = f"<{width} x double>", f"i{width}", f"<{width} x i32>"
-    places = ", ".join(f"i32 {place}" for place in range(width))
+    kind, bits, flags = f"<{width} x double>", f"i{width}", f"<{width} x i1>"
     head = f"define internal {kind} @asked.{function}.{width}({kind} %x, {kind} %y, {bits} %which)"
     return f"""{head} noinline #1 {{
 entry:
@@ -77,24 +109,24 @@ entry:
   store {kind} %x, ptr %arguments
   br label %next
 next:
-  %left = phi {bits} [ %which, %entry ], [ %rest, %next ]
-  %known = phi {kind} [ %y, %entry ], [ %more, %next ]
+  %left = phi {bits} [ %which, %entry ], [ %rest, %ask ]
+  %known = phi {kind} [ %y, %entry ], [ %more, %ask ]
+  %none = icmp eq {bits} %left, 0
+  br i1 %none, label %done, label %ask
+ask:
   %at = call {bits} @llvm.cttz.{bits}({bits} %left, i1 true)
   %place = zext {bits} %at to i64
   %from = getelementptr double, ptr %arguments, i64 %place
   %argument = load double, ptr %from
   %result = call double @desire.{function}.1(double %argument)
-  %short = trunc i64 %place to i32
-  %one = insertelement {whole} poison, i32 %short, i64 0
-  %all = shufflevector {whole} %one, {whole} poison, {whole} zeroinitializer
-  %here = icmp eq {whole} %all, <{places}>
   %first = insertelement {kind} poison, double %result, i64 0
-  %results = shufflevector {kind} %first, {kind} poison, {whole} zeroinitializer
-  %more = select <{width} x i1> %here, {kind} %results, {kind} %known
+  %results = shufflevector {kind} %first, {kind} poison, <{width} x i32> zeroinitializer
   %less = sub {bits} %left, 1
   %rest = and {bits} %left, %less
-  %none = icmp eq {bits} %rest, 0
-  br i1 %none, label %done, label %next
+  %one = xor {bits} %left, %rest
+  %here = bitcast {bits} %one to {flags}
+  %more = select {flags} %here, {kind} %results, {kind} %known
+  br label %next
 done:
-  ret {kind} %more
+  ret {kind} %known
 }}"""

@@ -1,40 +1,57 @@
 """sin and cos of many numbers, with the bits of glibc's.
 
-Arguments are reduced by multiples of π/2 to |r| ≤ π/4 as pairs of doubles (Cody and Waite, fused), both
-functions are Taylor sums whose first terms are pairs. What is not a pair is the sum behind x³/6: its
-roundings, 2⁻⁶⁰ and 2⁻⁶¹ at most, times r³ leave less than 2.2·2⁻⁶². glibc (2.28 and later) adds one
-correction of at most 2⁻⁸ to an entry of a table of sines at multiples of 1/128 (Gal and Bachelis 1991); the
-three or four roundings of half a unit in that correction amount to less than 3.6·2⁻⁶². Where the result is
-below 1/8, glibc says 0.501 units of the last place.
+|x| = kπ/16 + r, |r| ≤ π/32, where r is a pair of doubles (Cody and Waite, fused). With the sine S and the
+cosine C of the multiple, sin x = S·cos r + C·sin r is
+
+    S + t + t·r²·P + S·r⁴·Q,  t = r·(C - S·r/2),  P = (sin r - r)/r³,  Q = (cos r - 1 + r²/2)/r⁴ + P/2
+
+where only S + t is made without error; the rest is at most r³/6 < 2⁻¹²·⁵ (P. T. P. Tang, "Table-lookup
+algorithms for elementary functions and their error analysis", 10th IEEE Symposium on Computer Arithmetic,
+1991). cos x is the same with C for S and -S for C. What depends on what is as short as can be: runs wait for
+the result.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
 from functools import cache
-from math import factorial
-from typing import TYPE_CHECKING
+from math import ceil, cos, factorial, log2, pi
+from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.codegen.exact_functions.angles import sines_and_cosines, step
 from desire_tui.engine.codegen.exact_functions.constants import half_pi
-from desire_tui.engine.codegen.exact_functions.pairs import Pair, Pairs, split
-from desire_tui.engine.codegen.exact_functions.rounding_test import rounded
+from desire_tui.engine.codegen.exact_functions.lookups import SIZE, looked_up, second_of, two_in_one
+from desire_tui.engine.codegen.exact_functions.pairs import Pair, Pairs
+from desire_tui.engine.codegen.exact_functions.rounding_test import Result, beyond, rounded
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.lanes import Lanes
 
-_MOST = 2.0**20
-"""Larger arguments are the library's: reduction by three doubles is exact enough up to here."""
-_LEAST = 2.0**-30
-"""So near, for each multiple of π/2 taken away, the reduced argument loses too many bits."""
+_MOST = 2.0**17
+"""Larger arguments are the library's: of so many multiples two parts are taken away without error."""
 _MAGIC = 1.5 * 2.0**52
 """Added and taken away: rounds to a whole number, whose last bits it shows."""
-_BAND = 1.5 * 2.0**-60
-_SMALL, _RELATIVE = 0.125, 2.0**-60
+_OWN = 0.6 * 2.0**-62
+"""Our error: three roundings in r³·P, and four of sums of at most 2⁻¹²·⁵."""
+_ONCE = 0.8
+_RELATIVE = 1.4 * 2.0**-60
+"""Of r where S is 0: three roundings in r³·P and two of sums; glibc says 0.501 units of the last place."""
 
 
-def _term(n: int) -> Fraction:
-    """Return a coefficient of Taylor's series: ±1/n!."""
-    return Fraction((-1) ** (n // 2), factorial(n))
+def _band(angle: int) -> float:
+    """Return how far from ours a number may be that glibc rounds to sin x, |x| being near angle·π/16.
+
+    glibc (2.28 and later) adds a correction to an entry of a table of sines at multiples of 1/128 (Gal and
+    Bachelis 1991). The correction is D·s with |s| ≤ 2⁻⁸ and D the derivative at that multiple. It is rounded
+    twice, at most by 2⁻⁶² each and by less if it is smaller; s once or, in what glibc does where D < 0.77,
+    twice.
+    """
+    if not angle:
+        return 0.0  # `_RELATIVE` holds
+    slope = min(cos((angle - 0.5) * pi / SIZE) + 0.01, 1.0)
+    most = 2.0 ** ceil(log2(slope))
+    roundings = 2 * most + (slope if slope > _ONCE else 2 * min(slope, 0.77))
+    return roundings * 2.0**-62 + _OWN
 
 
 def _economized(terms: list[Fraction], most: Fraction) -> list[Fraction]:
@@ -54,80 +71,89 @@ def _economized(terms: list[Fraction], most: Fraction) -> list[Fraction]:
 
 
 @cache
-def _series(least: int) -> list[Fraction]:
-    """Return Taylor's series from x⁵ or x⁶ on, in powers of x²: 2⁻⁶⁴ off."""
-    return _economized([_term(n) for n in range(least, least + 13, 2)], (half_pi() / 2) ** 2)
-
-
-def sine(pairs: Pairs, r: Pair, square: Pair) -> Pair:
-    """Return sin r for |r| ≤ π/4."""
-    lanes = pairs.lanes
-    factor = pairs.by(square, pairs.series(square.high, _term(3), _series(5)))
-    change = pairs.by(r, factor)
-    total = pairs.sum(r.high, change.high)
-    return Pair(total.high, lanes.add(total.low, lanes.add(change.low, r.low)))
-
-
-def cosine(pairs: Pairs, square: Pair) -> Pair:
-    """Return cos r for |r| ≤ π/4."""
-    inner = pairs.by(square, pairs.series(square.high, _term(4), _series(6)))
-    return pairs.constant_plus(Fraction(1), pairs.by(square, pairs.constant_plus(_term(2), inner)))
+def _series() -> tuple[list[Fraction], list[Fraction]]:
+    """Return P and 2·Q as polynomials in r²: 2⁻⁶⁹ and less off."""
+    odd, even = ([Fraction((-1) ** (n // 2), factorial(n)) for n in range(k, k + 10, 2)] for k in (3, 4))
+    both = [2 * a + b for a, b in zip(even, odd, strict=True)]
+    most = Fraction(1, 100)
+    return _economized(odd, most), _economized(both, most)
 
 
 class SineAndCosine:
-    """Both functions of the argument `%x`, as pairs."""
+    """Both functions of the argument `%x`."""
 
     def __init__(self, lanes: Lanes) -> None:
         self.lanes, self.pairs = lanes, Pairs(lanes)
-        self._x = "%x"
-        size = lanes.intrinsic("fabs", self._x)
-        text, pairs = lanes.text, self.pairs
-        shifted = pairs.fma(size, lanes.const(float(1 / half_pi())), lanes.const(_MAGIC))
-        turns = lanes.sub(shifted, lanes.const(_MAGIC))
-        self._quadrant = text.op(f"bitcast {lanes.kind} {shifted} to {lanes.integers}")
-        reduced = self._reduce(size, lanes.neg(turns))
-        square = pairs.product(reduced.high, reduced.high)
-        doubled = lanes.add(reduced.high, reduced.high)
-        square = Pair(square.high, pairs.fma(doubled, reduced.low, square.low))
-        self._sine, self._cosine = sine(pairs, reduced, square), cosine(pairs, square)
-        large = lanes.compare("ogt", size, lanes.const(_MOST))
-        least = lanes.mul(turns, lanes.const(_LEAST))
-        near = lanes.compare("olt", lanes.intrinsic("fabs", reduced.high), least)
-        self._strange = text.op(f"or {lanes.flags} {large}, {near}")
+        pairs = self.pairs
+        self._size = lanes.intrinsic("fabs", "%x")
+        shifted = pairs.fma(self._size, lanes.const(float(8 / half_pi())), lanes.const(_MAGIC))
+        self._index = lanes.text.op(f"bitcast {lanes.kind} {shifted} to {lanes.integers}")
+        self._r = self._reduce(lanes.sub(shifted, lanes.const(_MAGIC)))
+        self._sine, self._cosine = self._table()
+        square = lanes.mul(self._r.high, self._r.high)
+        fourth = lanes.mul(square, square)
+        odd, even = (self._polynomial(square, fourth, series) for series in _series())
+        self._square, self._odd, self._fourth, self._even = square, odd, fourth, even
 
-    def _reduce(self, x: str, turns: str) -> Pair:
-        """Return x + turns·π/2: the first product cancels without error."""
+    def _reduce(self, turns: str) -> Pair:
+        """Return |x| - turns·π/16, all but the last product without error."""
         lanes, pairs = self.lanes, self.pairs
-        first, _ = split(half_pi())
-        second, _ = split(half_pi() - Fraction(first))
-        third = float(half_pi() - Fraction(first) - Fraction(second))
-        near = pairs.fma(turns, lanes.const(first), x)
-        by = pairs.product(turns, lanes.const(second))
-        total = pairs.sum(near, by.high)
-        return Pair(total.high, lanes.add(total.low, pairs.fma(turns, lanes.const(third), by.low)))
+        first, second, third = (lanes.const(-part) for part in step())
+        near = pairs.fma(turns, first, self._size)
+        high = pairs.fma(turns, second, near)
+        low = pairs.fma(turns, second, lanes.sub(near, high))
+        return Pair(high, pairs.fma(turns, third, low))
 
-    def result(self, name: str) -> tuple[str, str]:
-        """Return the values of `sin` or `cos` and the flags of those in doubt."""
-        lanes, text = self.lanes, self.lanes.text
-        quadrant = self._quadrant
+    def _table(self) -> tuple[_Entry, _Entry]:
+        """Look up sine and cosine of the multiple."""
+        lanes = self.lanes
+        values = sines_and_cosines()
+        halves = [[pair[part][0] / 2 for pair in values] for part in (0, 1)]
+        lows = [two_in_one(sine[1], cosine[1]) for sine, cosine in values]
+        bands = [two_in_one(_band(abs(SIZE // 2 - k)), _band(min(k, SIZE - k))) for k in range(SIZE)]
+        sine, cosine, low, band = looked_up(lanes, self._index, [*halves, lows, bands])
+        return _Entry(sine, low, second_of(lanes, band)), _Entry(cosine, second_of(lanes, low), band)
+
+    def _polynomial(self, x: str, square: str, c: list[Fraction]) -> str:
+        """Return c0 + c1·x + x²·(c2 + c3·x)."""
+        pairs, lanes = self.pairs, self.lanes
+        first, last = (pairs.fma(x, lanes.const(float(c[k + 1])), lanes.const(float(c[k]))) for k in (0, 2))
+        return pairs.fma(square, last, first)
+
+    def result(self, name: str) -> Result:
+        """Return `sin` or `cos`."""
+        lanes, pairs, text, r = self.lanes, self.pairs, self.lanes.text, self._r
+        own, other = self._sine, self._cosine
         if name == "cos":
-            quadrant = text.op(f"add {lanes.integers} {quadrant}, {lanes.integer(1)}")
-        odd = text.op(f"trunc {lanes.integers} {quadrant} to {lanes.flags}")
-        found = Pair(
-            lanes.choose(odd, self._cosine.high, self._sine.high),
-            lanes.choose(odd, self._cosine.low, self._sine.low),
+            own, other = other, _Entry(lanes.neg(own.half), lanes.neg(own.low), own.band)
+        less, base, derivative = (
+            lanes.neg(own.half),
+            lanes.add(own.half, own.half),
+            lanes.add(other.half, other.half),
         )
-        size = lanes.intrinsic("fabs", found.high)
-        small = lanes.compare("olt", size, lanes.const(_SMALL))
-        band = lanes.choose(small, lanes.mul(size, lanes.const(_RELATIVE)), lanes.const(_BAND))
-        value, doubt = rounded(lanes, found, band)
-        doubt = text.op(f"or {lanes.flags} {doubt}, {self._strange}")
-        half = text.op(f"and {lanes.integers} {quadrant}, {lanes.integer(2)}")
-        sign = text.op(f"shl {lanes.integers} {half}, {lanes.integer(62)}")
+        slope = pairs.fma(less, r.high, derivative)
+        left = pairs.fma(less, r.high, lanes.sub(derivative, slope))
+        change = pairs.times(r.high, Pair(slope, left))
+        total = pairs.sum(base, change.high)
+        low = pairs.fma(pairs.fma(less, r.high, slope), r.low, pairs.fma(other.low, r.high, own.low))
+        low = pairs.fma(lanes.mul(own.half, self._fourth), self._even, low)
+        low = lanes.add(low, pairs.fma(lanes.mul(change.high, self._square), self._odd, change.low))
+        relative = lanes.mul(lanes.intrinsic("fabs", r.high), lanes.const(_RELATIVE))
+        value, doubt = rounded(lanes, total, low, lanes.larger(relative, own.band))
+        doubt = text.op(f"or {lanes.integers} {doubt}, {beyond(lanes, self._size, _MOST)}")
+        bits = text.op(f"shl {lanes.integers} {self._index}, {lanes.integer(59)}")
+        if name == "sin":
+            argument = text.op(f"bitcast {lanes.kind} %x to {lanes.integers}")
+            bits = text.op(f"xor {lanes.integers} {bits}, {argument}")
+        sign = text.op(f"and {lanes.integers} {bits}, {lanes.integer(-(2**63))}")
         bits = text.op(f"bitcast {lanes.kind} {value} to {lanes.integers}")
         bits = text.op(f"xor {lanes.integers} {bits}, {sign}")
-        if name == "sin":
-            own = text.op(f"bitcast {lanes.kind} {self._x} to {lanes.integers}")
-            own = text.op(f"and {lanes.integers} {own}, {lanes.integer(-(2**63))}")
-            bits = text.op(f"xor {lanes.integers} {bits}, {own}")
-        return text.op(f"bitcast {lanes.integers} {bits} to {lanes.kind}"), doubt
+        return Result(text.op(f"bitcast {lanes.integers} {bits} to {lanes.kind}"), doubt)
+
+
+class _Entry(NamedTuple):
+    """Of a sine: its half, what its double lacks, and the band of the rounding test."""
+
+    half: str
+    low: str
+    band: str

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.exact_functions.exponential import exponential
 from desire_tui.engine.codegen.exact_functions.hyperbolic_tangent import hyperbolic_tangent
-from desire_tui.engine.codegen.exact_functions.rounding_test import function_text
+from desire_tui.engine.codegen.exact_functions.rounding_test import Result, function_text
 from desire_tui.engine.codegen.exact_functions.sine_and_cosine import SineAndCosine
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import IrText
@@ -26,19 +26,19 @@ class Written(NamedTuple):
     library: tuple[str, ...]
 
 
-def ways(name: str) -> Sequence[Callable[[Lanes], list[tuple[str, str]]]]:
+def ways(name: str) -> Sequence[Callable[[Lanes], list[Result]]]:
     """Return the ways to compute a function: C libraries differ in what they compute."""
     if name == "exp":
         return (lambda lanes: [exponential(lanes)],)
     if name == "tanh":
         return tuple(
-            lambda lanes, fused=fused: [(hyperbolic_tangent(lanes, fused=fused), "zeroinitializer")]
+            lambda lanes, fused=fused: [Result(hyperbolic_tangent(lanes, fused=fused), "zeroinitializer")]
             for fused in (True, False)
         )
     return (lambda lanes: [*map(SineAndCosine(lanes).result, _library(name))],)
 
 
-def written(name: str, symbol: str, width: int, way: Callable[[Lanes], list[tuple[str, str]]]) -> Written:
+def written(name: str, symbol: str, width: int, way: Callable[[Lanes], list[Result]]) -> Written:
     """Return the function `symbol`, computed in a way."""
     lanes = Lanes(IrText(), width)
     library = _library(name)

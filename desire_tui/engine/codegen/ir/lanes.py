@@ -63,6 +63,10 @@ class Lanes:
         """Return yes where the flag is set, else no."""
         return self.text.op(f"select {self.flags} {flags}, {self.kind} {yes}, {self.kind} {no}")
 
+    def larger(self, a: str, b: str) -> str:
+        """Return the larger one; b if a is not a number."""
+        return self.choose(self.compare("ogt", a, b), a, b)
+
     def intrinsic(self, name: str, a: str) -> str:
         """Call an exactly defined function of LLVM's own: sqrt, fabs, round, trunc."""
         function = f"llvm.{name}.{self.suffix}"

@@ -1,0 +1,99 @@
+"""Tables of sixteen numbers, looked up for each element of a vector.
+
+With AVX-512 a table is two registers, and one instruction (`vpermi2pd`) picks eight elements. Elsewhere
+tables lie side by side in memory, and each element's row is loaded as a vector: gathering takes twice as
+long.
+"""
+
+from __future__ import annotations
+
+import struct
+from hashlib import blake2b
+from typing import TYPE_CHECKING
+
+from desire_tui.engine.codegen.ir.text import literal
+from desire_tui.engine.codegen.jit.compiler import machine
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from desire_tui.engine.codegen.ir.lanes import Lanes
+
+SIZE = 16
+_REGISTER = 8
+_ROW = 4
+_PICK = "llvm.x86.avx512.vpermi2var.pd.512"
+
+
+def looked_up(lanes: Lanes, index: str, tables: Sequence[Sequence[float]]) -> list[str]:
+    """Return, for each of four tables, table[index mod 16] for each element of the integers `index`."""
+    if machine().width == _REGISTER and lanes.width % _REGISTER == 0:
+        return [_picked(lanes, index, table) for table in tables]
+    return _loaded(lanes, index, tables)
+
+
+def two_in_one(first: float, second: float) -> float:
+    """Return a table's entry that holds two numbers, of 20 bits each: itself, and `second_of` it."""
+    upper, lower = (struct.unpack("<Q", struct.pack("<d", value))[0] >> 32 for value in (first, second))
+    return float(struct.unpack("<d", struct.pack("<Q", upper << 32 | lower))[0])
+
+
+def second_of(lanes: Lanes, entry: str) -> str:
+    """Return the second of two numbers in one."""
+    text = lanes.text
+    bits = text.op(f"bitcast {lanes.kind} {entry} to {lanes.integers}")
+    bits = text.op(f"shl {lanes.integers} {bits}, {lanes.integer(32)}")
+    return text.op(f"bitcast {lanes.integers} {bits} to {lanes.kind}")
+
+
+def _picked(lanes: Lanes, index: str, table: Sequence[float]) -> str:
+    text, part, whole = lanes.text, f"<{_REGISTER} x double>", f"<{_REGISTER} x i64>"
+    text.declarations.add(f"declare {part} @{_PICK}({part}, {whole}, {part})")
+    low, high = (_constant(table[first : first + _REGISTER]) for first in (0, _REGISTER))
+    parts = []
+    for first in range(0, lanes.width, _REGISTER):
+        own = _shuffled(lanes, lanes.integers, index, "poison", range(first, first + _REGISTER))
+        parts.append(text.op(f"call {part} @{_PICK}({part} {low}, {whole} {own}, {part} {high})"))
+    return _joined(lanes, parts, _REGISTER)
+
+
+def _loaded(lanes: Lanes, index: str, tables: Sequence[Sequence[float]]) -> list[str]:
+    """Load a row of four numbers for each element, and transpose the rows of four elements."""
+    text, kind = lanes.text, f"<{_ROW} x double>"
+    rows = ", ".join(f"{kind} {_constant(row)}" for row in zip(*tables, strict=True))
+    name = f"@table.{blake2b(rows.encode(), digest_size=6).hexdigest()}"
+    text.declarations.add(f"{name} = internal constant [{SIZE} x {kind}] [{rows}], align 64")
+    place = text.op(f"and {lanes.integers} {index}, {lanes.integer(SIZE - 1)}")
+    found: list[list[str]] = [[] for _ in tables]
+    for first in range(0, lanes.width, _ROW):
+        r = []
+        for lane in range(first, first + _ROW):
+            own = text.op(f"extractelement {lanes.integers} {place}, i64 {lane}")
+            at = text.op(f"getelementptr {kind}, ptr {name}, i64 {own}")
+            r.append(text.op(f"load {kind}, ptr {at}, align 32"))
+        pairs = [
+            _shuffled(lanes, kind, r[k], r[k + 1], (odd, 4 + odd, 2 + odd, 6 + odd))
+            for odd in (0, 1)
+            for k in (0, 2)
+        ]
+        for number, parts in enumerate(found):
+            a, b = pairs[2 * (number % 2) :][:2]
+            parts.append(_shuffled(lanes, kind, a, b, (0, 1, 4, 5) if number < _ROW // 2 else (2, 3, 6, 7)))
+    return [_joined(lanes, parts, _ROW) for parts in found]
+
+
+def _joined(lanes: Lanes, parts: list[str], size: int) -> str:
+    while len(parts) > 1:
+        kind, places = f"<{size} x double>", range(2 * size)
+        parts = [_shuffled(lanes, kind, a, b, places) for a, b in zip(parts[::2], parts[1::2], strict=True)]
+        size *= 2
+    return parts[0]
+
+
+def _shuffled(lanes: Lanes, kind: str, a: str, b: str, places: Sequence[int]) -> str:
+    listed = ", ".join(f"i32 {place}" for place in places)
+    return lanes.text.op(f"shufflevector {kind} {a}, {kind} {b}, <{len(places)} x i32> <{listed}>")
+
+
+def _constant(values: Sequence[float]) -> str:
+    return "<" + ", ".join(f"double {literal(value)}" for value in values) + ">"
