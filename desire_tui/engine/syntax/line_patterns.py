@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.syntax import shapes
 from desire_tui.engine.syntax.statement_tokens import NAME, NUMBER
+from desire_tui.engine.syntax.tokens import INFINITE_MIN
 from desire_tui.engine.syntax.words import KEYWORDS
 
 if TYPE_CHECKING:
@@ -41,10 +42,11 @@ _NAMES = re.compile(_NAME_TEXT)
 _NUMBERS = re.compile(_NUMBER_TEXT)
 _WORDS = re.compile(f"{_NAME_TEXT}|{_NUMBER_TEXT}")
 _LOGICAL = frozenset({"and", "or", "not"})
-
-
-class _TooLarge(Exception):  # noqa: N818 - control flow
-    """A number that is infinite."""
+_DERIVATIVE_HEADS = frozenset(KEYWORDS)
+_HEADS = _DERIVATIVE_HEADS | {"d"}
+"""What means more than a name at the start of a line; a derivative's `d` is told by its layout."""
+_DIGITS_MOST = 300
+"""Numbers with fewer, and without an exponent, are finite."""
 
 
 class _Pattern(NamedTuple):
@@ -56,11 +58,12 @@ class _Pattern(NamedTuple):
 
 
 class _Layout(NamedTuple):
-    """Where the words of a line stand, and their lengths added up."""
+    """Where the words of a line stand, their lengths added up, and what the first must not be."""
 
     pattern: _Pattern
     words: Callable[[str], tuple[str, ...]]
     lengths: list[int]
+    heads: frozenset[str]
 
 
 _LAYOUTS_ROOM = 2000
@@ -83,28 +86,39 @@ def read(line: str) -> tuple[Statement, int] | None:
     if line.startswith(_DERIVATIVE):
         classes = _DERIVATIVE + classes
     layout = _layouts[classes]
-    if layout is not None:
-        words: Sequence[str] = layout.words(line)
-        pattern, lengths = layout.pattern, layout.lengths
-    else:
-        found = _patterns[_skeleton(line)]
-        if found is None:
-            return None
-        pattern, words = found, _WORDS.findall(line)
-        if len(words) != pattern.words or not words:
-            return None
-        lengths = [*accumulate(map(len, words))]
-        if not _layouts_seen[classes]:
-            _layouts_seen.keep(classes, True)
-        elif len(words) > 1:
-            slices = [slice(*word.span()) for word in _WORDS.finditer(line)]
-            _layouts.keep(classes, _Layout(pattern, itemgetter(*slices), lengths))
-    if not _are_plain(line, words):
+    if layout is None:
+        return _read_anew(line, classes)
+    words = layout.words(line)
+    if words[0] in layout.heads or not _LOGICAL.isdisjoint(words):
         return None
-    try:
-        return pattern.make(words, lengths), pattern.base
-    except _TooLarge:
+    pattern = layout.pattern
+    return pattern.make(words, layout.lengths), pattern.base
+
+
+def _read_anew(line: str, classes: str) -> tuple[Statement, int] | None:
+    """Look for the line's words; the second line of a layout is worth keeping it."""
+    pattern = _patterns[_skeleton(line)]
+    if pattern is None:
         return None
+    words = _WORDS.findall(line)
+    if len(words) != pattern.words or not _are_plain(line, words):
+        return None
+    numbers = [word for word in words if not word[0].isalpha()]
+    if any(isinf(float(number)) for number in numbers):
+        return None  # a fault that the tokenizer reports
+    lengths = [*accumulate(map(len, words))]
+    if not _layouts_seen[classes]:
+        _layouts_seen.keep(classes, True)
+    elif len(words) > 1 and all(map(_is_always_finite, numbers)):
+        heads = _DERIVATIVE_HEADS if line.startswith(_DERIVATIVE) else _HEADS
+        places = itemgetter(*(slice(*word.span()) for word in _WORDS.finditer(line)))
+        _layouts.keep(classes, _Layout(pattern, places, lengths, heads))
+    return pattern.make(words, lengths), pattern.base
+
+
+def _is_always_finite(number: str) -> bool:
+    """Whether a number is finite whatever its digits are."""
+    return len(number) < INFINITE_MIN or (len(number) < _DIGITS_MOST and "e" not in number.lower())
 
 
 def learn(line: str, chunk: StatementTokens) -> None:
@@ -122,7 +136,7 @@ def learn(line: str, chunk: StatementTokens) -> None:
     places = _places(line, chunk, words)
     if places is None or not _are_plain(line, words) or not line.isascii():
         return
-    make = shapes.function_of_words(chunk, places, _number)
+    make = shapes.function_of_words(chunk, places)
     if make is not None:
         _patterns.keep(skeleton, _Pattern(len(words), make, chunk.base))
 
@@ -184,11 +198,3 @@ def _places(line: str, chunk: StatementTokens, words: list[str]) -> shapes.WordP
     return shapes.WordPlaces(
         numbers, [place(start) for start in chunk.starts], [place(end) for end in chunk.ends]
     )
-
-
-def _number(text: str) -> float:
-    """Return a number; an infinite one is a fault that the tokenizer reports."""
-    value = float(text)
-    if isinf(value):
-        raise _TooLarge
-    return value

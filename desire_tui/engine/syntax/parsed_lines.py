@@ -46,7 +46,7 @@ def parsed_line(line: str) -> Entry:
 
 def plain_line(line: str) -> Item | None:
     """Return the statement of a line that is one assignment or equation, if that can be found at once."""
-    entry = _lines[line]
+    entry = _lines.get(line)  # older ones are as soon read anew
     found: Item | None = None
     if entry is None:
         found = line_patterns.read(line)

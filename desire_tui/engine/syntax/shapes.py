@@ -60,9 +60,7 @@ def statement(chunk: StatementTokens) -> Statement:
     return maker(chunk)
 
 
-def function_of_words(
-    chunk: StatementTokens, places: WordPlaces, number: Callable[[str], float]
-) -> MakerOfWords | None:
+def function_of_words(chunk: StatementTokens, places: WordPlaces) -> MakerOfWords | None:
     """Return a function of a line's words `v` and their lengths added up, `c`, for statements of this shape.
 
     None for a shape that was not seen before, and for a statement nested too deep.
@@ -70,8 +68,8 @@ def function_of_words(
     pattern = _patterns[tuple(chunk.kinds)]
     if pattern is None:
         return None
-    names: dict[str, Any] = {"octal_value": octal_value, "number": number}
-    code = _Code(names, places, "number")
+    names: dict[str, Any] = {"octal_value": octal_value}
+    code = _Code(names, places)
     try:
         made: MakerOfWords = eval(f"lambda v, c: {code.of(pattern)}", names)  # noqa: S307 - see _Code
     except (SyntaxError, MemoryError, RecursionError):
@@ -149,10 +147,8 @@ class _Code:
     says; without it, `v`, `s` and `e` are the tokens' texts, starts and ends.
     """
 
-    def __init__(
-        self, names: dict[str, Any], places: WordPlaces | None = None, number: str = "float"
-    ) -> None:
-        self._names, self._places, self._number = names, places, number
+    def __init__(self, names: dict[str, Any], places: WordPlaces | None = None) -> None:
+        self._names, self._places = names, places
 
     def of(self, part: Any) -> str:
         """Return the code that makes a part of a pattern."""
@@ -170,7 +166,7 @@ class _Code:
         if isinstance(part, Token):
             return f"v[{self._text(part.number):d}]" + ("[1:-1]" if part.kind == STRING else "")
         if isinstance(part, NumberToken):
-            convert = self._number if part.kind == NUMBER else "octal_value"
+            convert = "float" if part.kind == NUMBER else "octal_value"
             return f"{convert}(v[{self._text(part.number):d}])"
         assert part is None or isinstance(part, (bool, str))
         return repr(part)

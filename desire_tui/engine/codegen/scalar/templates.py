@@ -55,8 +55,12 @@ def shape(node: Value, key: list[object], leaves: list[int | float]) -> None:
         elif name in DRAWS or name == "delayed":
             raise NotPlainError
         else:
-            for arg in args:
-                shape(arg, key, leaves)
+            for arg in args:  # most of them names, which are looked at here: a call takes as long again
+                if type(arg) is Load:
+                    key.append(None)
+                    leaves.append(arg.slot)
+                else:
+                    shape(arg, key, leaves)
         if len(key) > _NODES_MOST:
             raise NotPlainError
     else:
