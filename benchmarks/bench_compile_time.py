@@ -4,8 +4,8 @@ Goals (performance.md 2): up to 30 lines 10 ms; 1401 equations 100 ms cold, 30 m
 *Cold*: every store is empty (lines, statements by shape, lowered expressions, templates), and the text is
 new, so that no compiled code fits either. Not counted, because the app does them while the user reads and
 types: loading LLVM and the grammar's tables, compiling a rule's loop, which all programs share. *One line
-edited*: an earlier program is in the stores; each time another line is different. *Second process*: the stores
-are empty, the code is on disk, that of the rule's loop too.
+edited*: an earlier program is in the stores; each time another line is different. *Second process*: the
+stores are empty, the code is on disk, that of the rule's loop too.
 `cpu` is this thread's processor time, which other work on the machine does not stretch as it does `wall`; its
 parts are those of the best attempt.
 """

@@ -13,6 +13,7 @@ from desire_tui.engine.codegen.jit import stored_code
 from desire_tui.engine.codegen.jit.host import Host, find_host
 from desire_tui.engine.codegen.jit.image import Image
 from desire_tui.engine.codegen.jit.llvm_turn import in_turn
+from desire_tui.engine.codegen.jit.movable_text import has_addresses, movable_text
 from desire_tui.engine.codegen.jit.placed_code import NotPlacedError, PlacedCode, can_place
 from desire_tui.engine.digest import blake2b
 
@@ -183,10 +184,41 @@ def compile_text(
     `keep`: later processes find the code, and so does this one if an earlier one compiled the same.
     """
     how = {"slp": slp, "vectorize": vectorize, "passes": passes}
-    if keep:
+    if keep and has_addresses(text):
+        moved = _compile_movable(text, level, how) if can_place() else None
+        if moved is not None:
+            return moved
+    elif keep:
         name = _name_of(text, level, **how)
         return kept_code(name) or compile_and_keep(text, name, level=level, **how)
     return in_turn(lambda: _placed(_compiled(text, level, **how)), len(text))
+
+
+def _compile_movable(text: str, level: int, how: dict[str, bool]) -> MachineCode | None:
+    """Compile a text with addresses so that other processes find the code; None: only LLVM can link it."""
+    host = machine()
+    moved = movable_text(text, _DEFINITION.findall(text))
+    name = _name_of(moved.text, level, **how)
+
+    def address_of(symbol: str) -> int:
+        return moved.addresses[symbol] if symbol in moved.addresses else host.address_of(symbol)
+
+    def placed(image: Image) -> MachineCode:
+        functions = {known: image.functions[now] for known, now in moved.names.items()}
+        return PlacedCode(image._replace(functions=functions), address_of)
+
+    def make() -> MachineCode | None:
+        made = _compiled(moved.text, level, **how)
+        if not isinstance(made, Image):
+            return None
+        stored_code.keep(name, host.host, made)
+        return placed(made)
+
+    found = stored_code.find(name, host.host)
+    if isinstance(found, Image):
+        with suppress(NotPlacedError, KeyError):
+            return placed(found)
+    return in_turn(make, len(text))
 
 
 def kept_code(name: str) -> MachineCode | None:

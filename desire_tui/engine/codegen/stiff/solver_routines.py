@@ -145,7 +145,7 @@ class SolverRoutines:
         self._connect()
         with self._locks[level]:
             if level not in self._cvode:
-                self._cvode[level] = _found(compile_text(_cvode_text(), level=level), own=False)
+                self._cvode[level] = _found(compile_text(_cvode_text(), level=level, keep=True), own=False)
             return self._cvode[level]
 
     def _make_own(self, n: int, *, level: int) -> StiffFunctions:
