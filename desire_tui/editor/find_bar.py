@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from textual import events
-    from textual.app import ComposeResult
     from textual.timer import Timer
 
     from desire_tui.editor.code_area import CodeArea
@@ -64,23 +63,34 @@ class FindBar(Vertical):
         self._counted = ""
         """The text whose occurrences are counted."""
 
-    def compose(self) -> ComposeResult:
-        """Two rows, each a field and what can be clicked; a third if something is wrong."""
-        with Horizontal():
-            yield Input(placeholder="find", id="wanted", select_on_focus=True)
-            for name, (sign, tip) in SWITCHES.items():
-                yield Label(sign, id=f"find-{name}", classes="switch", markup=False).with_tooltip(tip)
-            yield Label("", id="found", markup=False)
-        with Horizontal(id="replacing"):
-            yield Input(placeholder="replace by", id="replacement", select_on_focus=True)
-            yield Label("Enter one", id="replace-one", classes="button", markup=False)
-            yield Label("Alt+A all", id="replace-all", classes="button", markup=False)
-        yield Label("", id="wrong", markup=False)
+    def _compose_once(self) -> None:
+        """Mount the rows when they are first needed: a fifth of the desktop's widgets; few sessions search.
+
+        Two rows, each a field and what can be clicked; a third if something is wrong.
+        """
+        if self.children:
+            return
+        searching, replacing = Horizontal(), Horizontal(id="replacing")
+        self.mount(searching, replacing, Label("", id="wrong", markup=False))
+        searching.mount(
+            Input(placeholder="find", id="wanted", select_on_focus=True),
+            *(
+                Label(sign, id=f"find-{name}", classes="switch", markup=False).with_tooltip(tip)
+                for name, (sign, tip) in SWITCHES.items()
+            ),
+            Label("", id="found", markup=False),
+        )
+        replacing.mount(
+            Input(placeholder="replace by", id="replacement", select_on_focus=True),
+            Label("Enter one", id="replace-one", classes="button", markup=False),
+            Label("Alt+A all", id="replace-all", classes="button", markup=False),
+        )
 
     # ------------------------------------------------------------------------------------ opening and closing
 
     def open(self, area: CodeArea, wanted: str = "", *, replace: bool = False) -> None:
         """Show the bar for a text; several lines that are selected are where it searches."""
+        self._compose_once()
         finder = self.finder
         finder.look_at(area)
         if area.selection.start[0] != area.selection.end[0]:
@@ -146,6 +156,7 @@ class FindBar(Vertical):
 
     def _show(self, number: int | None = None, *, told: str = "", wrong: str = "") -> None:
         """Show the switches, and how much was found or why nothing can be."""
+        self._compose_once()  # the next occurrence may be asked for before the bar was ever seen
         finder = self.finder
         for name in SWITCHES:
             self.query_one(f"#find-{name}").set_class(finder.is_on(name), "-on")

@@ -110,6 +110,10 @@ async def test_the_bar_finds_and_replaces_in_every_way(program):
             return str(bar.query_one(name).content)
 
         area.focus()
+        assert not bar.children  # they are mounted for whoever searches
+        await desk.do("edit.find_next")
+        assert not bar.display
+        assert desk.app.errors_reported == 0
         await desk.press("ctrl+f", "x", "alt+w")
         assert shown("#found") == "1 of 4"
         assert area.marks.found == {0: [(0, 1)], 1: [(0, 1)], 2: [(5, 6)], 3: [(4, 5)]}
