@@ -32,12 +32,12 @@ class NativeBackend:
 
     def __init__(self, compiler: CompilerState | None = None) -> None:
         self._compiler = compiler or shared_state()
-        self._models: OrderedDict[tuple[int, int, int], tuple[Segment, Values, Model]] = OrderedDict()
+        self._models: OrderedDict[tuple[int, int, int, bool], tuple[Segment, Values, Model]] = OrderedDict()
 
-    def model(self, segment: Segment, rule: int, values: Values) -> Model:
+    def model(self, segment: Segment, rule: int, values: Values, *, is_free: bool = False) -> Model:
         """Prepare `segment` for a rule; the same segment again costs nothing, until `forget`."""
         improver = self._compiler.improver
-        key = (id(segment), rule, id(values))
+        key = (id(segment), rule, id(values), is_free)
         known = self._models.get(key)
         if known is not None:
             self._models.move_to_end(key)
@@ -45,7 +45,7 @@ class NativeBackend:
                 improver.again(known[2])
             return known[2]
         with improver.held(), undisturbed_allocation:
-            made = self._make(segment, rule, values)
+            made = self._make(segment, rule, values, is_free=is_free)
         self._models[key] = (segment, values, made)  # the key's ids stay taken as long as these live
         while len(self._models) > _MODELS_MOST:
             self._models.popitem(last=False)
@@ -104,14 +104,14 @@ class NativeBackend:
             for fault in self._compiler.improver.faults()
         )
 
-    def _make(self, segment: Segment, rule: int, values: Values) -> Model:
+    def _make(self, segment: Segment, rule: int, values: Values, *, is_free: bool) -> Model:
         improver = self._compiler.improver
         code = self._compiler.code
         if segment.may_rearrange:
             from desire_tui.engine.codegen.jit.loose_code import LooseCode
 
             code = LooseCode(code)
-        if rule_numbered(rule).has_interpolant and segment.order:
+        if (rule_numbered(rule).has_interpolant or is_free) and segment.order:
             from desire_tui.engine.codegen.stiff.stiff_model import StiffModel
 
             return StiffModel(code, improver, self._compiler.routines, segment, rule, values)

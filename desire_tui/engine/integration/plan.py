@@ -67,10 +67,7 @@ def plan(rule: int, pattern: Pattern, *, program: bool = False, tangent: bool = 
     derivatives are at hand; without them a rule with a Jacobian differences too (the reference back end).
     """
     corrector = rule_numbered(rule).corrector
-    if rule_numbered(rule).solver == "Taylor":
-        return SolverPlan(Linear("fixed-point"), Matrix.NONE, None)
-    assert corrector is not None, f"rule {rule} solves no equations"
-    if corrector == "fixed-point":
+    if corrector in (None, "fixed-point"):  # without one no equations are solved
         return SolverPlan(Linear("fixed-point"), Matrix.NONE, None)
     if corrector == "diagonal":
         return SolverPlan(Linear("diagonal"), Matrix.NONE, None)

@@ -56,6 +56,8 @@ themselves would take the smallest of steps, and 1/1e-320 is no number at all.""
 NOISE_WAIT, NOISE_FAILURE = 300, 20
 """Steps until rounding noise is looked for, a failed try counting as 20; twice as many each time that there
 is none."""
+NOISE_NEVER = 2**62
+"""Steps until it is looked for by solvers whose steps do not depend on derivatives' last digits."""
 NOISE_TRIES = 6
 """Evaluations with states up to 2.5 ulps away: what the derivatives differ by is their rounding level."""
 NOISE_PART = 100.0

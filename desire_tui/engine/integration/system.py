@@ -1,4 +1,4 @@
-"""One model under a multistep rule: CVODE, the structure its callbacks get, and the memory both need."""
+"""One model under a rule with an interpolant: a solver, the structure its callbacks get, their memory."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ import numpy as np
 
 from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.integration.bdf.solver import OwnSolver
+from desire_tui.engine.integration.explicit.solver import ExplicitSolver
 from desire_tui.engine.integration.problem import (
     ERROR_SHARE,
     NEWTON_ERROR_SHARE,
+    NOISE_NEVER,
     NOISE_WAIT,
     SERIES_ERROR_SHARE,
     SLIDE_PARTS,
@@ -22,6 +24,7 @@ from desire_tui.engine.integration.problem import (
 from desire_tui.engine.integration.sundials.library import libraries
 from desire_tui.engine.integration.sundials.signatures import address
 from desire_tui.engine.integration.sundials.solver import Callbacks, Counts, Solver
+from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.integration.taylor.memory import EPSILON
 from desire_tui.engine.integration.taylor.solver import TaylorSolver
 
@@ -36,15 +39,15 @@ if TYPE_CHECKING:
 _DATA_OF = {"dense": "SUNDenseMatrix_Data", "band": "SUNBandMatrix_Data", "sparse": "SUNSparseMatrix_Data"}
 
 
-_NEVER = 2**62
-
-
 class SolverCounters(Protocol):
     """What is wanted of `runtime.run_memory.RunMemory`."""
 
     error_max: float
     error_absolute: float
     dt_max: float
+    dt_min: float
+    error_min: float
+    error_one: float
     t_start: float
     t_max: float
     comint: float
@@ -76,7 +79,7 @@ class Natives:
 
 
 class StiffSystem:
-    """CVODE, `bdf` or `taylor` made ready for a model.
+    """CVODE, `bdf`, `taylor` or `explicit` made ready for a model.
 
     `layout`, of rule 17, says where Taylor coefficients stand.
 
@@ -119,8 +122,11 @@ class StiffSystem:
         linear = plan.linear
         if plan.method is not Matrix.NONE:
             linear = replace(linear, jacobian=natives.jacobian)
-        self.solver: Solver | OwnSolver | TaylorSolver
-        if layout is not None:
+        self.solver: Solver | OwnSolver | TaylorSolver | ExplicitSolver
+        if rule in TABLEAUS:
+            place = ctypes.addressof(problem)
+            self.solver = ExplicitSolver(TABLEAUS[rule], n, problem.states, place, problem.between)
+        elif layout is not None:
             place = ctypes.addressof(problem)
             self.solver = TaylorSolver(n, problem.states, place, problem.between, layout)
         elif natives.own:
@@ -146,8 +152,11 @@ class StiffSystem:
             problem.indices_of = address(library, "SUNSparseMatrix_IndexValues")
             problem.starts_of = address(library, "SUNSparseMatrix_IndexPointers")
 
-    def begin(self, memory: SolverCounters, first_step: float) -> None:
-        """Prepare a run: forget history, counts and largest values; take ERMAX, DTMAX and the first DT."""
+    def begin(self, memory: SolverCounters, first_step: float, checked: int = 0) -> None:
+        """Prepare a run: forget history, counts and largest values; take ERMAX, DTMAX and the first DT.
+
+        `checked`: CHECKN, of rules 4, 7, 8.
+        """
         problem = self.problem
         problem.memory = ctypes.addressof(memory)  # type: ignore[arg-type]
         share = ERROR_SHARE if self.plan.method is Matrix.NONE else NEWTON_ERROR_SHARE
@@ -169,8 +178,11 @@ class StiffSystem:
         problem.slide_size = min(abs(memory.t_max) / SLIDE_PARTS, *longest, inf)
         self.noise[:] = 0.0
         self.largest[:] = problem.floor = 0.0
-        if isinstance(self.solver, TaylorSolver):
-            problem.noise_wait = _NEVER  # its steps do not depend on derivatives' last digits
+        if isinstance(self.solver, ExplicitSolver):
+            problem.noise_wait = NOISE_NEVER
+            self.solver.begin(memory, checked)
+        elif isinstance(self.solver, TaylorSolver):
+            problem.noise_wait = NOISE_NEVER
             tolerance = max(memory.error_max * SERIES_ERROR_SHARE, EPSILON)
             self.solver.begin(tolerance, memory.error_absolute * SERIES_ERROR_SHARE, memory.dt_max)
         else:

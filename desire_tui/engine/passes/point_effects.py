@@ -10,6 +10,7 @@ from desire_tui.engine.lowered.walk import simple_actions, walk_actions
 from desire_tui.engine.passes.moments import conditions_pass
 from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice
 from desire_tui.engine.passes.slot_set import SlotSet
+from desire_tui.engine.values import DT
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -43,6 +44,16 @@ def steps_are_free(segment: Segment) -> bool:
         if role(action) == "effect" and (not isinstance(action, Terminate) or action.fault is not None):
             return False
     return not any(True for _ in _set_outside(segment, conditions=True))
+
+
+def may_pass_points(segment: Segment) -> bool:
+    """Whether steps of rules 4, 7 and 8 may go beyond communication points.
+
+    No `delay(x, tau)` whose steps may be no longer than tau, and nobody else sets DT.
+    """
+    if segment.delays or not segment.order or changed_inputs(segment) or not steps_are_free(segment):
+        return False
+    return all(slot != DT for action in walk_actions(full_pass(segment)) for slot, _ in writes(action))
 
 
 def _set_outside(segment: Segment, *, conditions: bool = False) -> Iterator[Piece]:

@@ -25,10 +25,10 @@ class ReferenceBackend:
 
     name = "reference"
 
-    def model(self, segment: Segment, rule: int, values: Values) -> Model:
+    def model(self, segment: Segment, rule: int, values: Values, *, is_free: bool = False) -> Model:
         """Prepare `segment` for an integration rule. DesireError 460, 461: a multistep one wants SUNDIALS."""
         kind = rule_numbered(rule).kind
-        if not rule_numbered(rule).has_interpolant:
+        if not (rule_numbered(rule).has_interpolant or is_free):
             vital = vital_columns(segment)
             segment, numbers = stepped_segment(segment, values.room, variable=kind == "variable")
             switches = None

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from desire_tui.engine.integration.memory_views import reals
-from desire_tui.engine.integration.problem import NOISE_FAILURE, NOISE_PART, NOISE_ROOM, NOISE_TRIES, ULP
+from desire_tui.engine.integration.problem import (
+    NOISE_FAILURE,
+    NOISE_NEVER,
+    NOISE_PART,
+    NOISE_ROOM,
+    NOISE_TRIES,
+    ULP,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,6 +36,8 @@ def watch_noise(
 ) -> int:
     """Look for noise now and then, and where the solver gave up; begin anew if that was it."""
     problem = system.problem
+    if problem.noise_wait >= NOISE_NEVER:
+        return flag
     failed = problem.failed + system.solver.counts().failed
     seen = memory.steps + NOISE_FAILURE * failed
     if flag >= 0 and seen - problem.noise_seen < problem.noise_wait:

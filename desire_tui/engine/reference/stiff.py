@@ -1,4 +1,4 @@
-"""Multistep rules in the reference back end: CVODE with Python callbacks, one step at a time."""
+"""Rules with an interpolant in the reference back end: a solver with Python callbacks, step by step."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from desire_tui.engine.data_classes import replace
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.bdf.solver import OwnSolver
 from desire_tui.engine.integration.callbacks import PythonCallbacks
+from desire_tui.engine.integration.explicit.solver import ExplicitSolver
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import is_own, plan
 from desire_tui.engine.integration.rules import rule_numbered
@@ -17,7 +18,7 @@ from desire_tui.engine.integration.system import ModelFunctions, StiffSystem
 from desire_tui.engine.integration.tableaus import EULER
 from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
-from desire_tui.engine.passes.assigned_states import without_assigned_states
+from desire_tui.engine.passes.assigned_states import checked_state, without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.point_effects import changed_inputs, steps_are_free
 from desire_tui.engine.passes.series.expanded import expanded
@@ -30,6 +31,7 @@ from desire_tui.engine.reference.statements import StatementClosures
 from desire_tui.engine.reference.stiff_steps import StiffSteps
 from desire_tui.engine.reference.switches import Switches
 from desire_tui.engine.reference.taylor_series import ReferenceSeries
+from desire_tui.engine.runtime.free_step_faults import leave_step
 from desire_tui.engine.runtime.run_memory import Ended, Phase
 from desire_tui.engine.values import DT, T
 
@@ -47,7 +49,10 @@ if TYPE_CHECKING:
 
 
 class StiffReferenceModel(StiffSteps):
-    """A segment under a multistep rule. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
+    """A segment under rules 9 … 17, or 4, 7, 8 with steps that go beyond points; see `codegen.stiff`.
+
+    DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J.
+    """
 
     def __init__(self, segment: Segment, rule: int, values: Values) -> None:
         if rule_numbered(rule).corrector == "jacobian" and segment.jacobian is not None:
@@ -85,6 +90,8 @@ class StiffReferenceModel(StiffSteps):
         self.system.problem.is_free = not inputs and steps_are_free(segment)
         if isinstance(self.system.solver, OwnSolver):
             self.system.solver.connect(*self._callbacks.own)
+        elif isinstance(self.system.solver, ExplicitSolver):
+            self.system.solver.connect(self._callbacks.own[0])
         elif isinstance(self.system.solver, TaylorSolver):
             assert program is not None
             self._at_start = self._others.compile(program.values_pass)
@@ -173,7 +180,7 @@ class StiffReferenceModel(StiffSteps):
         system = self.system
         self._others.memory = memory
         if memory.phase == Phase.AT_POINT and memory.point == 0:
-            system.begin(memory, self.cells[DT])
+            system.begin(memory, self.cells[DT], checked_state(memory.checked, self.numbers))
             self._inputs_kept = self._inputs_before = np.full(len(self._inputs), np.nan)
             if self._array:
                 self.data[self._array : self._array + self.order**2] = 0.0
@@ -181,6 +188,12 @@ class StiffReferenceModel(StiffSteps):
         if self._array and self._given and ended is not Ended.RUNNING:
             fill_array(self.values, *self._given, self._array, self.numbers)
         system.report(memory)
-        if ended is Ended.SOLVER:
+        if isinstance(system.solver, ExplicitSolver):
+            ended = leave_step(system.solver, memory, self.values, ended)
+        if ended is Ended.NOT_FINITE:
+            self._not_finite(memory)
+        elif ended in {Ended.DEADLOCK, Ended.STALLED}:
+            memory.which = self.numbers[memory.which]
+        elif ended is Ended.SOLVER:
             memory.suspect = self.numbers[system.suspect()]
         return ended

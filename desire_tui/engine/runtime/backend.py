@@ -25,8 +25,12 @@ class Backend(Protocol):
 
     name: str
 
-    def model(self, segment: Segment, rule: int, values: Values) -> Model:
-        """Prepare `segment` for an integration rule. DesireError 86: there is no such rule."""
+    def model(self, segment: Segment, rule: int, values: Values, *, is_free: bool = False) -> Model:
+        """Prepare `segment` for an integration rule. DesireError 86: there is no such rule.
+
+        `is_free`, under rules 4, 7 and 8: steps go beyond communication points; the segment must let them
+        (`passes.point_effects.may_pass_points`).
+        """
         ...
 
     def equations(self, segment: Segment, values: Values) -> Equations:

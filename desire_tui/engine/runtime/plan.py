@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from desire_tui.engine.data_classes import dataclass
+from math import ceil
+
+from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.integration.rules import RULES
 
 ROUNDING = 1e-9
@@ -46,9 +48,23 @@ class RunPlan:
         return self.error_absolute / self.error_max if self.error_absolute and self.error_max else 1.0
 
     @property
+    def is_free(self) -> bool:
+        """Whether steps of rules 4, 7 and 8 may go beyond communication points: DTMAX is above COMINT."""
+        return RULES[self.rule].kind == "variable" and self.dt_max > self.comint * (1.0 + ROUNDING)
+
+    @property
     def tolerance(self) -> float:
         """ERMAX if the rule looks at it, else 0."""
         return self.error_max if RULES[self.rule].controls_error else 0.0
+
+    def sampled_every(self, spacing: float) -> RunPlan:
+        """Return the plan with samples so far apart; steps that ended on all points still do."""
+        steps = ceil(self.t_max / spacing * (1 - ROUNDING))
+        ends_there = RULES[self.rule].kind == "variable" and not self.is_free
+        return replace(
+            self, nn=steps + 1, t_max=steps * spacing, comint=spacing, dt=min(self.dt, spacing),
+            dt_max=min(self.dt_max, spacing) if ends_there else self.dt_max, every=1,
+        )  # fmt: skip
 
     @property
     def rows_most(self) -> int:

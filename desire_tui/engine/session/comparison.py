@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import ceil
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.data_classes import dataclass, replace
@@ -146,10 +145,7 @@ def run_again(
         raise DesireError(*(replace(problem, severity="error") for problem in replaced))
     segment = workspace.segments.directed(segment, plan)
     if spacing is not None:
-        steps = ceil(plan.t_max / spacing * (1 - 1e-9))
-        plan = replace(
-            plan, nn=steps + 1, t_max=steps * spacing, comint=spacing, dt=min(plan.dt, spacing), every=1
-        )
+        plan = plan.sampled_every(spacing)
     record = RunRecord(
         number=0, segment=last.segment, line=0, requests=segment.requests, columns=segment.columns,
         overlay=False, rule=plan.rule, scale=plan.scale, t0=plan.t0, t_max=plan.span, nn=plan.nn,
@@ -159,7 +155,7 @@ def run_again(
         record.message = "compared with the quantities as they are now: of so large a model no copy is kept"
     try:
         finished = runs.simulator.run(
-            workspace.segments.model(segment, plan.rule), segment, plan, record, _NoObserver()
+            workspace.segments.model_of(segment, plan), segment, plan, record, _NoObserver()
         )
     except DesireError as error:
         facts = {"setting": change.named(record), "reason": error.diagnostics[0].message}

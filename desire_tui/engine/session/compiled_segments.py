@@ -162,22 +162,31 @@ class CompiledSegments:
             known = self._jumping[id(segment)] = segment, jumps, with_table_jumps(segment, jumps)
         return known[2]
 
-    def model(self, segment: Segment, rule: int) -> Model:
-        """Return a segment made ready for a rule; the back end keeps it."""
-        remembered = self._remembered
+    def model_of(self, segment: Segment, plan: RunPlan) -> Model:
+        """Return a segment made ready for a run."""
+        if not plan.is_free:
+            return self.model(segment, plan.rule)
+        from desire_tui.engine.passes.point_effects import may_pass_points
+
+        return self.model(segment, plan.rule, is_free=may_pass_points(segment))
+
+    def model(self, segment: Segment, rule: int, *, is_free: bool = False) -> Model:
+        """Return a segment made ready for a rule; the back end keeps it (`runtime.backend`)."""
+        remembered, way = self._remembered, (rule, is_free)
         if remembered is None:
-            return self._model(segment, rule)
-        if remembered.may_use_model(segment, rule):
-            return self._model(segment, rule)
-        if remembered.forget_models(segment, rule):
+            return self._model(segment, way)
+        if remembered.may_use_model(segment, way):
+            return self._model(segment, way)
+        if remembered.forget_models(segment, way):
             self.backend.forget()
         before = self._values.layout()
-        made = self._model(segment, rule)
-        remembered.note_model(segment, rule, before)
+        made = self._model(segment, way)
+        remembered.note_model(segment, way, before)
         return made
 
-    def _model(self, segment: Segment, rule: int) -> Model:
-        return self.backend.model(segment, rule, self._values)
+    def _model(self, segment: Segment, way: tuple[int, bool]) -> Model:
+        rule, is_free = way
+        return self.backend.model(segment, rule, self._values, is_free=is_free)
 
     def recovering(self, segment: Segment, stash: Path) -> Segment:
         """Return a segment with a `recover` line as one that reads the stash file as it is now."""

@@ -140,7 +140,7 @@ class PreparedRun:
         begins = self._starts.start(self.values, None, continues=continues)
         self.warnings = list(simulator.defaults.warnings())
         segment = workspace.segments.directed(segment, plan)
-        model = workspace.segments.model(segment, plan.rule)
+        model = workspace.segments.model_of(segment, plan)
         self.warnings += [
             *self._runs.advice(model, segment, again=self.advises_always),
             *segment.warnings,

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
     Key = tuple[str, str | None, int]
     """The program's text, a segment's label, the rule."""
+    Way = tuple[int, bool]
+    """The rule, and whether its steps go beyond communication points."""
 
 
 class RememberedSegments:
@@ -24,8 +26,8 @@ class RememberedSegments:
     def __init__(self, values: Values) -> None:
         self._values = values
         self._lowered: dict[Key, tuple[Layout, Layout, Segment]] = {}
-        self._modelled: dict[tuple[int, int], tuple[Layout, Layout]] = {}
-        self._ready: set[tuple[int, int]] = set()
+        self._modelled: dict[tuple[int, Way], tuple[Layout, Layout]] = {}
+        self._ready: set[tuple[int, Way]] = set()
 
     def begin(self) -> None:
         """All names were cleared: what models need besides has to be laid out again."""
@@ -42,9 +44,9 @@ class RememberedSegments:
         self._lowered[key] = before, values.layout(), made
         return made
 
-    def may_use_model(self, segment: Segment, rule: int) -> bool:
+    def may_use_model(self, segment: Segment, way: Way) -> bool:
         """Whether the model made before has its own numbers again where it looks for them."""
-        key = id(segment), rule
+        key = id(segment), way
         if key in self._ready:
             return True
         known = self._modelled.get(key)
@@ -54,18 +56,18 @@ class RememberedSegments:
         self._ready.add(key)
         return True
 
-    def forget_models(self, segment: Segment, rule: int) -> bool:
+    def forget_models(self, segment: Segment, way: Way) -> bool:
         """Forget all models if one of this segment is remembered; whether there was one."""
-        if (id(segment), rule) not in self._modelled:
+        if (id(segment), way) not in self._modelled:
             return False
         self._modelled.clear()
         self._ready.clear()
         return True
 
-    def note_model(self, segment: Segment, rule: int, before: Layout) -> None:
+    def note_model(self, segment: Segment, way: Way, before: Layout) -> None:
         """Remember what making a model has left in the values."""
-        self._modelled[id(segment), rule] = before, self._values.layout()
-        self._ready.add((id(segment), rule))
+        self._modelled[id(segment), way] = before, self._values.layout()
+        self._ready.add((id(segment), way))
 
     def _holds(self, segment: Segment) -> bool:
         """Whether the numbers that a segment was compiled with are what they were."""

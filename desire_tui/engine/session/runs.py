@@ -109,7 +109,7 @@ class Runs:
         if replaced:
             self._listener.problems(replaced)
         segment = workspace.segments.directed(segment, plan)
-        model = workspace.segments.model(segment, plan.rule)
+        model = workspace.segments.model_of(segment, plan)
         self._warn_before(model, segment)
         points = point_sets(segment, self._values)
         self.start, self.run_of = start, (program.source.text, self._values.generation)

@@ -10,6 +10,7 @@ from desire_tui.engine.integration.tableaus import TABLEAUS
 from desire_tui.engine.lowered.statements import LearningStep
 from desire_tui.engine.lowered.walk import simple_actions
 from desire_tui.engine.passes.assigned_states import checked_state, stepped_segment
+from desire_tui.engine.passes.point_effects import may_pass_points
 from desire_tui.engine.passes.renewal import renewals
 from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
 from desire_tui.engine.passes.switching import switching
@@ -105,6 +106,9 @@ def _refused(run: ExportedRun, rule: int) -> Iterator[Diagnostic]:
 
     if segment.order and rule not in TABLEAUS:
         yield problem(f"irule {rule} ({RULES[rule].name})", "irule 3, or another of the rules 1 to 8")
+    if run.plan.is_free and may_pass_points(segment):
+        remedy = "DTMAX no more than COMINT, TMAX/(NN - 1): steps then end on communication points"
+        yield problem(f"irule {rule} with steps beyond communication points", remedy)
     if run.plan.backward:
         yield problem("a run backward (TMAX below 0)", "a run forward")
     for event in segment.events:

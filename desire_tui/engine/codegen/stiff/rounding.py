@@ -15,7 +15,14 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.plain_python.library import copy
 from desire_tui.engine.codegen.stiff.cvode_steps import begin, failures
 from desire_tui.engine.codegen.stiff.model_calls import evaluate
-from desire_tui.engine.integration.problem import NOISE_FAILURE, NOISE_PART, NOISE_ROOM, NOISE_TRIES, ULP
+from desire_tui.engine.integration.problem import (
+    NOISE_FAILURE,
+    NOISE_NEVER,
+    NOISE_PART,
+    NOISE_ROOM,
+    NOISE_TRIES,
+    ULP,
+)
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.plain_types import Reals
@@ -25,6 +32,8 @@ if TYPE_CHECKING:
 
 def watch_noise(problem: SolverProblem, memory: RunMemory, t: float, flag: int) -> int:
     """Look for noise now and then, and where the solver gave up; begin anew if that was it."""
+    if problem.noise_wait >= NOISE_NEVER:
+        return flag
     failed = failures(problem) + problem.failed
     seen = memory.steps + NOISE_FAILURE * failed
     if flag >= 0 and seen - problem.noise_seen < problem.noise_wait:

@@ -17,6 +17,7 @@ from desire_tui.engine.codegen.plain_python.surroundings import Outside
 from desire_tui.engine.codegen.stiff import (
     cvode_callbacks,
     cvode_steps,
+    explicit_steps,
     interval,
     jacobian_fill,
     model_calls,
@@ -27,9 +28,12 @@ from desire_tui.engine.codegen.stiff import (
     taylor_steps,
 )
 from desire_tui.engine.digest import blake2b
-from desire_tui.engine.integration import problem, sliding
+from desire_tui.engine.integration import hermite, problem, sliding
 from desire_tui.engine.integration.bdf import choice, coefficients, memory, newton, start, step
 from desire_tui.engine.integration.bdf.memory import Bdf, Evaluate, Fill, Weigh
+from desire_tui.engine.integration.explicit import memory as explicit_memory
+from desire_tui.engine.integration.explicit import step as explicit_step
+from desire_tui.engine.integration.explicit.memory import Explicit
 from desire_tui.engine.integration.problem import FUNCTIONS, SolverProblem
 from desire_tui.engine.integration.sundials import signatures
 from desire_tui.engine.integration.sundials.library import libraries
@@ -63,9 +67,10 @@ _MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, progress,
 _CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
 _TAYLOR = (*_MODEL, taylor_steps, taylor_step, square_roots, isolation, roots, located)
+_EXPLICIT = (*_MODEL, explicit_steps, explicit_step, hermite)
 _CONSTANTS = (
-    memory, taylor_memory, problem, run_memory, signatures, switching, moments_inside, moments_memory,
-    moments_steps,
+    memory, explicit_memory, taylor_memory, problem, run_memory, signatures, switching, moments_inside,
+    moments_memory, moments_steps,
 )  # fmt: skip
 _ENGINE = files("desire_tui.engine")
 
@@ -79,18 +84,20 @@ def _sources(folder: str) -> list[bytes]:
     return [file.read_bytes() for file in sorted(found, key=lambda file: file.name)]
 
 
-_TEXTS = {module: _source(module) for module in (*_CVODE, *_OWN, *_TAYLOR)}
+_TEXTS = {module: _source(module) for module in (*_CVODE, *_OWN, *_TAYLOR, *_EXPLICIT)}
 """Read now, when the modules are: files may change under a process that lives for days."""
 _DEPENDS_ON = b"".join(
     (*_TEXTS.values(), *map(_source, _CONSTANTS), *_sources("codegen/plain_python"), *_sources("codegen/ir"))
 )
 """Kept code of other texts is not looked at."""
 
-_STRUCTURES = (Bdf, SolverProblem, RunMemory, Taylor, Watch, Moments)
+_STRUCTURES = (Bdf, Explicit, SolverProblem, RunMemory, Taylor, Watch, Moments)
 _ANY = 0
 """In place of a number of states: code for all."""
 _SERIES = -1
 """In place of a number of states: the solver of rule 17."""
+_VARIABLE = -2
+"""In place of a number of states: the solver of rules 4, 7 and 8."""
 _FAST = 1
 """Level of optimisation of what goes with CVODE: level 2 gains nothing there."""
 SIZES_KEPT = 16
@@ -141,6 +148,10 @@ class SolverRoutines:
         """Return the solver of rule 17, compiled well once a machine: a single run may take long."""
         return self._kept(_SERIES) or self._make_own(_SERIES, level=2)
 
+    def variable(self) -> StiffFunctions:
+        """Return the solver of rules 4, 7 and 8, compiled well once a machine."""
+        return self._kept(_VARIABLE) or self._make_own(_VARIABLE, level=2)
+
     def _with_cvode(self, level: int) -> StiffFunctions:
         self._connect()
         with self._locks[level]:
@@ -152,7 +163,7 @@ class SolverRoutines:
         """Compile our solver for n states, `_ANY` number of them."""
         with self._locks[level]:
             if (found := self._own[n]) is None:
-                text = _series_text() if n == _SERIES else _own_text(n)
+                text = _text(n)
                 code = compile_and_keep(text, _name(n), level=level, vectorize=level > 0)
                 found = self._keep(n, code)
             return found
@@ -208,6 +219,13 @@ def _cvode_text() -> str:
     return write_program(_modules(_CVODE), outside, "solver_", public)
 
 
+def _text(n: int) -> str:
+    """Return the text of one of our solvers: BDF for a number of states, or what stands in place of one."""
+    if n == _SERIES:
+        return _series_text()
+    return _variable_text() if n == _VARIABLE else _own_text(n)
+
+
 def _own_text(n: int) -> str:
     """Write our solver, for n states only if that is not `_ANY`; all in one function takes LLVM 1 s more."""
     callbacks = {"evaluate": Evaluate, "weigh": Weigh, "fill": Fill}
@@ -229,6 +247,16 @@ def _series_text() -> str:
     return write_program(
         _modules(_TAYLOR), Outside(structures, pointers, {"expand": "expand"}), "solver_", public
     )
+
+
+def _variable_text() -> str:
+    structures = {
+        "SolverProblem": SolverProblem, "RunMemory": RunMemory, "Explicit": Explicit, "Moments": Moments,
+    }  # fmt: skip
+    pointers = _of_the_problem() | {"evaluate": of_function(Evaluate, "")}
+    public = frozenset(("interval", "state_at"))
+    outside = Outside(structures, pointers, {"evaluate": "evaluate"})
+    return write_program(_modules(_EXPLICIT), outside, "solver_", public)
 
 
 def _of_the_problem() -> dict[str, Signature]:

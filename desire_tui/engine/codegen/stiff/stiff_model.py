@@ -1,4 +1,4 @@
-"""A segment as native code under a rule 9 … 16: compiled passes, CVODE's steps, no Python between."""
+"""A segment as native code under a rule with an interpolant: compiled passes and steps, no Python between."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from desire_tui.engine.codegen.stiff.stiff_moments import StiffMoments
 from desire_tui.engine.codegen.switching.watch_routines import watch_functions
 from desire_tui.engine.codegen.taylor.series_code import SeriesCode
 from desire_tui.engine.integration.advice import Probe, advice
+from desire_tui.engine.integration.explicit.solver import ExplicitSolver
 from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import is_own, plan
 from desire_tui.engine.integration.rules import rule_numbered
@@ -26,7 +27,7 @@ from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
 from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
-from desire_tui.engine.passes.assigned_states import without_assigned_states
+from desire_tui.engine.passes.assigned_states import checked_state, without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.point_effects import changed_inputs, steps_are_free
 from desire_tui.engine.passes.series.expanded import expanded
@@ -35,6 +36,7 @@ from desire_tui.engine.passes.sparsity import sparsity_pattern
 from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.tangents import NotDifferentiable
 from desire_tui.engine.passes.vital_columns import vital_columns
+from desire_tui.engine.runtime.free_step_faults import leave_step
 from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
 from desire_tui.engine.values import DT
@@ -57,7 +59,10 @@ _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
 
 
 class StiffModel:
-    """Implements `runtime.backend.Model`. DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J."""
+    """Implements `runtime.backend.Model`: rules 9 … 17, and 4, 7, 8 where their steps go beyond points.
+
+    DesireError 460, 461: SUNDIALS cannot be used here; 229, 230: J.
+    """
 
     def __init__(
         self,
@@ -137,7 +142,7 @@ class StiffModel:
         self._fill_context(segment)
         self._routines = routines
         self._better: StiffFunctions | None = None
-        self._use(routines.series() if self._series else routines.first(segment.order, own=self._own))
+        self._use(self._first_routines())
         loop = stiff_loop()  # does little between two intervals: quick code is good enough
         self._loop = code.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
@@ -145,6 +150,14 @@ class StiffModel:
         self._parts = [work for work in (self._series, self._tables, functions) if work is not None]
         for part in self._parts:
             improver.add(part)
+
+    def _first_routines(self) -> StiffFunctions:
+        match rule_numbered(self.rule).solver:
+            case "Taylor":
+                return self._routines.series()
+            case "tableau":
+                return self._routines.variable()
+        return self._routines.first(self._slots.size, own=self._own)
 
     def _use(self, natives: StiffFunctions) -> None:
         """Connect the solver's callbacks and the interval loop."""
@@ -192,7 +205,7 @@ class StiffModel:
 
     def improve(self) -> Iterator[None]:
         """Compile a fast solver (`background.Improvable`)."""
-        if self._series is None:
+        if rule_numbered(self.rule).kind == "multistep":
             self._better = self._routines.fast(self._slots.size, own=self._own)
         yield
 
@@ -239,7 +252,7 @@ class StiffModel:
             better, self._better = self._better, None
             if better is not None:
                 self._use(better)
-            self.system.begin(memory, self._values.cells[DT])
+            self.system.begin(memory, self._values.cells[DT], checked_state(memory.checked, self._numbers))
             self._clear_array()
             self._inputs_kept[:] = self._inputs_before[:] = np.nan
             if self._watcher is not None:
@@ -255,6 +268,8 @@ class StiffModel:
         if self._array and self._given and ended is not Ended.RUNNING:
             fill_array(self._values, *self._given, self._array, self._numbers)
         system.report(memory)
+        if isinstance(system.solver, ExplicitSolver):
+            ended = leave_step(system.solver, memory, self._values, ended)
         if ended is Ended.ZENO and moments is not None:
             moments.too_fast(memory)
         elif ended is Ended.SOLVER:
@@ -264,6 +279,8 @@ class StiffModel:
         elif ended is Ended.NOT_FINITE:
             which = first_not_finite(self._values.data, self._slots, self._columns, self._vital)
             memory.which = which if which < 0 else self._numbers[which]
+        elif ended in {Ended.DEADLOCK, Ended.STALLED}:
+            memory.which = self._numbers[memory.which]
         return ended
 
     def _clear_array(self) -> None:

@@ -14,7 +14,7 @@ from desire_tui.engine.codegen.plain_python.kinds import of_function
 from desire_tui.engine.codegen.plain_python.program import Module, write_program
 from desire_tui.engine.codegen.plain_python.surroundings import Outside
 from desire_tui.engine.digest import blake2b
-from desire_tui.engine.integration import halving
+from desire_tui.engine.integration import halving, hermite
 from desire_tui.engine.integration.switching import (
     ahead,
     bounds,
@@ -32,7 +32,7 @@ from desire_tui.engine.values import T
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.machine_code import MachineCode
 
-_MODULES = (bounds, ahead, margins, located, clearance, watch)
+_MODULES = (hermite, bounds, ahead, margins, located, clearance, watch)
 _ENGINE = files("desire_tui.engine")
 
 

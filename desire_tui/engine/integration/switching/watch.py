@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.integration.hermite import inside
 from desire_tui.engine.integration.switching.ahead import begin_ahead, inputs_changed, look_ahead
 from desire_tui.engine.integration.switching.clearance import begin_box, forget_box, renew_box, stays_in_box
 from desire_tui.engine.integration.switching.located import has_switched, locate, resolution
@@ -185,7 +186,6 @@ def place_on_step(w: Watch, t: float) -> int:
     Through the states at both ends and the derivatives at the first or, once those are known, at both.
     """
     s = (t - w.t0) / w.h
-    r = 1.0 - s
     w.values[T] = t
     for k in range(w.range_count):
         slot = w.ranges[3 * k]
@@ -198,8 +198,7 @@ def place_on_step(w: Watch, t: float) -> int:
             slope: float = w.h * w.f0[j]
             x = x0 + s * slope + s * s * (rise - slope)
             if w.is_cubic != 0:
-                other: float = w.h * w.f1[j]
-                x = r * x0 + s * x1 - s * r * ((1.0 - 2.0 * s) * rise - r * slope + s * other)
+                x = inside(s, x0, x1, slope, w.h * w.f1[j])
             if s >= 1.0:
                 x = x1
             w.values[slot + i] = x
