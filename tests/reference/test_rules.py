@@ -68,8 +68,12 @@ def test_a_step_shortened_for_a_point_does_not_double():
     )
     (record,) = session.runs
     assert record.steps == 4
-    # with a difference below ERMIN the whole steps double, the cut ones do not
-    session = run("irule 7\nTMAX = 1 | NN = 3 | DT = 0.3 | DTMAX = 9 | x = 1\ndrun\nDYNAMIC\nd/dt x = 0*x")
+    # with a difference below ERMIN the whole steps double, the cut ones do not; q, which derivatives read,
+    # changes at the points: steps end there though DTMAX is above COMINT
+    session = run(
+        "irule 7\nTMAX = 1 | NN = 3 | DT = 0.3 | DTMAX = 9 | x = 1 | q = 0\ndrun\n"
+        "DYNAMIC\nd/dt x = 0*q\nSAMPLE 1\nq = q + 1"
+    )
     (record,) = session.runs
     # 0.3 (whole: DT 0.6), 0.2 cut, 0.5 cut
     assert record.steps == 3

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.lowered.effects import reads, role, writes
 from desire_tui.engine.lowered.statements import Terminate
 from desire_tui.engine.lowered.walk import simple_actions, walk_actions
+from desire_tui.engine.passes.assigned_states import without_assigned_states
 from desire_tui.engine.passes.moments import conditions_pass
 from desire_tui.engine.passes.slices import derivative_slice, full_pass, step_slice
 from desire_tui.engine.passes.slot_set import SlotSet
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.effects import Piece
     from desire_tui.engine.lowered.segment import Segment
 
+_NOWHERE = 2**40
+"""A slot that is no quantity's."""
 _LONGEST = 64
 """Longer arrays are not looked at for changes."""
 
@@ -51,6 +54,7 @@ def may_pass_points(segment: Segment) -> bool:
 
     No `delay(x, tau)` whose steps may be no longer than tau, and nobody else sets DT.
     """
+    segment, _ = without_assigned_states(segment, lambda _: _NOWHERE)
     if segment.delays or not segment.order or changed_inputs(segment) or not steps_are_free(segment):
         return False
     return all(slot != DT for action in walk_actions(full_pass(segment)) for slot, _ in writes(action))

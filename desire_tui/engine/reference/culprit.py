@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from desire_tui.engine.integration.rules import DUMMY
+from desire_tui.engine.integration.rules import DUMMY, rule_numbered
 from desire_tui.engine.lowered.effects import expressions
 from desire_tui.engine.lowered.expressions import Op
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, SetMat, SetVec
@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 PASSES_MOST = 20_000
 """The error is not kept waiting for longer than these take: about a second."""
 _CHUNKS = 32
+_ROWS_BEHIND = PASSES_MOST // 4
+"""Samples behind the last one that a run can have missed whose step failed: rules 4, 7, 8 may pass points."""
 
 
 class Culprit(NamedTuple):
@@ -80,13 +82,15 @@ def find_culprit(
     memory = start.memory
     width = 1 + len(segment.columns)
     samples = rows - int(memory.row) + 3
-    scratch = np.empty(samples * width)
+    passes_points = rule_numbered(rule).kind == "variable" and memory.dt_max > memory.comint
+    rows_behind = _ROWS_BEHIND if passes_points else 1
+    scratch = np.empty(max(samples, rows_behind) * width)
     memory.row, memory.rows = 0, scratch.ctypes.data
     try:
         with np.errstate(all="ignore"):
             for chunk in dict.fromkeys((max(samples // _CHUNKS, 1), 1)):
                 _go_near(memory, counters, model, values, chunk, samples - 1)
-            memory.row, memory.row_limit = 0, 1
+            memory.row, memory.row_limit = 0, rows_behind
             return _replayed(segment, rule, values, memory)
     finally:
         after.put_back(values)

@@ -49,8 +49,12 @@ class RunPlan:
 
     @property
     def is_free(self) -> bool:
-        """Whether steps of rules 4, 7 and 8 may go beyond communication points: DTMAX is above COMINT."""
-        return RULES[self.rule].kind == "variable" and self.dt_max > self.comint * (1.0 + ROUNDING)
+        """Whether steps of rules 4, 7 and 8 may go beyond communication points: DTMAX is above COMINT.
+
+        Points at the run's ends alone stop no step.
+        """
+        wider = self.nn > 2 and self.dt_max > self.comint * (1.0 + ROUNDING)
+        return wider and RULES[self.rule].kind == "variable"
 
     @property
     def tolerance(self) -> float:

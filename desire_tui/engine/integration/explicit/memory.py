@@ -35,7 +35,8 @@ class Explicit(ctypes.Structure):
         ("problem", _ADDRESS), ("evaluate", Evaluate),
         ("n", _INT),
         ("stages", _INT), ("nodes", _REALS), ("rows", _REALS),
-        ("y", _REALS), ("base", _REALS),  # states, and those at the last step's start
+        ("y", _REALS),  # states; others may put them back to where something happened in the step
+        ("base", _REALS), ("end", _REALS),  # those at both ends of the last step
         ("k", _REALS),
         ("rate", _REALS),  # n numbers
         ("t", _REAL), ("t_base", _REAL),
@@ -63,10 +64,10 @@ class Arrays:
         for to, row in zip(self.rows, (*tableau.a, tableau.b, tableau.test), strict=True):
             to[0], multiples = whole_multiples(row) if row else (1, ())
             to[1 : 1 + len(multiples)] = multiples
-        self.base, self.rate = np.zeros((2, max(n, 1)))
+        self.base, self.end, self.rate = np.zeros((3, max(n, 1)))
         self.k = np.zeros((tableau.stages + 1, max(n, 1)))
 
     def give(self, solver: Explicit) -> None:
         """Write the arrays' addresses into the structure."""
-        for name in ("nodes", "rows", "base", "rate", "k"):
+        for name in ("nodes", "rows", "base", "end", "rate", "k"):
             setattr(solver, name, ctypes.cast(getattr(self, name).ctypes.data, _REALS))

@@ -72,6 +72,7 @@ def advance(s: Explicit, t_stop: float) -> int:
         s.dt = min(2.0 * s.dt, s.dt_most)
     total = 0.0
     for i in range(n):
+        s.end[i] = s.y[i]
         total += s.y[i] - s.y[i]  # 0 for every finite number
     if total != 0.0:
         return NOT_FINITE
@@ -143,9 +144,9 @@ def put_inside(s: Explicit, t: float, out: Reals) -> None:
     end = s.stages * n
     part = (t - s.t_base) / h
     for i in range(n):
-        rise = s.y[i] - s.base[i]
+        rise = s.end[i] - s.base[i]
         slope = h * s.k[i]
         other = 2.0 * rise - slope
         if s.is_cubic != 0:
             other = h * s.k[end + i]
-        out[i] = inside(part, s.base[i], s.y[i], slope, other)
+        out[i] = inside(part, s.base[i], s.end[i], slope, other)
