@@ -164,6 +164,20 @@ dispt x
     assert places[0].startswith("event")
 
 
+def test_steps_beyond_samples_have_no_form():
+    text = """x = 1 | TMAX = 1 | DT = 0.01 | NN = 11 | irule 4 | DTMAX = {dtmax}
+drun
+DYNAMIC
+d/dt x = -x
+dispt x
+"""
+    with pytest.raises(DesireError) as error:
+        content(Export(Source(text.format(dtmax=0.5), "model.src")))
+    (problem,) = error.value.diagnostics
+    assert problem.message == "irule 4 with steps beyond communication points has no form in C here"
+    content(Export(Source(text.format(dtmax=0.1), "model.src")))
+
+
 def test_a_run_that_fails_says_so(tmp_path):
     text = "x = 1 | TMAX = 5 | DT = 0.01 | NN = 51\ndrun\nDYNAMIC\nd/dt x = x*x\ndispt x\n"
     (tmp_path / "m.c").write_bytes(content(Export(Source(text, "m.src"))))
