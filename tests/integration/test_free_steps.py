@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -74,7 +76,7 @@ dispt x, y
         exact = 0.5 * (np.cos(t) + np.sin(t) + np.exp(-t))
         slope = 0.5 * (np.cos(t) - np.sin(t) - np.exp(-t))
         errors.append(max(np.abs(x - exact).max(), np.abs(y - slope).max()))
-    for one, other in zip(errors, errors[1:], strict=False):
+    for one, other in pairwise(errors):
         assert one / other == pytest.approx(2.0 ** TABLEAUS[rule].rule.order, rel=0.2)
 
 
