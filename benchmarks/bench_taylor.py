@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import sys
 import time
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -58,9 +57,8 @@ def desire(
     return seconds, _states(session, problem), session.runs[-1].steps
 
 
-@cache
 def frame_seconds() -> float:
-    """Seconds of a run of one step."""
+    """Seconds of a run of one step, now: how fast the machine is changes."""
     session = Session(Listener())
     drive = "drunr\n" * 50
     text = (

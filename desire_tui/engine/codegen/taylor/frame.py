@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.text import literal
+from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.taylor.fused import Fused
 from desire_tui.engine.codegen.taylor.layout import apart
 from desire_tui.engine.lowered.expressions import Const
@@ -19,8 +20,9 @@ class Frame:
     """Names of values in the text.
 
     `%v` are the values, `%c` the coefficients, `%p` the order; inside the loop `%k` is the order in turn,
-    `%kf` the same as a double. In straight-line code `order` is the order in turn, and neither is there.
-    `now` holds the k-th coefficients of numbers' series.
+    `%kf` the same as a double, `%ki` one over it, `%ke` what that is rounded by. In straight-line code
+    `order` is the order in turn, and none of these is there. `now` holds the k-th coefficients of numbers'
+    series.
     """
 
     def __init__(self, text: IrText, layout: Layout) -> None:
@@ -55,6 +57,15 @@ class Frame:
 
     # ------------------------------------------------------------------ the order in turn
 
+    def load_order(self) -> None:
+        """Write what the loop needs of the order in turn."""
+        text, lanes = self.text, self.lanes
+        text.do("%kf = sitofp i64 %k to double")
+        if machine().fuses:
+            one = literal(1.0)
+            text.do(f"%ki = fdiv double {one}, %kf")
+            text.do(f"%ke = fmul double %ki, {lanes.mul_sub('%kf', '%ki', one)}")
+
     @property
     def index(self) -> str:
         """Return the order in turn as an index."""
@@ -72,8 +83,14 @@ class Frame:
         A product with 1/k would be off to the same side in every step, so that energies drift.
         """
         if self.order is None:
-            return self.lanes.div(value, "%kf")
+            return self.all_over_order(self.lanes, value)
         return self.lanes.over(value, self.order)
+
+    def all_over_order(self, lanes: Fused, values: str) -> str:
+        """Return numbers over the order in turn, inside the loop."""
+        if machine().fuses:
+            return lanes.times_pair(values, lanes.splat("%ki"), lanes.splat("%ke"))
+        return lanes.div(values, lanes.splat("%kf"))
 
     # ------------------------------------------------------------------ anywhere
 

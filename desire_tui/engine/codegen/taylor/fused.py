@@ -31,14 +31,18 @@ class Fused(Lanes):
         return Pairs(self).fma(self.neg(a), b, c)
 
     def over(self, a: str, divisor: int) -> str:
-        """Return a / divisor for a small whole number, rounded once as a division is.
+        """Return a / divisor for a small whole number, rounded once as a division is."""
+        if not machine().fuses or divisor & (divisor - 1) == 0:  # LLVM multiplies by powers of two itself
+            return a if divisor == 1 else self.div(a, self.const(float(divisor)))
+        high = 1.0 / divisor
+        low = float(Fraction(1, divisor) - Fraction(high))
+        return self.times_pair(a, self.const(high), self.const(low))
+
+    def times_pair(self, a: str, high: str, low: str) -> str:
+        """Return a / divisor, rounded once, from 1 / divisor in twice the digits.
 
         a·z + a·z' with z + z' = 1/divisor in twice the digits: a quotient is never nearer to the middle
         between two doubles than 1/(2·divisor) of their distance, which is far more than the error
         (Brisebarre, Muller and Raina, IEEE Trans. Computers 53 (2004)).
         """
-        if not machine().fuses or divisor & (divisor - 1) == 0:  # LLVM multiplies by powers of two itself
-            return a if divisor == 1 else self.div(a, self.const(float(divisor)))
-        high = 1.0 / divisor
-        low = float(Fraction(1, divisor) - Fraction(high))
-        return self.mul_add(a, self.const(high), self.mul(a, self.const(low)))
+        return self.mul_add(a, high, self.mul(a, low))

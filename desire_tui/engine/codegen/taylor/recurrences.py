@@ -140,7 +140,7 @@ class _Loop(Recurrences):
         text.jump("orders")
         text.begin("orders")
         text.do("%k = phi i64 [ 1, %begun ], [ %k.next, %turn ]")
-        text.do("%kf = sitofp i64 %k to double")
+        self.frame.load_order()
         self.states({number: text.op(f"load double, ptr {cell}") for number, cell in cells.items()})
         text.branch(text.op("icmp slt i64 %k, %p"), "inner", "last")
         text.begin("inner")

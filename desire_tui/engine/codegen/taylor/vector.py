@@ -57,9 +57,8 @@ class VectorRecurrences(Arrays):
             loop(text, "0", str(apart(node)), lanes.width, constant)
             return
         source = self._frame.row(derivative, before)
-        scale = lanes.splat("%kf")
         loop(text, "0", str(apart(node)), lanes.width,
-             lambda i: put(lanes, target, i, lanes.div(fetch(lanes, source, i), scale)))  # fmt: skip
+             lambda i: put(lanes, target, i, self._over_order(fetch(lanes, source, i))))  # fmt: skip
 
     def number(self, node: Series) -> str:
         """Write a number that is an array's element, or the sum of its elements."""
@@ -96,7 +95,7 @@ class VectorRecurrences(Arrays):
 
     def _element_mul(self, node: Series, i: str) -> str:
         a, b = node.operands
-        return self._products(a, b, i, 0, 0)
+        return self._square(a, i, 0) if a is b else self._products(a, b, i, 0, 0)
 
     def _element_div(self, node: Series, i: str) -> str:
         a, b = node.operands
@@ -107,7 +106,7 @@ class VectorRecurrences(Arrays):
 
     def _element_sqrt(self, node: Series, i: str) -> str:
         lanes = self._lanes
-        rest = lanes.sub(self._of(node.operands[0], i), self._products(node, node, i, 1, 1))
+        rest = lanes.sub(self._of(node.operands[0], i), self._square(node, i, 1))
         return lanes.div(lanes.mul(lanes.const(0.5), rest), self._first(node, i))
 
     def _element_integral(self, node: Series, i: str) -> str:
@@ -115,14 +114,13 @@ class VectorRecurrences(Arrays):
         if isinstance(factor, Constant):
             return self._lanes.mul(self._constant(factor, i), self._of(inner, i))
         total = self._products(inner, factor, i, 1, 0, slope=True)
-        return self._lanes.div(total, self._lanes.splat("%kf"))
+        return self._over_order(total)
 
     def _element_quotient(self, node: Series, i: str) -> str:
         lanes = self._lanes
         a, b = node.operands
-        known = self._products(node, b, i, 1, 1, slope=True)
-        rest = lanes.sub(lanes.mul(lanes.splat("%kf"), self._of(a, i)), known)
-        return lanes.div(lanes.div(rest, self._first(b, i)), lanes.splat("%kf"))
+        known = self._over_order(self._products(node, b, i, 1, 1, slope=True))
+        return lanes.div(lanes.sub(self._of(a, i), known), self._first(b, i))
 
     def _element_select(self, node: Series, i: str) -> str:
         condition, yes, no = node.operands
@@ -130,6 +128,19 @@ class VectorRecurrences(Arrays):
         lanes = self._lanes
         flags = lanes.compare("ogt", self._constant(condition, i), lanes.const(0.0))
         return lanes.choose(flags, self._of(yes, i), self._of(no, i))
+
+    def _over_order(self, values: str) -> str:
+        return self._frame.all_over_order(self._lanes, values)
+
+    def _square(self, a: Series | Constant, i: str, first: int) -> str:
+        """Return Σ a_j·a_{k-j}, j from `first` to k - `first`: twice the half, and the middle."""
+        text, lanes = self._frame.text, self._lanes
+        assert isinstance(a, Series)
+        half = self._sum_of_products(a, a, i, str(first), text.op(f"lshr i64 {text.op('add i64 %k, 1')}, 1"))
+        middle = self._at_order(a, text.op("lshr i64 %k, 1"), i)
+        is_even = text.op(f"icmp eq i64 {text.op('and i64 %k, 1')}, 0")
+        other = text.op(f"select i1 {is_even}, {lanes.kind} {middle}, {lanes.kind} {lanes.const(0.0)}")
+        return lanes.mul_add(lanes.const(2.0), half, lanes.mul(middle, other))
 
     def _products(
         self,
@@ -142,12 +153,17 @@ class VectorRecurrences(Arrays):
         slope: bool = False,
     ) -> str:
         """Return Σ a_j·b_{k-j}, j from `first` to k - `less`; `slope`: each times j."""
-        text, lanes = self._frame.text, self._lanes
         assert isinstance(a, Series)
         assert isinstance(b, Series)
+        end = self._frame.text.op(f"add i64 %k, {1 - less}")
+        return self._sum_of_products(a, b, i, str(first), end, slope=slope)
+
+    def _sum_of_products(
+        self, a: Series, b: Series, i: str, first: str, end: str, *, slope: bool = False
+    ) -> str:
+        text, lanes = self._frame.text, self._lanes
         cell = text.alloca(lanes.kind)
         text.do(f"store {lanes.kind} {lanes.const(0.0)}, ptr {cell}")
-        end = text.op(f"add i64 %k, {1 - less}")
 
         def turn(j: str) -> None:
             left = self._at_order(a, j, i)
@@ -157,5 +173,5 @@ class VectorRecurrences(Arrays):
             before = text.op(f"load {lanes.kind}, ptr {cell}")
             text.do(f"store {lanes.kind} {lanes.mul_add(left, right, before)}, ptr {cell}")
 
-        loop(text, str(first), end, 1, turn)
+        loop(text, first, end, 1, turn)
         return text.op(f"load {lanes.kind}, ptr {cell}")
