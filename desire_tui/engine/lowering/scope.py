@@ -29,7 +29,8 @@ def size_of(quantity: Quantity) -> int:
 
 def _are_real_scalars(quantities: Iterable[Quantity | None]) -> bool:
     """Whether all that are there are scalars of kind REAL."""
-    return not [q for q in quantities if q is not None and (q.shape or q.kind is not Kind.REAL)]
+    real = Kind.REAL  # looked up once: an enumeration's attributes take their time
+    return not [q for q in quantities if q is not None and (q.shape or q.kind is not real)]
 
 
 class SegmentScope(Protocol):
@@ -89,13 +90,15 @@ class LiveScope:
 
     def states(self, names: Sequence[str]) -> list[int] | None:
         """Return the slots of the scalars of these names, made if new, as states; None: one cannot be one."""
-        known = [*map(self.names.get, names)]
-        if not _are_real_scalars(known):
+        if not _are_real_scalars(map(self.names.get, names)):
             return None
-        made = [quantity or self.values.scalar(name) for quantity, name in zip(known, names, strict=True)]
-        for quantity in made:
+        if not self.names.keys() >= {*names}:
+            for name in names:
+                self.values.scalar(name)
+        quantities = [*map(self.names.__getitem__, names)]
+        for quantity in quantities:
             quantity.is_state = True
-        return [quantity.slot for quantity in made]
+        return [quantity.slot for quantity in quantities]
 
     def hidden(self, count: int) -> int:
         """Return the first of `count` slots of the compiler's own."""

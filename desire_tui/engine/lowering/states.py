@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.lowered.segment import StateRange
@@ -23,9 +24,12 @@ class StateTable:
         else:
             self.ranges = _merged(lines)
         self.order = sum([r.count for r in self.ranges])
-        self._by_slot = {r.slot: r.first for r in self.ranges}
         self._long = sorted((r for r in self.ranges if r.count > 1), key=lambda r: r.slot)
         self._starts = [r.slot for r in self._long]
+
+    @cached_property
+    def _by_slot(self) -> dict[int, int]:
+        return {r.slot: r.first for r in self.ranges}
 
     def number(self, slot: int) -> int | None:
         """Return the number of the state in a slot; None if there is none."""

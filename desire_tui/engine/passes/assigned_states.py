@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from copy import copy
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.effects import count_draws, expressions, reads, writes
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered.segment import Jacobian, Segment
     from desire_tui.engine.lowered.statements import Action
+
+_ASSIGNMENTS = frozenset(get_args(Assignment))
 
 
 def stepped_segment(
@@ -87,6 +89,8 @@ def without_assigned_states(
 
 def _assignments(segment: Segment) -> list[tuple[Assignment, bool]]:
     """Return the assignments that every pass makes to states, each with whether it has to be made earlier."""
+    if _ASSIGNMENTS.isdisjoint({type(action) for action in segment.body}):
+        return []
     states = SlotSet()
     for given in segment.states:
         states.add(given.slot, given.count)

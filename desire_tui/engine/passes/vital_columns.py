@@ -28,10 +28,14 @@ if TYPE_CHECKING:
 
 def vital_columns(segment: Segment) -> list[int]:
     """Return the numbers of those of a segment's columns that are states, or that states are made of."""
+    scalars = {states.slot for states in segment.states if states.count == 1}
+    columns = segment.columns
+    if scalars.issuperset([column.slot for column in columns]):
+        return [*range(len(columns))]
     vital = SlotSet()
     for states in segment.states:
         vital.add(states.slot, states.count)
-    slots = [column.slot for column in segment.columns]
+    slots = [column.slot for column in columns]
     if not all(vital.overlaps(slot, 1) for slot in slots):
         found: set[int] = set()
         while _collect(segment.body, vital, found):

@@ -9,7 +9,7 @@ have other last bits in vectors than alone, and results must not depend on a nei
 from __future__ import annotations
 
 from itertools import compress, count, repeat
-from operator import ne
+from operator import attrgetter, ne
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
@@ -98,7 +98,8 @@ class _Run:
         keys, kinds = [found and found[0] for found in shapes], [*map(type, actions)]
         most = min(_alike(keys, repeat(self.key)), _alike(kinds, repeat(self.kind)))
         added: list[Set | Deriv] = actions[:most]  # type: ignore[assignment]  # as their kind says
-        most = _alike([*map(_target, added)], count(self.target + size))
+        targets = map(attrgetter("slot" if self.kind is Set else "state"), added)
+        most = _alike([*targets], count(self.target + size))
         if not most:
             return 0
         leaves = [found[1] for found in shapes[:most] if found is not None]
@@ -213,11 +214,10 @@ def _plain(action: Action) -> _Shape | None:
     """Return shape and leaves of the value of a statement that may be rolled up."""
     if type(action) is not Deriv and type(action) is not Set:
         return None
-    value = action.value
-    known = _shapes[id(value)]
+    known = _shapes[id(action.value)]
     if known is None:
-        known = value, _shape(value)
-        _shapes.keep(id(value), known)
+        known = action.value, _shape(action.value)
+        _shapes.keep(id(action.value), known)
     return known[1]
 
 
