@@ -139,6 +139,7 @@ class SolverProblem(ctypes.Structure):
         ("tolerance", _REAL),  # ERMAX
         ("absolute", _REAL),  # ERABS
         ("noise", _ADDRESS),  # below this error a state is nothing but rounding noise (`stiff.rounding`)
+        ("noisy", _INT),  # 1: one of those is not 0
         ("moved", _ADDRESS),  # n numbers each, to find that
         ("base", _ADDRESS),
         ("rate", _ADDRESS),

@@ -172,7 +172,7 @@ class StiffSystem:
         problem.suspect = -1
         problem.absolute = memory.error_absolute * share
         problem.noise_seen, problem.noise_wait = 0, NOISE_WAIT
-        problem.turns = problem.returned = 0
+        problem.turns = problem.returned = problem.noisy = 0
         problem.relief = 1.0
         longest = [size / 2 for size in (memory.dt_max, abs(memory.comint)) if size > 0.0]
         problem.slide_size = min(abs(memory.t_max) / SLIDE_PARTS, *longest, inf)

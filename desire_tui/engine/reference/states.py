@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from desire_tui.engine.integration.tableaus import whole_multiples
+from desire_tui.engine.lowered.state_ranges import state_ranges
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -19,12 +20,11 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.integration.tableaus import Row, Tableau
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.state_ranges import Range
     from desire_tui.engine.values import Values
 
     Array = NDArray[np.float64]
 
-Range = tuple[int, int, int]
-"""Consecutive states: the slot of the first, its number, how many."""
 UNROLLED_MOST = 24
 """States up to which sums written out are faster than NumPy's."""
 
@@ -47,7 +47,7 @@ class States(Protocol):
 def make_states(segment: Segment, tableau: Tableau | None, values: Values, derivatives: Array) -> States:
     """Return the kind of states that suits the segment."""
     rows = [] if tableau is None else [*tableau.a, tableau.b]
-    ranges = join_ranges([(r.slot, r.first, r.count) for r in segment.states])
+    ranges = state_ranges(segment.states)
     kind = UnrolledStates if segment.order <= UNROLLED_MOST else ArrayStates
     return kind(ranges, segment.order, rows, values, derivatives)
 
@@ -124,14 +124,3 @@ def sum_of_multiples(multiples: Sequence[int], k: Sequence[Array]) -> Array:
         if multiple:
             total = float(multiple) * one if total is None else total + float(multiple) * one
     return np.zeros_like(k[0]) if total is None else total
-
-
-def join_ranges(ranges: list[Range]) -> list[Range]:
-    """Join neighbours: (slot, first state, count)."""
-    found: list[Range] = []
-    for slot, first, count in ranges:
-        if found and found[-1][0] + found[-1][2] == slot:
-            found[-1] = (found[-1][0], found[-1][1], found[-1][2] + count)
-        else:
-            found.append((slot, first, count))
-    return found

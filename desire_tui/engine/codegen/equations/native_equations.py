@@ -14,6 +14,7 @@ from desire_tui.engine.integration.pattern import Pattern
 from desire_tui.engine.integration.plan import jacobian_tables
 from desire_tui.engine.integration.problem import Matrix, SolverProblem
 from desire_tui.engine.lowered.jacobian_array import checked_array
+from desire_tui.engine.lowered.state_ranges import state_ranges
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.slices import derivative_slice, jacobian_pass
 from desire_tui.engine.passes.sparsity import sparsity_pattern
@@ -65,7 +66,7 @@ class NativeEquations:
         problem.derivatives = functions.address("derivative")
         for name in passes.keys() - {"derivative"}:
             setattr(problem, name, functions.address(name))
-        ranges = np.array([(s.slot, s.first, s.count) for s in equations.states], dtype=np.int64)
+        ranges = np.array(state_ranges(equations.states), dtype=np.int64)
         problem.n, problem.range_count, problem.ranges = n, len(ranges), ranges.ctypes.data
         room = np.zeros((5, n))
         problem.last, problem.base, problem.moved, problem.largest, problem.spare = (

@@ -147,8 +147,9 @@ class Expressions:
             if isinstance(group, type) and issubclass(group, enum.IntEnum) and node.attr in group.__members__:
                 return Value(str(int(group[node.attr])), INT)
         place, kind, inside = self.field(node)
-        if node.attr in self.around.outside.known:
-            return Value(str(self.around.outside.known[node.attr]), INT)
+        known = self.around.outside.known.get(node.attr)
+        if known is not None:
+            return Value("null", kind) if kind.ir == "ptr" and known == 0 else Value(str(known), INT)
         return Value(place, kind) if inside else self.load(place, kind)
 
     def field(self, node: ast.Attribute) -> tuple[str, Kind, bool]:

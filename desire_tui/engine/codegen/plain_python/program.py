@@ -30,11 +30,16 @@ class Module(NamedTuple):
 
 
 def write_program(
-    modules: Iterable[Module], outside: Outside, prefix: str, public: frozenset[str] | None = None
+    modules: Iterable[Module],
+    outside: Outside,
+    prefix: str,
+    public: frozenset[str] | None = None,
+    rare: frozenset[str] = frozenset(),
 ) -> str:
     """Return the IR of all functions of modules that see each other; their names get a prefix.
 
     `public`: only these can be called from outside; LLVM puts others in line where they are called once.
+    `rare`: these are called seldom, and never put in line: what calls them stays small enough to be.
     """
     found = [(node, module) for module in modules for node in _functions(module)]
     signatures: dict[str, Signature] = {}
@@ -49,7 +54,10 @@ def write_program(
         _write(node, signatures[node.name], Surroundings(outside, module.names, signatures), text)
         needs |= dict.fromkeys(sorted(text.declarations))
         texts.append(text)
-    heads = (_head(signatures[node.name], public=public is None or node.name in public) for node, _ in found)
+    heads = (
+        _head(signatures[node.name], public=public is None or node.name in public, rare=node.name in rare)
+        for node, _ in found
+    )
     return "\n".join((*needs, *(f"{h} {{\n{text.body()}\n}}" for h, text in zip(heads, texts, strict=True))))
 
 
@@ -87,9 +95,10 @@ def _refuse(node: ast.AST, module: Module, what: str) -> NoReturn:
     raise PlainPythonError(f"{module.names.get('__name__', '')} line {getattr(node, 'lineno', '?')}: {what}")
 
 
-def _head(signature: Signature, *, public: bool) -> str:
+def _head(signature: Signature, *, public: bool, rare: bool) -> str:
     arguments = ", ".join(f"{kind.ir} %a{k}" for k, kind in enumerate(signature.arguments))
-    return f"define {'' if public else 'internal '}{signature.returns} @{signature.symbol}({arguments})"
+    linkage, attributes = "" if public else "internal ", " cold noinline" if rare else ""
+    return f"define {linkage}{signature.returns} @{signature.symbol}({arguments}){attributes}"
 
 
 def _write(node: ast.FunctionDef, signature: Signature, around: Surroundings, text: IrText) -> None:

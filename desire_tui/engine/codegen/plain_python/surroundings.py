@@ -35,7 +35,7 @@ class Outside:
     direct: Mapping[str, str] = field(default_factory=dict)
     """For a function pointer the function of the program that it always points at."""
     known: Mapping[str, int] = field(default_factory=dict)
-    """Whole-numbered fields that always have this value."""
+    """Whole-numbered fields that always have this value; addresses that are 0."""
     modules: Mapping[str, Mapping[str, Signature]] = field(default_factory=dict)
     """C functions, called as `module.name(…)`."""
 

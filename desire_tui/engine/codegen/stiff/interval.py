@@ -25,7 +25,7 @@ from desire_tui.engine.codegen.stiff.cvode_steps import (
     look,
     take_step,
 )
-from desire_tui.engine.codegen.stiff.model_calls import gather, scatter
+from desire_tui.engine.codegen.stiff.model_calls import gather, scatter, transfer
 from desire_tui.engine.codegen.stiff.moment_steps import (
     begin_interval,
     enter_step,
@@ -205,7 +205,7 @@ def leave(problem: SolverProblem, t: float, x: Reals) -> None:
     values[T] = t
     problem.t = t
     scatter(problem, x)
-    copy(last, 0, x, 0, problem.n)
+    transfer(last, 0, x, problem.n)
 
 
 def state_at(problem: SolverProblem, t: float) -> int:

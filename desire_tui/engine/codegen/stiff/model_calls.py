@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.plain_types import Int32, Ints, Reals
     from desire_tui.engine.integration.problem import SolverProblem
 
+FEW = 20
+"""Numbers that are copied one by one."""
 GO_BACK = 1
 """A callback's result for: try a smaller step."""
 _LARGEST = 1.7976931348623157e308
@@ -23,6 +25,25 @@ _LARGEST = 1.7976931348623157e308
 
 def scatter(problem: SolverProblem, y: Reals) -> None:
     """Write a state vector to the states' places among the values."""
+    if problem.range_count == 1:  # most models: a copy of a length that code for n states knows
+        values: Reals = problem.values
+        ranges: Ints = problem.ranges
+        transfer(values, ranges[0], y, problem.n)
+    else:
+        scatter_ranges(problem, y)
+
+
+def transfer(to: Reals, place: int, numbers: Reals, n: int) -> None:
+    """Copy n numbers. A few one by one: to load two at once that were just stored singly is to wait for them."""
+    if n <= FEW:
+        for i in range(n):
+            to[place + i] = numbers[i]
+    else:
+        copy(to, place, numbers, 0, n)
+
+
+def scatter_ranges(problem: SolverProblem, y: Reals) -> None:
+    """Do it where they do not stand together."""
     values: Reals = problem.values
     ranges: Ints = problem.ranges
     for i in range(problem.range_count):
@@ -91,11 +112,20 @@ def weigh(problem: SolverProblem, y: Reals, weights: Reals) -> Int32:
         largest[i] = size
         most = max(most, size)
     problem.floor = most * FLOOR
-    noise: Reals = problem.noise
     absolute: float = problem.absolute
     for i in range(n):
-        weights[i] = 1.0 / max(tolerance * scale(problem, i) + absolute, noise[i])
+        weights[i] = 1.0 / (tolerance * scale(problem, i) + absolute)
+    if problem.noisy != 0:
+        excuse_noise(problem, weights)
     return 0
+
+
+def excuse_noise(problem: SolverProblem, weights: Reals) -> None:
+    """Let errors of states that are rounding noise (`stiff.rounding`) be as large as that."""
+    noise: Reals = problem.noise
+    for i in range(problem.n):
+        if noise[i] > 0.0:
+            weights[i] = min(weights[i], 1.0 / noise[i])
 
 
 def scale(problem: SolverProblem, i: int) -> float:

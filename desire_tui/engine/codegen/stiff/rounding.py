@@ -106,4 +106,5 @@ def is_noise(problem: SolverProblem, t: float, horizon: float, i: int) -> int:
     if largest[i] > NOISE_PART * most or noise[i] >= NOISE_ROOM * most:
         return 0
     noise[i] = NOISE_ROOM * most
+    problem.noisy = 1
     return 1

@@ -98,6 +98,11 @@ _SERIES = -1
 """In place of a number of states: the solver of rule 17."""
 _VARIABLE = -2
 """In place of a number of states: the solver of rules 4, 7 and 8."""
+NEVER_IN_SMOOTH_MODELS = {"watch": 0, "moments": 0, "step": 0, "input_count": 0}
+"""Fields of a `SolverProblem` in which nothing switches, no event comes, no delay looks back, and no code at
+steps or points changes what derivatives read: most models. Asking would take 5 % of their steps' time."""
+_RARE = frozenset(("scatter_ranges", "excuse_noise", "find_noise", "begin_anew"))
+"""Functions whose code would only make the steps' longer."""
 _FAST = 1
 """Level of optimisation of what goes with CVODE: level 2 gains nothing there."""
 SIZES_KEPT = 16
@@ -127,22 +132,25 @@ class SolverRoutines:
         self._connected = False
         self._cvode: dict[int, StiffFunctions] = {}
         """By level of optimisation."""
-        self._own = RecentlyUsed[int, StiffFunctions](SIZES_KEPT)
-        """By number of states; a run that goes on keeps its own."""
+        self._own = RecentlyUsed[tuple[int, bool], StiffFunctions](SIZES_KEPT)
+        """By number of states, and whether for smooth models; a run that goes on keeps its own."""
         self._locks = defaultdict[int, Lock](Lock)
         """By level: several sessions may ask for the same, and quick code does not wait for fast code."""
 
-    def first(self, n: int, *, own: bool) -> StiffFunctions:
-        """Return what a run can start with at once: fast code if there is some, else quick code."""
+    def first(self, n: int, *, own: bool, smooth: bool = False) -> StiffFunctions:
+        """Return what a run can start with at once: fast code if there is some, else quick code.
+
+        `smooth`: for models in which nothing of `NEVER_IN_SMOOTH_MODELS` happens.
+        """
         if not own:
             return self._with_cvode(_FAST if n > LARGE else 0)
-        return self._kept(n) or self._kept(_ANY) or self._make_own(_ANY, level=0)
+        return self._kept(n, smooth=smooth) or self._kept(_ANY) or self._make_own(_ANY, level=0)
 
-    def fast(self, n: int, *, own: bool) -> StiffFunctions:
+    def fast(self, n: int, *, own: bool, smooth: bool = False) -> StiffFunctions:
         """Compile the fastest code for n states (0.1 s; our solver, for just this n, 1 s once a machine)."""
         if not own:
             return self._with_cvode(_FAST)
-        return self._kept(n) or self._make_own(n, level=2)
+        return self._kept(n, smooth=smooth) or self._make_own(n, smooth=smooth, level=2)
 
     def series(self) -> StiffFunctions:
         """Return the solver of rule 17, compiled well once a machine: a single run may take long."""
@@ -159,28 +167,28 @@ class SolverRoutines:
                 self._cvode[level] = _found(compile_text(_cvode_text(), level=level, keep=True), own=False)
             return self._cvode[level]
 
-    def _make_own(self, n: int, *, level: int) -> StiffFunctions:
+    def _make_own(self, n: int, *, smooth: bool = False, level: int) -> StiffFunctions:
         """Compile our solver for n states, `_ANY` number of them."""
         with self._locks[level]:
-            if (found := self._own[n]) is None:
-                text = _text(n)
-                code = compile_and_keep(text, _name(n), level=level, vectorize=level > 0)
-                found = self._keep(n, code)
+            if (found := self._own[n, smooth]) is None:
+                text = _text(n, smooth=smooth)
+                code = compile_and_keep(text, _name(n, smooth=smooth), level=level, vectorize=level > 0)
+                found = self._keep(n, code, smooth=smooth)
             return found
 
-    def _kept(self, n: int) -> StiffFunctions | None:
+    def _kept(self, n: int, *, smooth: bool = False) -> StiffFunctions | None:
         """Return our solver's fast code for n states if this process or another one has made it."""
-        found = self._own[n]
+        found = self._own[n, smooth]
         if found is None:
-            code = kept_code(_name(n))
+            code = kept_code(_name(n, smooth=smooth))
             if code is not None:
-                found = self._keep(n, code)
+                found = self._keep(n, code, smooth=smooth)
         return found
 
-    def _keep(self, n: int, code: MachineCode) -> StiffFunctions:
+    def _keep(self, n: int, code: MachineCode, *, smooth: bool) -> StiffFunctions:
         found = _found(code, own=True)
         self._own.age()
-        self._own.keep(n, found)
+        self._own.keep((n, smooth), found)
         return found
 
     def _connect(self) -> None:
@@ -195,7 +203,7 @@ class SolverRoutines:
 
 
 @lru_cache(2 * SIZES_KEPT)
-def _name(n: int) -> str:
+def _name(n: int, *, smooth: bool = False) -> str:
     layouts = repr(
         [
             T,
@@ -204,7 +212,7 @@ def _name(n: int) -> str:
         ]
     )
     everything = _DEPENDS_ON + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
-    return f"bdf-{n}-{blake2b(everything, digest_size=8).hexdigest()}"
+    return f"bdf-{n}{'-smooth' if smooth else ''}-{blake2b(everything, digest_size=8).hexdigest()}"
 
 
 def _modules(modules: tuple[ModuleType, ...]) -> list[Module]:
@@ -219,21 +227,22 @@ def _cvode_text() -> str:
     return write_program(_modules(_CVODE), outside, "solver_", public)
 
 
-def _text(n: int) -> str:
+def _text(n: int, *, smooth: bool) -> str:
     """Return the text of one of our solvers: BDF for a number of states, or what stands in place of one."""
     if n == _SERIES:
         return _series_text()
-    return _variable_text() if n == _VARIABLE else _own_text(n)
+    return _variable_text() if n == _VARIABLE else _own_text(n, smooth=smooth)
 
 
-def _own_text(n: int) -> str:
+def _own_text(n: int, *, smooth: bool = False) -> str:
     """Write our solver, for n states only if that is not `_ANY`; all in one function takes LLVM 1 s more."""
     callbacks = {"evaluate": Evaluate, "weigh": Weigh, "fill": Fill}
     structures = {"SolverProblem": SolverProblem, "RunMemory": RunMemory, "Bdf": Bdf, "Moments": Moments}
     pointers = _of_the_problem() | {name: of_function(kind, "") for name, kind in callbacks.items()}
     direct = {name: name for name in callbacks}
-    outside = Outside(structures, pointers, direct, {"n": n} if n else {})
-    return write_program(_modules(_OWN), outside, "solver_")
+    known = ({"n": n} if n else {}) | (NEVER_IN_SMOOTH_MODELS if smooth else {})
+    outside = Outside(structures, pointers, direct, known)
+    return write_program(_modules(_OWN), outside, "solver_", rare=_RARE)
 
 
 def _series_text() -> str:

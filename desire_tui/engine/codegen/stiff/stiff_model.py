@@ -27,6 +27,7 @@ from desire_tui.engine.integration.switching.setup import Watcher
 from desire_tui.engine.integration.system import ModelFunctions, Natives, StiffSystem
 from desire_tui.engine.integration.taylor.solver import TaylorSolver
 from desire_tui.engine.lowered.jacobian_array import checked_array, fill_array
+from desire_tui.engine.lowered.state_ranges import state_ranges
 from desire_tui.engine.passes.assigned_states import checked_state, without_assigned_states
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.point_effects import changed_inputs, steps_are_free
@@ -112,7 +113,7 @@ class StiffModel:
         others = () if self._moments is None else self._moments.passes
         addresses = {name: functions.address(name) for name in inner if name not in others}
         addresses["derivatives"] = addresses.pop("derivative")
-        self._ranges = [(s.slot, s.first, s.count) for s in segment.states]
+        self._ranges = state_ranges(segment.states)
         self._watcher: Watcher | None = None
         if switching is not None:
             self._watcher = Watcher(switching, values, self._ranges)
@@ -123,6 +124,8 @@ class StiffModel:
         self._inputs = np.array(changed_inputs(segment), dtype=np.int64)
         self._inputs_kept, self._inputs_before = np.full((2, max(self._inputs.size, 1)), np.nan)
         self._is_free = not self._inputs.size and not segment.delays and steps_are_free(segment)
+        happens = switching is not None or self._moments is not None or "step" in inner
+        self._is_smooth = not (happens or self._inputs.size)
         way = _plan(segment, rule, extra)
         self._own = is_own(rule, segment.order, way)
         if way.linear.kind == "dense" and not self._own:
@@ -157,7 +160,7 @@ class StiffModel:
                 return self._routines.series()
             case "tableau":
                 return self._routines.variable()
-        return self._routines.first(self._slots.size, own=self._own)
+        return self._routines.first(self._slots.size, own=self._own, smooth=self._is_smooth)
 
     def _use(self, natives: StiffFunctions) -> None:
         """Connect the solver's callbacks and the interval loop."""
@@ -206,7 +209,8 @@ class StiffModel:
     def improve(self) -> Iterator[None]:
         """Compile a fast solver (`background.Improvable`)."""
         if rule_numbered(self.rule).kind == "multistep":
-            self._better = self._routines.fast(self._slots.size, own=self._own)
+            smooth = self._is_smooth
+            self._better = self._routines.fast(self._slots.size, own=self._own, smooth=smooth)
         yield
 
     def advice(self, *, again: bool = False) -> tuple[Diagnostic, ...]:
