@@ -80,6 +80,12 @@ class Store(ctypes.Structure):
     _fields_ = (("total", ctypes.c_double), ("count", ctypes.c_int64), ("table", ctypes.c_double * 8))
 
 
+class Linked(ctypes.Structure):
+    """Another structure's address, and a number."""
+
+    _fields_ = (("other", ctypes.c_uint64), ("count", ctypes.c_int64))
+
+
 REAL, INT, ADDRESS = ctypes.c_double, ctypes.c_int64, ctypes.c_void_p
 
 
@@ -341,6 +347,22 @@ def test_a_fused_sum_is_rounded_once_or_twice(level):
     assert native(third, 3.0, -1.0) in {0.0, once}
     with pytest.raises(PlainPythonError, match="2 arguments"):
         write_program([Module(text.replace(", c)\n", ")\n"), NAMES | {"fused": fused})], Outside({}), "")
+
+
+def test_what_is_asked_of_an_address_that_is_known_to_be_0_is_not_written():
+    text = "def f(s: Store) -> int:\n    if s.other != 0:\n        o: Store = s.other\n        return o.count\n    return 7\n"
+    written = write_program([Module(text, NAMES)], Outside({"Store": Linked}, known={"other": 0}), "plain_")
+    code = compile_text(written, level=0)
+    linked = Linked(other=1)
+    f = ctypes.CFUNCTYPE(INT, ADDRESS)(code.address("plain_f"))
+    assert f(ctypes.addressof(linked)) == 7
+
+
+def test_a_rare_function_stays_one_of_its_own():
+    text = "def f(n: int) -> int:\n    return n + 1\n\ndef g(n: int) -> int:\n    return f(n)\n"
+    written = write_program([Module(text, NAMES)], Outside({}), "", rare=frozenset({"f"}))
+    assert "@f(i64 %a0) cold noinline {" in written
+    assert "@g(i64 %a0) {" in written
 
 
 WHOLE, FLOATS, FLAGS = ("i", "j", "n"), ("a", "b", "x"), ("p", "q")

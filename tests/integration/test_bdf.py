@@ -200,7 +200,7 @@ def test_native_code_for_each_number_of_states(n, fast):
         dispt u[1]
     """
     if fast:
-        shared_state().routines.fast(n, own=True)
+        shared_state().routines.fast(n, own=True, smooth=True)
     session = Session(Listener())
     session.erun(Source(text, "chain.src"))
     matrix = 40 * (np.diag([1.0] * (n - 1), 1) + np.diag([1.0] * (n - 1), -1) - 2 * np.eye(n))
@@ -214,3 +214,33 @@ def test_native_code_for_each_number_of_states(n, fast):
 
 
 STEPS: dict[int, int] = {}
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        ("", 3 * exp(-2)),
+        ("event 1 - x\nx = 3\nend event", 9 * exp(-2)),
+        ("every 10, 1\nx = 1\nend event", exp(-1)),
+        ("SAMPLE 2\nc = 2", 3 * exp(-3)),
+        ("step\nc = 2", 3 * exp(-4)),
+        ("d = swtch(t - 1)*x", 3 * exp(-3)),
+        ("d = delay(x, 1, 0)", 3 * exp(-2) - 3 * exp(-1)),
+    ],
+)
+def test_code_for_smooth_models_is_used_for_no_others(lines, expected):
+    """It asks for nothing that may happen between steps."""
+    shared_state().routines.fast(1, own=True, smooth=True)
+    text = f"""irule 14 | ERMAX = 1E-8 | DT = 1E-5 | TMAX = 2 | NN = 3 | x = 3 | c = 1
+        drun
+        DYNAMIC
+        d = 0
+        {lines if lines[:1] == "d" else ""}
+        d/dt x = -c*x - d
+        dispt x
+        {"" if lines[:1] == "d" else lines}
+    """
+    session = Session(Listener())
+    session.erun(Source(text, "smooth.src"))
+    found = session.values.data[session.values.find("x").slot]
+    assert found == pytest.approx(expected, rel=1e-5)

@@ -3,6 +3,8 @@
 Loops, rules and solvers always go forward. Where the segment reads t it reads -s, and dx/ds = -dx/dt; whoever
 shows times turns them round (`runtime.simulator`). An event comes where its expression rises through 0 along
 the run, and a clock's moments are the same times as forward, the latest first (`runtime.event_times`).
+`delay(x, tau)` looks up x at t - tau, which such a run has passed if tau is below 0 (`runtime.event_times`).
+The array of a JACOBIAN part, which holds derivatives over t, holds those over -t as long as the run lasts.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.expressions import Const, Load, Op
-from desire_tui.engine.lowered.segment import Event
+from desire_tui.engine.lowered.segment import DelayedValue, Event, Jacobian, JacobianEntry
 from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set, StoreHistory
 from desire_tui.engine.passes.copies import Copies
 from desire_tui.engine.values import T
@@ -22,22 +24,27 @@ if TYPE_CHECKING:
 
 
 def backward(segment: Segment, spare: int) -> Segment:
-    """Return the segment over -t. A JACOBIAN part, of derivatives over t, is left to the compiler.
+    """Return the segment over -t.
 
     `spare`: a number that nobody uses; `store X = t` reads t there.
     """
-    turned = _Turned(spare)
+    given = segment.jacobian
+    turned = _Turned(spare, range(given.slot, given.slot + segment.order**2) if given else range(0))
     body, faults = turned.of(segment.body), turned.of(segment.faults)
     events = tuple(turned.event(event) for event in segment.events)
-    return replace(segment, body=body, faults=faults, events=events, jacobian=None)
+    delays = tuple(
+        DelayedValue(turned.of(d.source), _negative(turned.of(d.tau)), d.where) for d in segment.delays
+    )
+    jacobian = turned.jacobian(given) if given else None
+    return replace(segment, body=body, faults=faults, events=events, delays=delays, jacobian=jacobian)
 
 
 class _Turned(Copies):
     """Parts over -t."""
 
-    def __init__(self, spare: int) -> None:
+    def __init__(self, spare: int, matrix: range) -> None:
         super().__init__()
-        self._spare = spare
+        self._spare, self._matrix = spare, matrix
         self._time = _negative(Load(T))
 
     def event(self, event: Event) -> Event:
@@ -52,6 +59,13 @@ class _Turned(Copies):
         body = (Guard("if", body, event.where, is_due),)
         return Event(body, event.where, period=event.period, start=event.start)
 
+    def jacobian(self, given: Jacobian) -> Jacobian:
+        """Return a JACOBIAN part over -t."""
+        entries = [
+            JacobianEntry(e.row, e.column, _negative(self.of(e.value)), e.where) for e in given.entries
+        ]
+        return Jacobian(given.slot, self.of(given.body), tuple(entries))
+
     def items(self, item: Any) -> tuple[Any, ...]:
         """Let `store X = t` read a copy of t."""
         if not (isinstance(item, StoreHistory) and item.slot == T):
@@ -62,7 +76,10 @@ class _Turned(Copies):
     def made(self, part: Any, copy: Any) -> Any:
         """Turn t and derivatives."""
         if isinstance(copy, Load):
-            return self._time if copy.slot == T else part
+            return self._time if copy.slot == T else _negative(part) if copy.slot in self._matrix else part
+        if isinstance(copy, Op) and copy.name == "delayed":
+            number, time, *before = copy.args
+            return Op("delayed", (number, _negative(time), *before))
         if isinstance(copy, Deriv):
             return Deriv(copy.state, _negative(copy.value), copy.where)
         if isinstance(copy, DerivVec):

@@ -76,7 +76,7 @@ def find_culprit(
     if segment.events or segment.delays:
         return None
     counters = start.counters
-    after = BlockStart(start.memory, bytes(start.memory), counters, counters.copy(), values.saved())
+    after = BlockStart.here(start.memory, counters, values)
     rows = int(start.memory.row)
     start.put_back(values)
     memory = start.memory
@@ -107,7 +107,7 @@ def _go_near(
     """Run on by `chunk` samples at a time, and stay where the run would end."""
     _take_up(memory)
     while True:
-        before = BlockStart(memory, bytes(memory), counters, counters.copy(), values.saved())
+        before = BlockStart.here(memory, counters, values)
         memory.row_limit = min(int(memory.row) + chunk, most)
         if memory.row >= most or model.advance(memory) is not Ended.RUNNING:
             before.put_back(values)

@@ -31,6 +31,8 @@ class BlockStart:
     """A copy of all that a run's next steps depend on, but for what a solver remembers."""
 
     memory: RunMemory
+    row: int
+    steps: int
     content: bytes
     counters: NDArray[np.int64]
     counted: NDArray[np.int64]
@@ -41,13 +43,18 @@ class BlockStart:
         """Return a copy of the present, None of a large model."""
         if values.numbers_used > NUMBERS_MOST:
             return None
-        return cls(memory, bytes(memory), counters, counters.copy(), values.saved())
+        return cls.here(memory, counters, values)
+
+    @classmethod
+    def here(cls, memory: RunMemory, counters: NDArray[np.int64], values: Values) -> BlockStart:
+        """Return a copy of the present."""
+        row, steps = int(memory.row), int(memory.steps)
+        return cls(memory, row, steps, bytes(memory), counters, counters.copy(), values.saved())
 
     def is_far(self, memory: RunMemory, values: Values) -> bool:
         """Whether a run has gone so far from here that looking at it again would take too long."""
-        begun = type(memory).from_buffer_copy(self.content)
-        work = (memory.steps - begun.steps) * values.numbers_used
-        return int(memory.row) - begun.row > SAMPLES_MOST or int(work) > WORK_MOST
+        work = (memory.steps - self.steps) * values.numbers_used
+        return int(memory.row) - self.row > SAMPLES_MOST or int(work) > WORK_MOST
 
     def put_back(self, values: Values) -> None:
         """Go back to it."""

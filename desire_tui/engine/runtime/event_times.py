@@ -58,8 +58,12 @@ def moment_slots(segment: Segment) -> set[int]:
     return {node.slot for node in walk_values(*values) if isinstance(node, Load)}
 
 
-def delay_times(segment: Segment, values: Values) -> list[float]:
-    """Return the time of each `delay(x, tau)`, 0 for one that may vary. DesireError: it is negative."""
+def delay_times(segment: Segment, values: Values, *, backward: bool = False) -> list[float]:
+    """Return the time of each `delay(x, tau)`, 0 for one that may vary. DesireError: it is negative.
+
+    `backward`: of a segment over -t, whose tau are the program's turned round: a constant above 0 there looks
+    ahead, at what the run has passed. DesireError 483: another looks at what is still to come, or may.
+    """
     if not segment.delays:
         return []
     sets = [action for action in segment.body if isinstance(action, Set)]
@@ -79,7 +83,10 @@ def delay_times(segment: Segment, values: Values) -> list[float]:
             for action in walk_actions(body):
                 if id(action) not in computed:
                     varied.update(slot + i for slot, count in writes(action) for i in range(count))
-        tau = 0.0 if read & varied else evaluate(delayed.tau, before, values)
+        varies = bool(read & varied)
+        tau = 0.0 if varies else evaluate(delayed.tau, before, values)
+        if backward and (varies or tau < 0.0):
+            raise DesireError(at_statement("delay-backward", {}, segment, delayed.where))
         if not (isfinite(tau) and tau >= 0.0):
             raise DesireError(at_statement("delay-negative", {"tau": tau}, segment, delayed.where))
         found.append(tau)

@@ -100,7 +100,7 @@ class Simulator:
             lag[counter] = records
         start = plan.t0 if plan.backward else None
         times = event_times(segment, self._values, backward_from=start)
-        taus = delay_times(segment, self._values)
+        taus = delay_times(segment, self._values, backward=plan.backward)
         record.rows = _rows(plan, record)
         self._began = perf_counter()
         positions = self.history.begin(segment)
@@ -108,7 +108,7 @@ class Simulator:
         memory.rows = record.rows.ctypes.data
         memory.times, memory.taus, memory.past = times, taus, positions
         self.memory = memory
-        self._turn_time(plan)
+        self._turn_time(plan, segment)
         self._control.attach(memory)
         self._heartbeat.begin()
         ended = Ended.STOPPED
@@ -118,7 +118,7 @@ class Simulator:
             self._heartbeat.end()
             self._control.attach(None)
             self.memory = None
-            self._turn_time(plan)
+            self._turn_time(plan, segment)
             self._settle(plan, memory, positions, record, sampled=ended in {Ended.TMAX, Ended.TERM})
             record.seconds = perf_counter() - self._began
             self._began = 0.0
@@ -131,11 +131,14 @@ class Simulator:
         record.message = error.diagnostics[0].message
         raise error
 
-    def _turn_time(self, plan: RunPlan) -> None:
-        """At both ends of a run backward: turn t round."""
+    def _turn_time(self, plan: RunPlan, segment: Segment) -> None:
+        """At both ends of a run backward: turn t round, and what was differentiated over it."""
         if plan.backward:
             self._values.cells[T] = 0.0 - self._values.cells[T]
             self.direction = -self.direction
+            matrix = _matrix(segment)
+            elements = self._values.data[matrix.start : matrix.stop]
+            elements[:] = 0.0 - elements
 
     def _set_up(
         self, segment: Segment, plan: RunPlan, positions: Positions, lag: NDArray[np.int64]
@@ -186,10 +189,10 @@ class Simulator:
                 self.block_start = BlockStart.taken(memory, memory.keep[0], self._values)
             began = perf_counter()
             self._heartbeat.block()
-            ended = Ended(model.advance(memory)) if self._control.clear_to_run(memory) else Ended.STOPPED
+            ended = model.advance(memory) if self._control.clear_to_run(memory) else Ended.STOPPED
             took = perf_counter() - began
             if self.direction < 0.0:
-                _turn_samples(record, first, int(memory.row))
+                _turn_samples(record, first, int(memory.row), _matrix(segment))
             _note(memory, record)
             if segment.pictures and record.count > first:
                 self._keep_pictures(segment, record)
@@ -280,9 +283,16 @@ def _grow(record: RunRecord, memory: RunMemory) -> None:
     memory.rows = record.rows.ctypes.data
 
 
-def _turn_samples(record: RunRecord, first: int, last: int) -> None:
-    """Turn the times of new samples round: t, and t where the program shows it."""
-    times = [0, *(number for number, column in enumerate(record.columns, 1) if column.slot == T)]
+def _matrix(segment: Segment) -> range:
+    """Return the slots of a JACOBIAN segment's array."""
+    given = segment.jacobian
+    return range(given.slot, given.slot + segment.order**2) if given is not None else range(0)
+
+
+def _turn_samples(record: RunRecord, first: int, last: int, matrix: range) -> None:
+    """Turn the times of new samples round: t, and t or an element of the Jacobian where they are shown."""
+    shown = enumerate(record.columns, 1)
+    times = [0, *(number for number, column in shown if column.slot == T or column.slot in matrix)]
     rows = record.rows[first:last]
     rows[:, times] = 0.0 - rows[:, times]
 

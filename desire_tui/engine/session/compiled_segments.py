@@ -8,7 +8,6 @@ import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.integration.rules import rule_numbered
-from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.runtime.stash import read_stash, with_recovery
 from desire_tui.engine.session.remembered_segments import RememberedSegments
 
@@ -133,7 +132,7 @@ class CompiledSegments:
         return all(cells[slot] == value for slot, value in segment.constants)
 
     def directed(self, segment: Segment, plan: RunPlan) -> Segment:
-        """Return the segment that a run follows. DesireError 483.
+        """Return the segment that a run follows.
 
         For a negative TMAX it is the one over -t; jumps of tables are switches where the rule locates them.
         """
@@ -141,8 +140,6 @@ class CompiledSegments:
             segment = self._with_table_jumps(segment)
         if not plan.backward:
             return segment
-        for delayed in segment.delays:
-            raise DesireError(at_statement("delay-backward", {}, segment, delayed.where))
         known = self._backward.get(id(segment))
         if known is None:
             from desire_tui.engine.passes.backward import backward

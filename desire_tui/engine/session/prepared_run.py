@@ -139,10 +139,10 @@ class PreparedRun:
         plan = simulator.defaults.plan(segment, self._rule, self._source, self._span)
         begins = self._starts.start(self.values, None, continues=continues)
         self.warnings = list(simulator.defaults.warnings())
-        segment = workspace.segments.directed(segment, plan)
+        forward, segment = segment, workspace.segments.directed(segment, plan)
         model = workspace.segments.model_of(segment, plan)
         self.warnings += [
-            *self._runs.advice(model, segment, again=self.advises_always),
+            *self._runs.advice(model, forward, again=self.advises_always),
             *segment.warnings,
         ]
         self._runs.count += 1

@@ -108,9 +108,9 @@ class Runs:
         replaced = self.simulator.defaults.warnings()
         if replaced:
             self._listener.problems(replaced)
-        segment = workspace.segments.directed(segment, plan)
+        forward, segment = segment, workspace.segments.directed(segment, plan)
         model = workspace.segments.model_of(segment, plan)
-        self._warn_before(model, segment)
+        self._warn_before(model, forward)
         points = point_sets(segment, self._values)
         self.start, self.run_of = start, (program.source.text, self._values.generation)
         self.count += 1

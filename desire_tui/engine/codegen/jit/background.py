@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import threading
 import weakref
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from time import process_time
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from contextlib import AbstractContextManager
 
 _BREATH_SECONDS = 0.0005
 """Between two steps: LLVM's lock is not fair, and somebody may wait with quick code."""
@@ -21,6 +22,9 @@ _END_SECONDS = 30.0
 _BEGUN_MOST = 3
 _QUIET_SECONDS = 0.02
 """After somebody waited for quick code, more may follow; then the user comes first."""
+
+
+_NOTHING_WAITS = nullcontext()
 
 
 class Improvable(Protocol):
@@ -91,9 +95,12 @@ class Improver:
             self._new.append(weakref.ref(work))
             self._wake()
 
-    @contextmanager
-    def running(self, *works: Improvable) -> Iterator[None]:
+    def running(self, *works: Improvable) -> AbstractContextManager[None]:
         """Tell that the model runs to which these belong."""
+        return self._counted(works) if self._waiting else _NOTHING_WAITS
+
+    @contextmanager
+    def _counted(self, works: tuple[Improvable, ...]) -> Iterator[None]:
         with self._something:
             begun = [known for known in self._waiting if known.work() in works]
             for known in begun:

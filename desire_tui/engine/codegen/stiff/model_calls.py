@@ -34,7 +34,7 @@ def scatter(problem: SolverProblem, y: Reals) -> None:
 
 
 def transfer(to: Reals, place: int, numbers: Reals, n: int) -> None:
-    """Copy n numbers. A few one by one: to load two at once that were just stored singly is to wait for them."""
+    """Copy n numbers, a few one by one: two loaded at once that were just stored singly are waited for."""
     if n <= FEW:
         for i in range(n):
             to[place + i] = numbers[i]

@@ -258,7 +258,8 @@ class StiffModel:
                 self._use(better)
             self.system.begin(memory, self._values.cells[DT], checked_state(memory.checked, self._numbers))
             self._clear_array()
-            self._inputs_kept[:] = self._inputs_before[:] = np.nan
+            if self._inputs.size:
+                self._inputs_kept[:] = self._inputs_before[:] = np.nan
             if self._watcher is not None:
                 self._watcher.begin(memory)
         system = self.system

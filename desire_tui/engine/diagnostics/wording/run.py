@@ -138,8 +138,9 @@ MESSAGES: dict[str, Wording] = {
     ),
     "delay-backward": Wording(
         483,
-        "a delay cannot be followed backward in time: it would need what is still to come",
-        "run forward: let TMAX be positive",
+        "a run backward does not know x at t - tau: it has yet to come to that earlier time",
+        "run forward, with TMAX above 0. Backward, tau must be a constant of 0 or less: "
+        "delay(x, -1) is x at t + 1, where the run has been",
     ),
     "events-too-fast": Wording(
         486,
