@@ -28,9 +28,9 @@ def made(text, ermax, backend="native", **more):
 
 
 @both
-@pytest.mark.parametrize(("ermax", "order"), [(1e-2, 5), (1e-5, 8), (1e-9, 13), (1e-15, 20), (0.0, 20)])
+@pytest.mark.parametrize(("ermax", "order"), [(1e-2, 6), (1e-5, 11), (1e-9, 18), (1e-15, 20), (0.0, 20)])
 def test_order_follows_ermax(ermax, order, backend):
-    """⌈-ln(ERMAX/10)/2⌉ + 1, at most 20."""
+    """⌈-0.7·ln(ERMAX/10)⌉ + 1, at most 20."""
     found = made(OSCILLATOR + "dispt x\n", ermax, backend, nn=2)
     assert found.record.order == order
 

@@ -78,9 +78,16 @@ class Arrays:
         """From the start of a cache line."""
 
 
+_ORDER_PART = 0.7
+"""Jorba and Zou's 1/2 is best where a step's time grows with the square of the order. Most of ours grows with
+the order itself: small models wait for one coefficient after the other, what surrounds them is always the
+same. At equal errors from 1e-5 to 1e-10 0.7 takes 0.8 of the time on Lorenz' equations, 0.9 on Kepler's orbit
+and the Pleiades, as long on the Brusselator."""
+
+
 def order_for(tolerance: float) -> int:
-    """Return the order for a relative tolerance: Jorba and Zou's -ln(ε)/2 + 1, rounded up."""
-    wanted = ceil(-log(max(tolerance, EPSILON)) / 2.0) + 1 if tolerance < 1.0 else ORDER_LEAST
+    """Return the order for a relative tolerance ε: -0.7·ln(ε) + 1, rounded up."""
+    wanted = ceil(-log(max(tolerance, EPSILON)) * _ORDER_PART) + 1 if tolerance < 1.0 else ORDER_LEAST
     return min(max(wanted, ORDER_LEAST), ORDER_MOST)
 
 
