@@ -17,11 +17,13 @@ from tests.fuzz.worker import LOG, Fault
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
-    from multiprocessing.context import SpawnProcess
+    from multiprocessing.context import ForkServerProcess
 
     from tests.fuzz.kinds import Input, Kind
 
-_SPAWN = multiprocessing.get_context("spawn")
+_PROCESSES = multiprocessing.get_context("forkserver")
+_PROCESSES.set_forkserver_preload(["tests.fuzz.worker", "desire_tui.engine.session.session"])
+"""Processes are copies of one that has imported NumPy and the engine: what takes half a second else."""
 _POLL_SECONDS = 0.2
 _START_SECONDS = 60.0
 """Importing takes its time on a machine with much to do."""
@@ -65,9 +67,9 @@ def _stretch(
 ) -> int:
     """Try inputs in one process; return the number of the first that was not tried."""
     folder = Path(tempfile.mkdtemp(prefix="desire-fuzz-"))
-    at = _SPAWN.Value("q", -1, lock=False)
-    ours, theirs = _SPAWN.Pipe(duplex=False)
-    child = _SPAWN.Process(target=worker.try_numbers, args=(kind, seed, first, last, at, folder, theirs))
+    at = _PROCESSES.Value("q", -1, lock=False)
+    ours, theirs = _PROCESSES.Pipe(duplex=False)
+    child = _PROCESSES.Process(target=worker.try_numbers, args=(kind, seed, first, last, at, folder, theirs))
     child.start()
     theirs.close()
     seen, since = -1, time.monotonic()
@@ -102,13 +104,13 @@ def _take(ours: Connection, report: Report) -> None:
         time.sleep(0.01)
 
 
-def _end(child: SpawnProcess) -> None:
+def _end(child: ForkServerProcess) -> None:
     if child.is_alive():
         child.kill()
     child.join()
 
 
-def _place(folder: Path, child: SpawnProcess) -> str:
+def _place(folder: Path, child: ForkServerProcess) -> str:
     """Let a process that hangs say where."""
     if child.pid is not None:
         os.kill(child.pid, signal.SIGUSR1)
@@ -138,7 +140,7 @@ class SingleInputs:
 
     def __init__(self, kind: Kind, seconds_most: float) -> None:
         self._kind, self._seconds = kind, seconds_most
-        self._child: SpawnProcess | None = None
+        self._child: ForkServerProcess | None = None
         self._folder = Path()
 
     def fault(self, made: Input) -> Fault | None:
@@ -161,8 +163,8 @@ class SingleInputs:
 
     def _start(self) -> None:
         self._folder = Path(tempfile.mkdtemp(prefix="desire-fuzz-"))
-        self._ours, theirs = _SPAWN.Pipe()
-        self._child = _SPAWN.Process(target=worker.try_inputs, args=(self._kind, self._folder, theirs))
+        self._ours, theirs = _PROCESSES.Pipe()
+        self._child = _PROCESSES.Process(target=worker.try_inputs, args=(self._kind, self._folder, theirs))
         self._child.start()
         theirs.close()
 
