@@ -72,6 +72,7 @@ $(STAMP): pyproject.toml
 	  || $(PIP_INSTALL) -e '.[dev]'
 	@# pip compiles on one core, and an editable install leaves the package itself out: 0.3 s at the first start
 	@# two fifths of all libraries are their own tests and what nobody imports here
-	$(BIN)/python -m compileall -q -j 0 -x '/(tests|pip|mypyc?|setuptools|pkg_resources|debugpy|lexers)/' \
+	$(BIN)/python -m compileall -q -j 0 \
+	  -x '/(tests?|pip|mypyc?|setuptools|pkg_resources|debugpy|lexers|jedi|prompt_toolkit|dataframe|distutils|dashboard|varLib|pydantic/v1|wcwidth/table_grapheme_overrides)/|/SALib/sample/directions' \
 	  $(VENV)/lib desire_tui || true
 	touch $(STAMP)

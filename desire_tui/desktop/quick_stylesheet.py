@@ -9,6 +9,7 @@ pinned; it has no public way.
 from __future__ import annotations
 
 from itertools import count
+from operator import is_
 from typing import TYPE_CHECKING, cast
 from weakref import WeakKeyDictionary
 
@@ -99,6 +100,8 @@ class QuickStylesheet(Stylesheet):
         """The selectors by which a node has its styles, and their count of changes then."""
         self._seen: list[RuleSet] | None = None
         """The rules that the tables are about."""
+        self._mapped: tuple[list[RuleSet], dict[str, list[RuleSet]]] = [], {}
+        """The rules of the last map, and the map."""
 
     def copy(self) -> Stylesheet:
         """Return a style sheet with the same sources."""
@@ -111,6 +114,21 @@ class QuickStylesheet(Stylesheet):
         super().set_variables(variables)
         self._seen = None
         self._tables = StyleTables()
+
+    @property
+    def rules_map(self) -> dict[str, list[RuleSet]]:
+        """The rules by what they choose; widgets bring theirs level by level, and the map is continued."""
+        if self._rules_map is None:
+            rules = self.rules
+            before, by_name = self._mapped
+            if len(before) > len(rules) or not all(map(is_, before, rules)):
+                before, by_name = [], {}
+            for rule in rules[len(before) :]:
+                for name in rule.selector_names:
+                    by_name.setdefault(name, []).append(rule)
+            self._mapped = rules, by_name
+            self._rules_map = by_name
+        return self._rules_map
 
     def apply(
         self, node: DOMNode, *, animate: bool = False, cache: dict[tuple[object, ...], RulesMap] | None = None

@@ -6,6 +6,7 @@ import asyncio
 from contextlib import asynccontextmanager
 from time import monotonic
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 import pytest
 from textual._context import active_app
@@ -60,6 +61,9 @@ STYLE_TABLES = StyleTables()
 """For all desktops of the process, whose rules are the same objects: an eighth of their start."""
 _parse_rules = Stylesheet._parse_rules
 _parsed: dict[object, list[RuleSet]] = {}
+_variables: WeakKeyDictionary[Stylesheet, tuple[dict[str, str], frozenset[tuple[str, str]]]] = (
+    WeakKeyDictionary()
+)
 
 
 def parsed_once(
@@ -73,7 +77,11 @@ def parsed_once(
     """Parse a widget's style sheet once for all apps of the process, not once for each: an eighth of their start."""
     key = (css, read_from, is_default_rules, tie_breaker, scope)
     if key not in sheet._parse_cache:
-        known = (*key, frozenset(sheet._variables.items()))
+        variables, said = _variables.get(sheet, ({}, frozenset()))
+        if variables is not sheet._variables:  # other colours are another dictionary
+            said = frozenset(sheet._variables.items())
+            _variables[sheet] = sheet._variables, said
+        known = (*key, said)
         if known not in _parsed:
             _parsed[known] = _parse_rules(sheet, css, read_from, is_default_rules, tie_breaker, scope)
         sheet._parse_cache[key] = _parsed[known]

@@ -50,6 +50,11 @@ def textual_s(app: App[None]) -> Stylesheet:
     return sheet
 
 
+def by_name(sheet: Stylesheet) -> dict[str, list[int]]:
+    """Return which rule objects can choose nodes of each name."""
+    return {name: [id(rule) for rule in rules] for name, rules in sheet.rules_map.items()}
+
+
 def lines(app: App[None], render: Callable[..., list[dict[int, Strip]]]) -> list[list[object]]:
     """Return the segments of each of the screen's rows."""
     compositor = app.screen._compositor
@@ -65,10 +70,20 @@ async def test_styles_and_lines_are_those_of_textual(keys: tuple[str, ...]) -> N
         app = desk.app
         assert lines(app, type(app.screen._compositor)._render_chops) == lines(app, Compositor._render_chops)
         sheet, plain = app.stylesheet, textual_s(app)
+        assert by_name(sheet) == by_name(plain)
         for widget in app.screen.walk_children(with_self=True):
             wanted = styles(widget, plain.apply)
             for _ in range(2):  # found, and remembered
                 assert styles(widget, sheet.apply) == wanted, widget
+
+
+async def test_what_comes_after_other_colours_is_found_with_what_was_there() -> None:
+    async with desktop() as desk:
+        desk.app.theme = "light"
+        await desk.pilot.pause()
+        assert by_name(desk.app.stylesheet) == by_name(textual_s(desk.app))
+        await desk.press("ctrl+p")  # brings rules of its own
+        assert by_name(desk.app.stylesheet) == by_name(textual_s(desk.app))
 
 
 async def test_initial_gives_the_word_to_whoever_else_says_something() -> None:
