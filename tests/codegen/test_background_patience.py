@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import functools
 import threading
 import time
 
 import pytest
 
+from desire_tui.engine import disk_cache
 from desire_tui.engine.codegen.compiler_state import CompilerState
-from desire_tui.engine.codegen.jit import background
+from desire_tui.engine.codegen.jit import background, compiler
 from desire_tui.engine.codegen.jit.background import Improver
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
@@ -107,6 +109,67 @@ def test_at_once_where_that_is_asked_for(improver):
     work = Work()
     improver.add_now(work)
     assert work.begun.wait(ENOUGH)
+
+
+class WantsLlvm(Work):
+    """Work whose code is not on disk."""
+
+    def __init__(self):
+        super().__init__()
+        self.attempts = 0
+
+    def improve(self):
+        self.attempts += 1
+        compiler._compile_in_turn(lambda: None, 0)
+        self.begun.set()
+        yield
+
+
+@pytest.fixture
+def no_llvm(monkeypatch):
+    compiler.machine()  # may load it
+    monkeypatch.setattr(compiler, "_llvm", functools.cache(compiler._llvm.__wrapped__))
+
+
+def test_longer_where_llvm_must_be_loaded_first(improver, no_llvm, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_WITHOUT_LLVM_SECONDS", 0.05)
+    work, began = WantsLlvm(), time.process_time()
+    improver.add(work)
+    assert begun_in_a_run(improver, work)
+    assert time.process_time() - began >= 0.05
+    assert work.attempts == 2
+    assert not improver.faults()
+
+
+def test_never_for_a_run_that_is_not_worth_it(improver, no_llvm, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_WITHOUT_LLVM_SECONDS", ENOUGH)
+    work = WantsLlvm()
+    improver.add(work)
+    end = time.monotonic() + ENOUGH
+    with improver.running(work):
+        while not (work.attempts and improver._waiting) and time.monotonic() < end:
+            busy(0.001)
+        busy(0.01)
+    assert work.attempts == 1
+    assert not work.begun.is_set()
+
+
+def test_at_once_with_llvm_too(improver, no_llvm):
+    work = WantsLlvm()
+    improver.add_now(work)
+    assert work.begun.wait(ENOUGH)
+    assert work.attempts == 1
+
+
+def test_code_on_disk_needs_no_llvm(tmp_path, monkeypatch, no_llvm):
+    monkeypatch.setattr(disk_cache, "_path", lambda name: str(tmp_path / "cache" / name))
+    text = "define void @nothing() {\nret void\n}"
+    with compiler.loading_llvm(allowed=False), pytest.raises(compiler.LlvmNotLoadedError):
+        compiler.compile_text(text, level=0, keep=True)
+    compiler.compile_text(text, level=0, keep=True)
+    monkeypatch.setattr(compiler, "_llvm", functools.cache(compiler._llvm.__wrapped__))
+    with compiler.loading_llvm(allowed=False):
+        assert compiler.compile_text(text, level=0, keep=True).address("nothing")
 
 
 def test_models_wait_for_it():

@@ -8,6 +8,8 @@ from contextlib import contextmanager, nullcontext
 from time import process_time
 from typing import TYPE_CHECKING, Protocol
 
+from desire_tui.engine.codegen.jit.compiler import LlvmNotLoadedError, loading_llvm
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from contextlib import AbstractContextManager
@@ -16,6 +18,8 @@ _BREATH_SECONDS = 0.0005
 """Between two steps: LLVM's lock is not fair, and somebody may wait with quick code."""
 _PATIENCE_SECONDS = 0.002
 """Of a model's runs, before its fast code is begun: shorter ones gain nothing from 15 ms of work."""
+_PATIENCE_WITHOUT_LLVM_SECONDS = 0.015
+"""If the code is not on disk and LLVM must be loaded first: 40 ms more, much of it in everybody's way."""
 _LOOK_SECONDS = 0.0005
 """At least, before looking again whether they have lasted so long."""
 _END_SECONDS = 30.0
@@ -49,6 +53,8 @@ class Waiting:
 
     def __init__(self, work: Improvable) -> None:
         self.work = weakref.ref(work)
+        self.may_load_llvm = False
+        """Whether the work is worth that much; without it, it ends where it must."""
         self._before = 0.0
         self._began: float | None = None
 
@@ -59,6 +65,11 @@ class Waiting:
     def end(self) -> None:
         """Count no further."""
         self._before, self._began = self.seconds(), None
+
+    @property
+    def patience(self) -> float:
+        """For how long the model must have run."""
+        return _PATIENCE_WITHOUT_LLVM_SECONDS if self.may_load_llvm else _PATIENCE_SECONDS
 
     @property
     def is_running(self) -> bool:
@@ -75,8 +86,8 @@ class Improver:
 
     def __init__(self) -> None:
         self._waiting: list[Waiting] = []
-        self._new: list[weakref.ref[Improvable]] = []
-        self._begun: list[tuple[weakref.ref[Improvable], Iterator[None]]] = []
+        self._new: list[Waiting] = []
+        self._begun: list[tuple[Waiting, Iterator[None]]] = []
         self._something = threading.Condition()
         self._thread: threading.Thread | None = None
         self._urgent = 0
@@ -92,7 +103,9 @@ class Improver:
     def add_now(self, work: Improvable) -> None:
         """Take up some work at once."""
         with self._something:
-            self._new.append(weakref.ref(work))
+            urgent = Waiting(work)
+            urgent.may_load_llvm = True
+            self._new.append(urgent)
             self._wake()
 
     def running(self, *works: Improvable) -> AbstractContextManager[None]:
@@ -118,9 +131,8 @@ class Improver:
     def again(self, work: Remembering) -> None:
         """Take up work that may have been dropped for newer work."""
         with self._something:
-            under_way = any(reference() is work for reference, _ in self._begun)
-            under_way = under_way or any(reference() is work for reference in self._new)
-            under_way = under_way or any(known.work() is work for known in self._waiting)
+            begun = [known for known, _ in self._begun]
+            under_way = any(known.work() is work for known in (*begun, *self._new, *self._waiting))
         if not (work.improved or under_way):
             self.add(work)
 
@@ -158,9 +170,9 @@ class Improver:
 
     def _take_what_is_due(self) -> float | None:
         """Take over what has waited long enough; return in how many seconds there may be more."""
-        left = {known: _PATIENCE_SECONDS - known.seconds() for known in self._waiting if known.is_running}
+        left = {known: known.patience - known.seconds() for known in self._waiting if known.is_running}
         due = {known for known, seconds in left.items() if seconds <= 0.0}
-        self._new += [known.work for known in self._waiting if known in due]
+        self._new += [known for known in self._waiting if known in due]
         self._waiting = [known for known in self._waiting if known not in due]
         return max(min(left.values()), _LOOK_SECONDS) if left else None
 
@@ -176,22 +188,29 @@ class Improver:
                 while self._urgent:
                     self._something.wait(_QUIET_SECONDS)
                 if self._new:
-                    reference = self._new.pop()
-                    work = reference()
+                    known = self._new.pop()
+                    work = known.work()
                     if work is None:
                         continue
-                    self._begun.append((reference, work.improve()))
+                    self._begun.append((known, work.improve()))
                     del self._begun[:-_BEGUN_MOST]  # programs edited away
                     del work
-                reference, steps = self._begun[-1]
+                known, steps = self._begun[-1]
+            put_off = False
             try:
-                over = next(steps, self) is self
+                with loading_llvm(allowed=known.may_load_llvm):
+                    over = next(steps, self) is self
+            except LlvmNotLoadedError:
+                over = put_off = True
             except Exception as error:  # noqa: BLE001 - one model's fault must not keep fast code from the others
                 over = True
                 with self._something:
                     self._faults.append(error)
             if over:
                 with self._something:
-                    self._begun.remove((reference, steps))
-            del reference, steps
+                    self._begun.remove((known, steps))
+                    if put_off:
+                        known.may_load_llvm = True
+                        self._waiting.append(known)
+            del known, steps
             threading.Event().wait(_BREATH_SECONDS)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import functools
 import re
 import threading
-from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from desire_tui.engine.codegen.ir import symbols
 from desire_tui.engine.codegen.jit import stored_code
@@ -18,7 +18,7 @@ from desire_tui.engine.codegen.jit.placed_code import NotPlacedError, PlacedCode
 from desire_tui.engine.digest import blake2b
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     from desire_tui.engine.codegen.jit.linker import Linker
     from desire_tui.engine.codegen.jit.machine_code import MachineCode
@@ -30,6 +30,8 @@ attributes #1 = { nounwind willreturn memory(none) }
 attributes #2 = { nounwind willreturn memory(argmem: read) }
 """
 _STARTING = threading.Lock()
+_THREAD = threading.local()
+Made = TypeVar("Made")
 _DEFINITION = re.compile(r"^define (?!internal|private)[^@\n]*@([\w.$]+)\(", re.MULTILINE)
 
 
@@ -95,6 +97,26 @@ def _llvm() -> Any:
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     return llvm
+
+
+class LlvmNotLoadedError(Exception):
+    """LLVM would have to be loaded, which is not allowed here."""
+
+
+@contextmanager
+def loading_llvm(*, allowed: bool) -> Iterator[None]:
+    """Let this thread compile in the block; if that is not `allowed`, only where LLVM is loaded already."""
+    _THREAD.may_not_load = not allowed
+    try:
+        yield
+    finally:
+        _THREAD.may_not_load = False
+
+
+def _compile_in_turn(make: Callable[[], Made], length: int) -> Made:
+    if getattr(_THREAD, "may_not_load", False) and not _llvm.cache_info().currsize:
+        raise LlvmNotLoadedError
+    return in_turn(make, length)
 
 
 def load_llvm() -> None:
@@ -191,7 +213,7 @@ def compile_text(
     elif keep:
         name = _name_of(text, level, **how)
         return kept_code(name) or compile_and_keep(text, name, level=level, **how)
-    return in_turn(lambda: _placed(_compiled(text, level, **how)), len(text))
+    return _compile_in_turn(lambda: _placed(_compiled(text, level, **how)), len(text))
 
 
 def _compile_movable(text: str, level: int, how: dict[str, bool]) -> MachineCode | None:
@@ -218,7 +240,7 @@ def _compile_movable(text: str, level: int, how: dict[str, bool]) -> MachineCode
     if isinstance(found, Image):
         with suppress(NotPlacedError, KeyError):
             return placed(found)
-    return in_turn(make, len(text))
+    return _compile_in_turn(make, len(text))
 
 
 def kept_code(name: str) -> MachineCode | None:
@@ -242,7 +264,7 @@ def compile_and_keep(
         stored_code.keep(name, machine().host, made)
         return _placed(made)
 
-    return in_turn(make, len(text))
+    return _compile_in_turn(make, len(text))
 
 
 def _name_of(text: str, level: int, *, slp: bool, vectorize: bool, passes: bool) -> str:
