@@ -8,6 +8,7 @@ import threading
 from desire_tui.engine.codegen import compiler_state
 from desire_tui.engine.codegen.backend import NativeBackend
 from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
+from desire_tui.engine.codegen.jit.compiler import load_llvm
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 
@@ -60,6 +61,7 @@ def test_the_first_back_ends_of_several_threads_share_one_state(monkeypatch):
 def test_a_state_of_ones_own_ends_when_it_is_closed(monkeypatch):
     registered = []
     shared_state()
+    load_llvm()  # which has a handler of its own
     monkeypatch.setattr(atexit, "register", registered.append)
     monkeypatch.setattr(atexit, "unregister", registered.remove)
     before = threads()
