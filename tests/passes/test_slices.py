@@ -7,7 +7,13 @@ from hypothesis import strategies as st
 
 from desire_tui.engine.lowered.statements import Deriv, Guard, Set
 from desire_tui.engine.lowered.walk import walk_actions
-from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
+from desire_tui.engine.passes.slices import (
+    derivative_slice,
+    final_sample_pass,
+    full_pass,
+    step_slice,
+    without_derivatives,
+)
 from tests.lowering.programs import segment
 
 
@@ -106,3 +112,10 @@ def test_leaving_out_changes_no_derivative(lines):
         persistent = [quantities.cells[a.slot] for a in whole.body if isinstance(a, Set) and a.persistent]
         results.append([*statements.derivatives, *persistent])
     assert np.array_equal(*results)
+
+
+def test_derivatives_left_out_but_for_those_that_draw():
+    """A solver computes its own; the random numbers of a pass stay the same ones."""
+    made, values = segment("q = 2*x\nd/dt x = -q\nd/dt y = ran()\nif a\nd/dt z = q\nend if", a=1)
+    assert names(full_pass(made), values) == ["q", "d0", "d1", "if", "d2"]
+    assert names(without_derivatives(full_pass(made)), values) == ["q", "d1", "if"]

@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.cancellation import cancellation_point
-from desire_tui.engine.lowered.effects import role, timing
-from desire_tui.engine.lowered.statements import Deriv, Guard, Set
+from desire_tui.engine.lowered.effects import count_draws, expressions, role, timing
+from desire_tui.engine.lowered.statements import Deriv, DerivVec, Guard, Set
 from desire_tui.engine.lowered.walk import simple_actions, with_bodies
 from desire_tui.engine.passes.dead_code import without_dead_code
 from desire_tui.engine.passes.final_sample import catch_up, kept_from_step_pass
@@ -41,6 +41,18 @@ def step_slice(segment: Segment) -> Actions:
 def derivative_slice(segment: Segment) -> Actions:
     """Neither flag: the later stages of a step."""
     return without_dead_code(_resolve(segment.body, comm=False, step=False))
+
+
+def without_derivatives(actions: Actions) -> Actions:
+    """Leave derivatives out of a pass: a solver computes its own. What draws random numbers stays."""
+    kept: list[Action] = []
+    for action in actions:
+        if isinstance(action, Guard):
+            body, orelse = without_derivatives(action.body), without_derivatives(action.orelse)
+            kept.append(with_bodies(action, body, orelse))
+        elif not isinstance(action, Deriv | DerivVec) or count_draws(*expressions(action)):
+            kept.append(action)
+    return tuple(kept)
 
 
 def final_sample_pass(segment: Segment) -> Actions:

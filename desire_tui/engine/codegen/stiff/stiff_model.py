@@ -32,7 +32,7 @@ from desire_tui.engine.passes.assigned_states import checked_state, without_assi
 from desire_tui.engine.passes.differentiate import differentiate
 from desire_tui.engine.passes.point_effects import changed_inputs, steps_are_free
 from desire_tui.engine.passes.series.expanded import expanded
-from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass
+from desire_tui.engine.passes.slices import acts_at_steps, is_pure, jacobian_pass, without_derivatives
 from desire_tui.engine.passes.sparsity import sparsity_pattern
 from desire_tui.engine.passes.switching import switching as switches
 from desire_tui.engine.passes.tangents import NotDifferentiable
@@ -90,6 +90,7 @@ class StiffModel:
             segment, switching = switches(segment, values.room)
         self._segment = segment
         self._passes = passes = passes_of(segment)
+        passes |= {kind: without_derivatives(passes[kind]) for kind in ("full", "step")}
         self._advised = False
         found, directions, array = _jacobian_passes(segment, rule, values)
         extra |= found

@@ -27,17 +27,14 @@ def restart(s: Explicit, t: float, first_step: float) -> None:
 
 def advance(s: Explicit, t_stop: float) -> int:
     """Take one step, never beyond `t_stop`; `y` and `t` are then the solution. Return a flag."""
-    n = s.n
     stages = s.stages
     t0: float = s.t
-    for i in range(n):
-        s.base[i] = s.y[i]
+    put(s.base, 0, s.y, 0, s.n)
     if s.is_known == 0:
         if derive(s, t0, 0) < 0:
             return GAVE_UP
     else:
-        for i in range(n):
-            s.k[i] = s.k[stages * n + i]
+        put(s.k, 0, s.k, stages * s.n, s.n)
     left = t_stop - t0
     lands = s.dt >= left * (1.0 - _TOLERANCE)
     is_cut = s.dt > left * (1.0 + _TOLERANCE)
@@ -57,8 +54,7 @@ def advance(s: Explicit, t_stop: float) -> int:
             break
         h = 0.5 * h
         if h < s.dt_least:
-            for i in range(n):
-                s.y[i] = s.base[i]
+            put(s.y, 0, s.base, 0, s.n)
             return DEADLOCK
         s.rejected += 1
         s.dt = h
@@ -70,11 +66,8 @@ def advance(s: Explicit, t_stop: float) -> int:
     s.h_last = h
     if s.difference < s.error_least and not is_cut:
         s.dt = min(2.0 * s.dt, s.dt_most)
-    total = 0.0
-    for i in range(n):
-        s.end[i] = s.y[i]
-        total += s.y[i] - s.y[i]  # 0 for every finite number
-    if total != 0.0:
+    put(s.end, 0, s.y, 0, s.n)
+    if are_finite(s.end, s.n) == 0:
         return NOT_FINITE
     flag = derive(s, s.t, stages)
     if flag < 0:
@@ -87,23 +80,38 @@ def advance(s: Explicit, t_stop: float) -> int:
 def derive(s: Explicit, t: float, row: int) -> int:
     """Compute the derivatives of `y` at t into a row of `k`; return the callback's flag."""
     flag: int = s.evaluate(s.problem, t, s.y, s.rate)
-    at = row * s.n
-    for i in range(s.n):
-        s.k[at + i] = s.rate[i]
+    put(s.k, row * s.n, s.rate, 0, s.n)
     return flag
+
+
+def put(to: Reals, to_first: int, source: Reals, first: int, count: int) -> None:
+    """Copy numbers."""
+    for i in range(count):
+        to[to_first + i] = source[first + i]
+
+
+def are_finite(x: Reals, n: int) -> int:
+    """Whether all numbers are."""
+    total = 0.0
+    for i in range(n):
+        total += x[i] - x[i]  # 0 for every finite number
+    return 1 if total == 0.0 else 0
 
 
 def move(s: Explicit, row: int, h: float) -> None:
     """States ← those at the start + h·Σ row·k."""
     add_up(s, row, s.y)
     part = h / s.rows[row * ROW]
+    y: Reals = s.y
+    base: Reals = s.base
     for i in range(s.n):
-        s.y[i] = s.base[i] + part * s.y[i]
+        y[i] = base[i] + part * y[i]
 
 
 def add_up(s: Explicit, row: int, out: Reals) -> None:
     """Write the sum of whole multiples of derivatives, in the order of the stages (`tableaus`)."""
     n = s.n
+    k: Reals = s.k
     begun = 0
     for stage in range(s.stages):
         multiple: float = s.rows[row * ROW + 1 + stage]
@@ -111,10 +119,10 @@ def add_up(s: Explicit, row: int, out: Reals) -> None:
         if multiple != 0.0 and begun == 0:
             begun = 1
             for i in range(n):
-                out[i] = multiple * s.k[at + i]
+                out[i] = multiple * k[at + i]
         elif multiple != 0.0:
             for i in range(n):
-                out[i] = out[i] + multiple * s.k[at + i]
+                out[i] = out[i] + multiple * k[at + i]
 
 
 def judge(s: Explicit, h: float) -> None:
@@ -141,12 +149,15 @@ def put_inside(s: Explicit, t: float, out: Reals) -> None:
     """Write the solution inside the last step to `out`: the cubic, a parabola where the end has no slope."""
     n = s.n
     h: float = s.h_last
-    end = s.stages * n
     part = (t - s.t_base) / h
+    at = s.stages * n
+    k: Reals = s.k
+    base: Reals = s.base
+    end: Reals = s.end
+    if s.is_cubic != 0:
+        for i in range(n):
+            out[i] = inside(part, base[i], end[i], h * k[i], h * k[at + i])
+        return
     for i in range(n):
-        rise = s.end[i] - s.base[i]
-        slope = h * s.k[i]
-        other = 2.0 * rise - slope
-        if s.is_cubic != 0:
-            other = h * s.k[end + i]
-        out[i] = inside(part, s.base[i], s.end[i], slope, other)
+        slope = h * k[i]
+        out[i] = inside(part, base[i], end[i], slope, 2.0 * (end[i] - base[i]) - slope)
