@@ -99,6 +99,8 @@ class Layout:
 def strip(size: int) -> int:
     """Return how many elements of an array of this size are computed at a time; rows are multiples of it."""
     most = VECTORS * machine().width
+    if size > most:  # 42 elements: three times 16, not twice 32
+        return min(most, most // 2, key=lambda width: -(-size // width) * width)
     return next((width for width in (2, 4, 8, 16, 32) if size <= width < most), most)
 
 
