@@ -42,7 +42,7 @@ Points = list[tuple[float, float]]
 
 
 def desire(
-    problem: SmoothProblem, ermax: float, t_end: float, repeats: int = 7
+    problem: SmoothProblem, ermax: float, t_end: float, repeats: int = 25
 ) -> tuple[float, np.ndarray, int]:
     """Seconds without those of a run's frame, last states, steps."""
     script, body = problem.desire
@@ -52,8 +52,9 @@ def desire(
         f"{drive}\nDYNAMIC\n{body}\n"
     )
     session = Session(Listener())
+    before = frame_seconds()
     session.erun(Source(text, "bench"))
-    seconds = min(run.seconds for run in session.runs) - frame_seconds()
+    seconds = min(run.seconds for run in session.runs) - min(before, frame_seconds())
     return seconds, _states(session, problem), session.runs[-1].steps
 
 
@@ -97,7 +98,7 @@ class Heyoka:
             problem.heyoka(heyoka), list(problem.begin), compact_mode=compact, **more
         )
 
-    def run(self, t_end: float, repeats: int = 7) -> tuple[float, np.ndarray]:
+    def run(self, t_end: float, repeats: int = 25) -> tuple[float, np.ndarray]:
         """Seconds, last states."""
         times = []
         for _ in range(repeats):
