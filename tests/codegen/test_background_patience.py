@@ -10,7 +10,7 @@ import pytest
 
 from desire_tui.engine import disk_cache
 from desire_tui.engine.codegen.compiler_state import CompilerState
-from desire_tui.engine.codegen.jit import background, compiler
+from desire_tui.engine.codegen.jit import background, compiler, target_machine
 from desire_tui.engine.codegen.jit.background import Improver
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
@@ -120,15 +120,21 @@ class WantsLlvm(Work):
 
     def improve(self):
         self.attempts += 1
-        compiler._compile_in_turn(lambda: None, 0)
+        target_machine.require_llvm()
         self.begun.set()
         yield
+
+
+def _forget_llvm(monkeypatch):
+    anew = functools.cache(target_machine.llvm_library.__wrapped__)
+    for module in (target_machine, compiler):
+        monkeypatch.setattr(module, "llvm_library", anew)
 
 
 @pytest.fixture
 def no_llvm(monkeypatch):
     compiler.machine()  # may load it
-    monkeypatch.setattr(compiler, "_llvm", functools.cache(compiler._llvm.__wrapped__))
+    _forget_llvm(monkeypatch)
 
 
 def test_longer_where_llvm_must_be_loaded_first(improver, no_llvm, monkeypatch):
@@ -164,11 +170,11 @@ def test_at_once_with_llvm_too(improver, no_llvm):
 def test_code_on_disk_needs_no_llvm(tmp_path, monkeypatch, no_llvm):
     monkeypatch.setattr(disk_cache, "_path", lambda name: str(tmp_path / "cache" / name))
     text = "define void @nothing() {\nret void\n}"
-    with compiler.loading_llvm(allowed=False), pytest.raises(compiler.LlvmNotLoadedError):
+    with target_machine.loading_llvm(allowed=False), pytest.raises(target_machine.LlvmNotLoadedError):
         compiler.compile_text(text, level=0, keep=True)
     compiler.compile_text(text, level=0, keep=True)
-    monkeypatch.setattr(compiler, "_llvm", functools.cache(compiler._llvm.__wrapped__))
-    with compiler.loading_llvm(allowed=False):
+    _forget_llvm(monkeypatch)
+    with target_machine.loading_llvm(allowed=False):
         assert compiler.compile_text(text, level=0, keep=True).address("nothing")
 
 

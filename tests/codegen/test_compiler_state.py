@@ -8,7 +8,7 @@ import threading
 from desire_tui.engine.codegen import compiler_state
 from desire_tui.engine.codegen.backend import NativeBackend
 from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
-from desire_tui.engine.codegen.jit.compiler import load_llvm
+from desire_tui.engine.codegen.jit.target_machine import load_llvm
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
 

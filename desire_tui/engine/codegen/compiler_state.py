@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.jit import llvm_turn
 from desire_tui.engine.codegen.jit.background import Improver
 from desire_tui.engine.codegen.jit.cache import CodeCache
-from desire_tui.engine.codegen.jit.compiler import load_llvm
+from desire_tui.engine.codegen.jit.target_machine import load_llvm
 from desire_tui.engine.codegen.loop.compiled_loops import array_loop
 from desire_tui.engine.integration.rules import MOST_USED_FIRST
 
@@ -27,7 +27,7 @@ class CompilerState:
     """One for all sessions of a process (`shared_state`): code depends on nothing but its text.
 
     A session that is to share nothing may own one; who makes it closes it. LLVM itself and its symbols
-    (`jit.compiler.machine`) are always the process's. `keep`: what is compiled is kept on disk, and found
+    (`jit.target_machine`) are always the process's. `keep`: what is compiled is kept on disk, and found
     there.
     """
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager, nullcontext
 from time import process_time
 from typing import TYPE_CHECKING, Protocol
 
-from desire_tui.engine.codegen.jit.compiler import LlvmNotLoadedError, loading_llvm
+from desire_tui.engine.codegen.jit.target_machine import LlvmNotLoadedError, loading_llvm
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
