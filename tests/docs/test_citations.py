@@ -31,6 +31,8 @@ BOOK = re.compile(rf"\b[Bb]ook(?:'s)?,?(?: sections?)? ({NUMBERS})")
 MARKED = re.compile(r"(?<!\w)\[B\b([^\]]*)\]")
 BOOK_PLACE = r"(?:(?:[1-8]|A)(?:\.\d+){1,4}|Tables? [1-8A]\.\d+|Figs?\. [1-8A]\.\d+[a-d]?)"
 MARK = re.compile(rf"(?: {BOOK_PLACE}(?:, {BOOK_PLACE})*(?:[;:] .*)?|[,;]? ?[a-z].*)?")
+CITING = re.compile(r"\.md\b|\b[Bb]ook\b|\[B\b")
+"""In every text in which one of the three above is found; most files of Python are not taken apart."""
 HEADING = re.compile(r"^#+ (?:Chapter )?([\dA][\d./, A-]*)", re.MULTILINE)
 
 
@@ -51,7 +53,7 @@ def passages(path: Path) -> list[str]:
     Nothing of a file in which nothing can be a citation.
     """
     text = path.read_text(encoding="utf-8")
-    if not any(part in text for part in (".md", "ook", "[B")):
+    if not CITING.search(text):
         return []
     if path.suffix == ".py":
         tree = ast.walk(ast.parse(text))
