@@ -195,3 +195,28 @@ dispt x, z
     assert session.values.cells[session.values.find("DT").slot] == 8.0
     session, _ = run(text.replace("drun\n", "drun\ndrun\n"), backend)
     assert session.runs[-1].dt_least == pytest.approx(0.125)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("rule", [4, 8])
+def test_no_step_behind_an_event_passes_the_next(rule, backend):
+    """A parabola has no error for these rules: steps as long as the run would let the ball through the floor."""
+    text = """irule {rule} | TMAX = 200 | NN = 1001 | DT = 0.001 | DTMAX = {dtmax}
+h = 50 | n = 0
+drun
+DYNAMIC
+d/dt h = v
+d/dt v = -9.81
+event -h
+v = -0.95*v | n = n + 1
+end event
+term n - 30.5
+dispt h, v
+"""
+    (free, _), (ordinary, _) = (
+        run(text.format(rule=rule, dtmax=dtmax), backend) for dtmax in ("TMAX", "TMAX/1000")
+    )
+    times = [session.runs[-1].rows[session.runs[-1].count - 1, 0] for session in (free, ordinary)]
+    assert times[0] == pytest.approx(times[1], abs=1e-6)
+    assert times[0] < 110.0
+    assert free.runs[-1].steps < ordinary.runs[-1].steps / 2

@@ -43,6 +43,7 @@ class Explicit(ctypes.Structure):
         ("h_last", _REAL),
         ("dt", _REAL),  # the step to be tried next; 0: none has been
         ("dt_least", _REAL), ("dt_most", _REAL),
+        ("dt_anew", _REAL),  # no step is longer behind a place where something has happened
         ("error_least", _REAL), ("error_most", _REAL),
         ("error_one", _REAL),  # what is added to abs(x)
         ("checked", _INT),  # CHECKN

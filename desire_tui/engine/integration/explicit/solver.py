@@ -20,6 +20,7 @@ class StepBounds(Protocol):
 
     dt_min: float
     dt_max: float
+    comint: float
     error_min: float
     error_max: float
     error_one: float
@@ -46,6 +47,7 @@ class ExplicitSolver:
         """Prepare a run; `checked`: the only state whose error counts, from 1 (0: all do)."""
         explicit = self.explicit
         explicit.dt_least, explicit.dt_most = bounds.dt_min, bounds.dt_max
+        explicit.dt_anew = bounds.comint
         explicit.error_least, explicit.error_most = bounds.error_min, bounds.error_max
         explicit.error_one, explicit.checked = bounds.error_one, checked
         explicit.dt = 0.0

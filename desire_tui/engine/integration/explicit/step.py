@@ -17,12 +17,17 @@ _TOLERANCE = 1e-9
 
 
 def restart(s: Explicit, t: float, first_step: float) -> None:
-    """Begin anew from the states in `y`; only the first step of a run is not the solver's own."""
+    """Begin anew from the states in `y`; only the first step of a run is not the solver's own.
+
+    A step behind an event that is as long as those before may see the next one come and go, as where a ball
+    bounces lower each time.
+    """
     s.t = t
     s.is_known = 0
     s.rejected = 0
     if s.dt == 0.0:
         s.dt = first_step
+    s.dt = min(s.dt, s.dt_anew)
 
 
 def advance(s: Explicit, t_stop: float) -> int:
