@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import os
+import subprocess
+import sys
 from dataclasses import replace
 from fractions import Fraction
 
@@ -23,6 +25,20 @@ MODEL = (
     "d/dt v = -k*sin(3*x) - tanh(v) + exp(-x*x)\ny = cos(x) + sin(x)\ndispt x\n"
 )
 SPECIAL = (0.0, -0.0, math.nan, 1e-310, -5e-324, 1e-9, 0.126, 0.855469, 2.426265, 1e300, -3e5, 699.5, -710.0)
+UNFUSED = """
+import math
+from desire_tui.engine.codegen.exact_functions import compiled, vector_functions
+from desire_tui.engine.codegen.jit.compiler import machine
+if math.sin(float.fromhex("0x1.30bd9f946b4d6p-1")).hex() == "0x1.1f105ac05c70dp-1":
+    raise SystemExit(0)  # the switch changes nothing here
+tried = []
+ways = vector_functions.ways
+compiled.ways = lambda name: [lambda lanes, way=way: tried.append(way) or way(lanes) for way in ways(name)]
+for name in ("sin", "cos", "sincos"):
+    tried.clear()
+    function = compiled.exact_function(name, 2 * machine().width)
+    assert function is None or len(tried) == 2, name
+"""
 
 
 @pytest.fixture
@@ -101,12 +117,24 @@ def test_tables_in_memory_give_what_tables_in_registers_do(monkeypatch):
 
 @pytest.mark.usefixtures("afresh")
 def test_a_function_that_differs_from_the_library_is_not_used(monkeypatch):
-    monkeypatch.setattr(sine_and_cosine, "_band", lambda _: 0.0)  # nothing is in doubt
+    monkeypatch.setattr(sine_and_cosine, "_band", lambda *_, **__: 0.0)  # nothing is in doubt
     monkeypatch.setattr(sine_and_cosine, "_RELATIVE", 0.0)
     monkeypatch.setattr(hyperbolic_tangent, "_ONE_FROM", 3.0)
     width = 2 * machine().width
     assert compiled.exact_function("sin", width) is None
     assert compiled.exact_function("tanh", width) is None
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="glibc's switches")
+def test_a_library_without_fused_operations_is_told_from_one_with_them():
+    found = subprocess.run(
+        [sys.executable, "-c", UNFUSED],
+        env={**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-AVX2_Usable,-FMA,-FMA_Usable"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert found.returncode == 0, found.stderr
 
 
 @pytest.mark.usefixtures("afresh")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 
 from desire_tui.engine.codegen.exact_functions.constants import half_pi
 from desire_tui.engine.codegen.exact_functions.pairs import split
@@ -11,6 +12,7 @@ _BITS = 160
 _SECOND_BITS = 33
 
 
+@cache
 def sines_and_cosines() -> list[tuple[tuple[float, float], tuple[float, float]]]:
     """Return sine and cosine of kπ/16 for k from 0 to 15, as pairs of doubles."""
     unit = 2**_BITS

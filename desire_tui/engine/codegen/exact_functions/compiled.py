@@ -33,6 +33,13 @@ _GLIBC = (2, 28)
 _FAST_LIBRARY, _WIDE = frozenset(("exp",)), 32
 """Of these the library is so quick that only vectors of so many doubles gain."""
 _TRIED = 16_384
+_TELLING = """
+0x1.8cfe66de83246p-2 0x1.12c0ac632a15ap-2 0x1.22f8d7c7aef7ap-2 0x1.ed07d8c28bc10p-2 0x1.24a3664464229p-3
+0x1.dc3f8ae290b4cp-2 0x1.8664c39a67bc6p-3 0x1.ed2b1b85f200ep-2 0x1.655b96dea81ddp+0 0x1.cb3b3073ea6a6p+0
+0x1.658d29b8df687p+0 0x1.57057b9ea6aa7p+0 0x1.c3640441af049p+0 0x1.70a14507dcaa1p+0 0x1.3ebc84804d19ap+0
+0x1.d37c2a6829e5dp+0 0x1.b4cadf4d196f1p+0 0x1.6b55fd5dedc14p+0
+"""
+"""Where glibc's sin (the first 8) or cos compiled without fused operations are off by more than with them."""
 _TRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)
 _lock = Lock()
 _known: dict[tuple[str, int], ExactFunction | None] = {}
@@ -156,4 +163,5 @@ def _arguments() -> Floats:
     signs = np.where(np.arange(len(part)) % 2, 1.0, -1.0)
     far = signs * 10.0 ** (12.0 * part - 6.0)
     special = [0.0, -0.0, np.inf, -np.inf, np.nan, 1.0, -1.0, 5e-324, 1e300, np.pi, np.pi / 2, 710.0, -746.0]
-    return np.concatenate([near, far, np.resize(np.array(special), 32)])
+    telling = [float.fromhex(number) for number in _TELLING.split()]
+    return np.concatenate([near, far, np.resize(np.array([*special, *telling]), 32)])

@@ -31,27 +31,30 @@ _MOST = 2.0**17
 """Larger arguments are the library's: of so many multiples two parts are taken away without error."""
 _MAGIC = 1.5 * 2.0**52
 """Added and taken away: rounds to a whole number, whose last bits it shows."""
-_OWN = 0.6 * 2.0**-62
-"""Our error: three roundings in r³·P, and four of sums of at most 2⁻¹²·⁵."""
+_OWN = 0.5 * 2.0**-62
+"""Our error: three roundings in r³·P, and three of sums of at most 2⁻¹²·⁵."""
+_LEFT_OUT = 0.0049
+"""r²/2 at most: so much of what the double of S lacks is left out."""
 _ONCE = 0.8
 _RELATIVE = 1.4 * 2.0**-60
 """Of r where S is 0: three roundings in r³·P and two of sums; glibc says 0.501 units of the last place."""
 
 
-def _band(angle: int) -> float:
+def _band(angle: int, *, fused: bool) -> float:
     """Return how far from ours a number may be that glibc rounds to sin x, |x| being near angle·π/16.
 
     glibc (2.28 and later) adds a correction to an entry of a table of sines at multiples of 1/128 (Gal and
     Bachelis 1991). The correction is D·s with |s| ≤ 2⁻⁸ and D the derivative at that multiple. It is rounded
-    twice, at most by 2⁻⁶² each and by less if it is smaller; s once or, in what glibc does where D < 0.77,
-    twice.
+    twice, at most by 2⁻⁶² each and by less if it is smaller, or once if glibc was compiled with `fused`
+    multiplication and addition; s once or, in what glibc does where D < 0.77, twice.
     """
     if not angle:
         return 0.0  # `_RELATIVE` holds
     slope = min(cos((angle - 0.5) * pi / SIZE) + 0.01, 1.0)
     most = 2.0 ** ceil(log2(slope))
-    roundings = 2 * most + (slope if slope > _ONCE else 2 * min(slope, 0.77))
-    return roundings * 2.0**-62 + _OWN
+    roundings = (1 if fused else 2) * most + (slope if slope > _ONCE else 2 * min(slope, 0.77))
+    (_, lacks), _ = sines_and_cosines()[angle]
+    return roundings * 2.0**-62 + _OWN + _LEFT_OUT * abs(lacks)
 
 
 def _economized(terms: list[Fraction], most: Fraction) -> list[Fraction]:
@@ -82,8 +85,9 @@ def _series() -> tuple[list[Fraction], list[Fraction]]:
 class SineAndCosine:
     """Both functions of the argument `%x`."""
 
-    def __init__(self, lanes: Lanes) -> None:
-        self.lanes, self.pairs = lanes, Pairs(lanes)
+    def __init__(self, lanes: Lanes, *, fused: bool) -> None:
+        """`fused`: the C library's were compiled with fused multiplication and addition."""
+        self.lanes, self.pairs, self._fused = lanes, Pairs(lanes), fused
         pairs = self.pairs
         self._size = lanes.intrinsic("fabs", "%x")
         shifted = pairs.fma(self._size, lanes.const(float(8 / half_pi())), lanes.const(_MAGIC))
@@ -110,7 +114,8 @@ class SineAndCosine:
         values = sines_and_cosines()
         halves = [[pair[part][0] / 2 for pair in values] for part in (0, 1)]
         lows = [two_in_one(sine[1], cosine[1]) for sine, cosine in values]
-        bands = [two_in_one(_band(abs(SIZE // 2 - k)), _band(min(k, SIZE - k))) for k in range(SIZE)]
+        by_angle = [_band(angle, fused=self._fused) for angle in range(SIZE // 2 + 1)]
+        bands = [two_in_one(by_angle[abs(SIZE // 2 - k)], by_angle[min(k, SIZE - k)]) for k in range(SIZE)]
         sine, cosine, low, band = looked_up(lanes, self._index, [*halves, lows, bands])
         return _Entry(sine, low, second_of(lanes, band)), _Entry(cosine, second_of(lanes, low), band)
 
