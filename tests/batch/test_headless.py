@@ -379,10 +379,10 @@ def test_timeout_is_status_3(tmp_path):
     path = tmp_path / "long.src"
     path.write_text("TMAX = 1.0E+09 | DT = 0.001 | drun\nDYNAMIC\nd/dt x = cos(t)\ndispt x\n")
     began = monotonic()
-    status, _, err = desire_process("run", path, "--timeout", "4", "--json", tmp_path / "g.json")
+    status, _, err = desire_process("run", path, "--timeout", "2", "--json", tmp_path / "g.json")
     assert status == 3
     assert monotonic() - began < 250
-    assert "stopped after 4 seconds" in err
+    assert "stopped after 2 seconds" in err
     data = json.loads((tmp_path / "g.json").read_text())
     assert data["status"] == "limit"
     assert [run["ended"] for run in data["runs"]] == ["stopped"]
