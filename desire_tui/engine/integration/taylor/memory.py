@@ -42,6 +42,7 @@ class Taylor(ctypes.Structure):
         ("piece_count", _INT), ("pieces", _INTS),
         ("coefficients", _REALS),
         ("order", _INT),
+        ("per_order", _REAL), ("per_order_before", _REAL),  # one over the order, and over the one before
         ("log_part", _REAL),  # logarithm of the part of the radius of convergence that a step is
         ("y", _REALS), ("rest", _REALS),
         ("base", _REALS), ("base_rest", _REALS),  # the same at the last step's start
@@ -78,6 +79,7 @@ class Arrays:
         """From the start of a cache line."""
 
 
+_SAFETY = 0.7
 _ORDER_PART = 0.7
 """Jorba and Zou's 1/2 is best where a step's time grows with the square of the order. Most of ours grows with
 the order itself: small models wait for one coefficient after the other, what surrounds them is always the
@@ -100,8 +102,7 @@ def log_part_for(tolerance: float, order: int) -> float:
     """Return the logarithm of the part of the radius of convergence at which the last term is the tolerance.
 
     At most e^-2 of the radius where it is not above the machine's precision: all terms left out together are
-    then a thousandth of what numbers resolve.
+    then a thousandth of what numbers resolve. A little less than that for safety (Jorba and Zou).
     """
-    if tolerance <= EPSILON:
-        return -2.0
-    return max(log(min(tolerance, 0.5)) / order, -2.0)
+    part = -2.0 if tolerance <= EPSILON else max(log(min(tolerance, 0.5)) / order, -2.0)
+    return part - _SAFETY / (order - 1)

@@ -92,6 +92,7 @@ class TaylorSolver:
         """Prepare a run: relative tolerance, absolute one, the largest step (0: none)."""
         taylor = self.taylor
         taylor.order = order_for(tolerance)
+        taylor.per_order, taylor.per_order_before = 1.0 / taylor.order, 1.0 / (taylor.order - 1)
         taylor.argument_error = argument_error_for(tolerance)
         taylor.log_part = log_part_for(tolerance, taylor.order)
         taylor.absolute = absolute / tolerance if tolerance > 0.0 else 0.0

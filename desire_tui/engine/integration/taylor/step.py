@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 DONE, AT_STOP = 0, 1
 _LARGEST = 1.7976931348623157e308
-_SAFETY = 0.7
-"""exp(-0.7/(order - 1)): how much less a step is than the coefficients would allow (Jorba and Zou)."""
 
 _LEAST_PART, _TRIES, _MARGIN = 1.0 / 64.0, 20, 0.9
 """Arguments make no step shorter than this part of it: some, as sqrt(x) near 0, would never let it pass."""
@@ -103,11 +101,11 @@ def reach(s: Taylor) -> float:
         return inf
     radius = 0.0  # its reciprocal's logarithm
     if last > 0.0:
-        radius = log(last) / order
+        radius = log(last) * s.per_order
     if before > 0.0:
-        other = log(before) / (order - 1)
+        other = log(before) * s.per_order_before
         radius = max(radius, other) if last > 0.0 else other
-    return exp(s.log_part - radius - _SAFETY / (order - 1))
+    return exp(s.log_part - radius)
 
 
 def reach_of_arguments(s: Taylor, h: float) -> float:
