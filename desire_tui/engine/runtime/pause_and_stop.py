@@ -115,6 +115,6 @@ class Control:
     def clear_to_run(self, memory: RunMemory) -> bool:
         """Lower the stop flag; return False if a request came meanwhile and must be looked at first."""
         memory.stop = 0
-        if monotonic() > self.deadline:
+        if self.deadline < inf and monotonic() > self.deadline:
             self.end()
         return self._go_on.is_set() and not self.ending

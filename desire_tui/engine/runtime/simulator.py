@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.integration.memory_views import address_of
 from desire_tui.engine.integration.rules import DUMMY
 from desire_tui.engine.runtime.block_start import BlockStart
 from desire_tui.engine.runtime.defaults import Defaults
@@ -105,7 +106,7 @@ class Simulator:
         self._began = perf_counter()
         positions = self.history.begin(segment)
         memory = self._set_up(segment, plan, positions, lag)
-        memory.rows = record.rows.ctypes.data
+        memory.rows = address_of(record.rows)
         memory.times, memory.taus, memory.past = times, taus, positions
         self.memory = memory
         self._turn_time(plan, segment)
@@ -149,8 +150,8 @@ class Simulator:
             positions.points -= 1  # the joint is the same communication point
         start = 0.0 - plan.t0 if plan.backward else plan.t0
         memory = RunMemory(
-            values=values.address, counters=positions.counters.ctypes.data, lags=lag.ctypes.data,
-            random=values.random.ctypes.data, t_start=start, t_max=plan.t_max, comint=plan.comint,
+            values=values.address, counters=address_of(positions.counters), lags=address_of(lag),
+            random=values.random_address, t_start=start, t_max=plan.t_max, comint=plan.comint,
             t_base=start, dt_base=plan.dt, dt_max=plan.dt_max, dt_min=plan.dt_min, error_max=plan.error_max,
             error_min=plan.error_min, error_absolute=plan.error_absolute, error_one=plan.error_one,
             points_before=positions.points, joined=int(joined), nn=plan.nn,

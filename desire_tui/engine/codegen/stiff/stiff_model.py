@@ -56,6 +56,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.values import Values
 
+_ENDED = tuple(Ended)
+"""By their numbers: to look one up takes a twentieth of the time that `Ended(…)` does."""
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
 
 
@@ -267,7 +269,7 @@ class StiffModel:
         system.problem.memory = self.context.memory = ctypes.addressof(memory)
         with self._improver.running(self, *self._parts):
             while (
-                ended := Ended(self._run(ctypes.addressof(memory), ctypes.addressof(self.context)))
+                ended := _ENDED[self._run(ctypes.addressof(memory), ctypes.addressof(self.context))]
             ) is Ended.FULL:
                 assert moments is not None
                 moments.grow()
