@@ -68,7 +68,7 @@ def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
             interpolate(problem, t_next)
             leave(problem, t_next, between)
             return Ended.RUNNING
-        if problem.t != problem.t_step:
+        if problem.t != problem.t_step and (problem.t_step >= t_next or is_seen(problem) != 0):
             leave(problem, problem.t_step, states)
         while problem.settled == 0:
             ended = settle_here(problem, t_next)
@@ -94,7 +94,13 @@ def interval(problem: SolverProblem, memory: RunMemory, t_next: float) -> Int32:
             memory.which = flag
             return Ended.SOLVER
         if memory.stop != 0 and problem.t_step < t_next:
+            leave(problem, problem.t_step, states)
             return Ended.STOPPED
+
+
+def is_seen(problem: SolverProblem) -> int:
+    """Whether anything but derivatives reads the values between the steps of an interval."""
+    return 1 if problem.step != 0 or problem.watch != 0 or problem.moments != 0 else 0
 
 
 def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
@@ -136,7 +142,8 @@ def advance_to(problem: SolverProblem, memory: RunMemory, t_next: float) -> int:
     flag = watch_progress(problem, t, flag)
     flag = watch_chatter(problem, memory, t, flag)
     problem.t_step = t
-    leave(problem, t, states)
+    if flag < 0 or is_seen(problem) != 0:
+        leave(problem, t, states)
     if flag < 0:
         return flag
     size = last_size(problem)

@@ -38,7 +38,12 @@ def watch_noise(problem: SolverProblem, memory: RunMemory, t: float, flag: int) 
     seen = memory.steps + NOISE_FAILURE * failed
     if flag >= 0 and seen - problem.noise_seen < problem.noise_wait:
         return flag
-    problem.noise_seen = seen
+    return search_noise(problem, memory, t, flag, failed)
+
+
+def search_noise(problem: SolverProblem, memory: RunMemory, t: float, flag: int, failed: int) -> int:
+    """Look for noise now."""
+    problem.noise_seen = memory.steps + NOISE_FAILURE * failed
     horizon: float = memory.t_max
     found = find_noise(problem, t, horizon)
     if found == 0:

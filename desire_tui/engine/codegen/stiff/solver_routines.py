@@ -101,7 +101,7 @@ _VARIABLE = -2
 NEVER_IN_SMOOTH_MODELS = {"watch": 0, "moments": 0, "step": 0, "input_count": 0}
 """Fields of a `SolverProblem` in which nothing switches, no event comes, no delay looks back, and no code at
 steps or points changes what derivatives read: most models. Asking would take 5 % of their steps' time."""
-_RARE = frozenset(("scatter_ranges", "excuse_noise", "find_noise", "begin_anew"))
+_RARE = frozenset(("scatter_ranges", "excuse_noise", "search_noise", "begin_anew"))
 """Functions whose code would only make the steps' longer."""
 _FAST = 1
 """Level of optimisation of what goes with CVODE: level 2 gains nothing there."""
