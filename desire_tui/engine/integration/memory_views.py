@@ -34,4 +34,4 @@ def pointed_at(place: Reals, count: int) -> NDArray[np.float64]:
 
 def address_of(array: NDArray[Any]) -> int:
     """Return where an array's numbers stand (one at least), in a fifth of the time of `array.ctypes.data`."""
-    return ctypes.addressof(ctypes.c_char.from_buffer(array))
+    return ctypes.addressof(ctypes.c_char.from_buffer(array.data))
