@@ -173,12 +173,25 @@ def _lowered(context: LoweringContext, node: Expr, cache: RecentlyUsed[int, Cach
 
 
 def _value(context: LoweringContext, node: Expr, reads: dict[str, int]) -> Value:
+    if type(node) is Binary:
+        operation = OPERATIONS.get(node.op)
+        if operation is None or node.end - node.start >= LONG:
+            return _power(context, node, reads)
+        ready = context.flow.ready.get
+        left, right = node.left, node.right
+        if type(left) is Name and (load := ready(left.name)) is not None:  # most of what there is
+            reads[left.name] = load.slot
+            first: Value = load
+        else:
+            first = Const(left.value) if type(left) is Number else _value(context, left, reads)
+        if type(right) is Name and (load := ready(right.name)) is not None:
+            reads[right.name] = load.slot
+            return Op(operation, (first, load))
+        return Op(operation, (first, _value(context, right, reads)))
     if type(node) is Name:
         load = context.flow.ready.get(node.name) or _parameter(context, node.name)
         reads[node.name] = load.slot
         return load
-    if type(node) is Binary:
-        return _operation(context, node, reads)
     if type(node) is Number:
         return Const(node.value)
     if type(node) is Unary:
@@ -193,25 +206,10 @@ def _value(context: LoweringContext, node: Expr, reads: dict[str, int]) -> Value
     raise _NotPlain
 
 
-def _operation(context: LoweringContext, node: Binary, reads: dict[str, int]) -> Value:
-    operation = OPERATIONS.get(node.op)
-    if operation is None:
-        if node.op != "^":
-            raise _NotPlain
-        return power(_value(context, node.left, reads), _value(context, node.right, reads))
-    if node.end - node.start >= LONG:
+def _power(context: LoweringContext, node: Binary, reads: dict[str, int]) -> Value:
+    if node.op != "^":
         raise _NotPlain
-    ready = context.flow.ready.get
-    left, right = node.left, node.right
-    if type(left) is Name and (load := ready(left.name)) is not None:  # most of what there is
-        reads[left.name] = load.slot
-        first: Value = load
-    else:
-        first = _value(context, left, reads)
-    if type(right) is Name and (load := ready(right.name)) is not None:
-        reads[right.name] = load.slot
-        return Op(operation, (first, load))
-    return Op(operation, (first, _value(context, right, reads)))
+    return power(_value(context, node.left, reads), _value(context, node.right, reads))
 
 
 def _parameter(context: LoweringContext, name: str) -> Load:
