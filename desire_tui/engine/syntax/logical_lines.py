@@ -23,7 +23,7 @@ from desire_tui.engine.syntax.tokens import CONTINUES, scan
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from desire_tui.engine.syntax.parsed_lines import Entry, Item
+    from desire_tui.engine.syntax.parsed_lines import Entry
 
 FIRST_NUMBER, NUMBER_STEP = 210, 10
 """How the lines of a program without numbers count."""
@@ -57,10 +57,13 @@ def lines_and_runs(
     starts = [*accumulate(map(add, map(len, rows), repeat(1)), initial=0)]
     i = 0
     while i < count:
-        if runs and (plain := _plain_rows(rows[i : i + _ROWS_AT_ONCE])):
-            yield _placed(plain, starts[i : i + len(plain)])
-            i += len(plain)
-            continue
+        if runs:
+            plain, end = _plain_rows(rows, starts, i)
+            if plain:
+                yield plain
+            if end > i:
+                i = end
+                continue
         at, line = starts[i], rows[i]
         first = i
         i += 1
@@ -91,25 +94,26 @@ def lines_and_runs(
             yield entry, at, number, range(first, i)
 
 
-def _plain_rows(rows: Sequence[str]) -> list[Item]:
-    """Return the statements of rows that are one assignment or equation each, up to the first that is not."""
+def _plain_rows(rows: Sequence[str], starts: Sequence[int], first: int) -> tuple[list[Placed], int]:
+    """Return the statements of rows that are one assignment or equation each, and the first row that is not.
+
+    Rows without statements may stand among them.
+    """
     cancellation_point()
-    found: list[Item] = []
-    for row in rows:
+    nodes, places = [], []
+    end = min(first + _ROWS_AT_ONCE, len(rows))
+    for at in range(first, end):
+        row = rows[at]
         item = known_plain_line(row)
         if item is None:
-            if row[:1] in _STARTS_ODD and numbered(row):
-                break
-            item = plain_line(row)
+            item = None if row[:1] in _STARTS_ODD and numbered(row) else plain_line(row)
             if item is None:
+                end = at
                 break
-        found.append(item)
-    return found
-
-
-def _placed(items: Sequence[Item], starts: Sequence[int]) -> list[Placed]:
-    nodes, offsets = zip(*items, strict=True)
-    return [*tuples(Placed, nodes, map(add, starts, offsets), repeat(None))]
+        if item:
+            nodes.append(item[0])
+            places.append(starts[at] + item[1])
+    return [*tuples(Placed, nodes, places, repeat(None))], end
 
 
 def goes_on(row: str, before: str = "", rows: Sequence[str] = ()) -> str:

@@ -28,34 +28,31 @@ LINE_COST = 100
 """What a line adds to that beside its characters."""
 
 _lines: RecentlyUsed[str, Entry] = RecentlyUsed(ROOM, cost=lambda line: len(line) + LINE_COST)
-_plain: RecentlyUsed[str, Item] = RecentlyUsed(ROOM, cost=lambda line: len(line) + LINE_COST)
-"""The statements of those that are one assignment or equation, and complete."""
+_plain: RecentlyUsed[str, Item | tuple[()]] = RecentlyUsed(ROOM, cost=lambda line: len(line) + LINE_COST)
+"""Of those that are one assignment or equation, and complete, the statement; () where there is none."""
 _PLAIN = frozenset({Assign, Derivative})
 _BEHIND_NAMES = frozenset({"=", "[", "("})
 
 known_line = _lines.__getitem__
 """The entry of a line that was parsed before, or None."""
 known_plain_line = _plain.__getitem__
-"""The statement of a line that was found to be plain before, or None."""
+"""The statement of a line that was found to be plain before, () if it has none, or None."""
 
 
 def parsed_line(line: str) -> Entry:
     """Return the statements of a logical line."""
+    plain = _plain[line]
+    if plain is not None:
+        return ((plain,) if plain else (), "")
     return _lines[line] or _parse_line(line)
 
 
-def plain_line(line: str) -> Item | None:
-    """Return the statement of a line that is one assignment or equation, if that can be found at once."""
-    entry = _lines.get(line)  # older ones are as soon read anew
-    found: Item | None = None
-    if entry is None:
-        found = line_patterns.read(line)
-    elif len(entry[0]) == 1 and not entry[1]:
-        found = entry[0][0]
-    if found is None or type(found[0]) not in _PLAIN:
+def plain_line(line: str) -> Item | tuple[()] | None:
+    """Return the statement of a line if it is one assignment or equation, and complete; () if it has none."""
+    if _lines[line] is not None:
         return None
-    _plain.keep(line, found)
-    return found
+    _parse_line(line)
+    return _plain[line]
 
 
 def has_fault(entry: Entry) -> bool:
@@ -80,7 +77,7 @@ def forget_lines() -> None:
 
 def _parse_line(line: str) -> Entry:
     """Parse the statements of a logical line, and keep them."""
-    read = _plain[line] or line_patterns.read(line)
+    read = line_patterns.read(line)
     if read is not None:
         entry: Entry = ((read,), "")
     else:
@@ -88,7 +85,12 @@ def _parse_line(line: str) -> Entry:
         entry = tuple((_item(chunk), chunk.base) for chunk in scanned.chunks), scanned.continues
         if len(entry[0]) == 1 and not (scanned.continues or scanned.comments or has_fault(entry)):
             line_patterns.learn(line, scanned.chunks[0])
-    _lines.keep(line, entry)
+    items, more = entry
+    is_plain = not items or (len(items) == 1 and type(items[0][0]) in _PLAIN)
+    if is_plain and not more and "\n" not in line:
+        _plain.keep(line, items[0] if items else ())
+    else:
+        _lines.keep(line, entry)
     return entry
 
 
