@@ -16,6 +16,8 @@ from time import monotonic
 import numpy as np
 import pytest
 
+from desire_tui.engine.source import Source
+from desire_tui.engine.syntax.parse import parse
 from tests.batch.command_line import ROOT, desire, desire_process
 
 FILE_KINDS = ("png", "svg", "pdf", "csv", "json", "npz")
@@ -565,6 +567,7 @@ def test_shell_and_files_need_flags(tmp_path):
 
 
 def test_headless_runs_load_neither_textual_nor_matplotlib(decay):
+    parse(Source("x = 1"))  # makes the parse tables, for which lark is imported once
     code = (
         "import sys\nfrom desire_tui.__main__ import main\n"
         f"try: main(['run', {str(decay)!r}])\nexcept SystemExit: pass\n"
