@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from desire_tui.engine.data_classes import replace
+from desire_tui.engine.runtime.plan import RunPlan
 from tests.runtime.running import failure, ran, session_for, value
 
 MODEL = "DYNAMIC\nd/dt x = 1\ndispt x\n"
@@ -138,3 +140,21 @@ def test_erun_forgets_what_the_last_program_set():
     assert session.rule == 3  # the program sets it again
     session.execute("zz")
     assert kept.events.count(("started", 1)) == 3
+
+
+def test_closer_samples_do_not_set_steps_free():
+    """A comparison samples more often; only DTMAX of the program's own lets steps go beyond points."""
+    plan = RunPlan(
+        rule=4, t0=0.0, t_max=4.0, nn=5, comint=1.0, dt=0.5, dt_max=1.0, dt_min=1e-6, error_max=1e-3,
+        error_min=1e-5, every=1, checked=0, scale=1.0,
+    )  # fmt: skip
+    closer = plan.sampled_every(0.25)
+    assert (closer.nn, closer.comint, closer.dt, closer.dt_max) == (17, 0.25, 0.25, 0.25)
+    assert not plan.is_free
+    assert not closer.is_free
+    wide = replace(plan, dt_max=2.0)
+    assert wide.is_free
+    assert wide.sampled_every(0.25).dt_max == 2.0
+    assert not replace(wide, nn=2, comint=4.0, dt_max=9.0).is_free
+    assert not replace(wide, rule=3).is_free
+    assert replace(plan, rule=14).sampled_every(0.25).dt_max == 1.0
