@@ -33,6 +33,9 @@ if "PYTEST_XDIST_WORKER" not in os.environ:  # parse tables and native code are 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Make the parse tables before there are processes that would all make them at the same time."""
+    # what is collected stays, and a desktop is 50,000 objects that stay until its test ends: looked through while
+    # they are there, they are for nothing
+    gc.set_threshold(200_000, 5, 5)
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # started in the background: programs inherit that
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if config.getoption("numprocesses", None) and "PYTEST_XDIST_WORKER" not in os.environ:
@@ -66,8 +69,6 @@ def pytest_collection_finish() -> None:
     """Leave all imports and 7,500 tests out of garbage collections, as the desktop does with its own imports."""
     gc.collect()
     gc.freeze()
-    # a desktop is 50,000 objects that stay until its test ends: looked through while it is there, they are for nothing
-    gc.set_threshold(200_000, 5, 5)
 
 
 def pytest_sessionfinish() -> None:
