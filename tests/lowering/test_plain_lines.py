@@ -36,6 +36,7 @@ def ordinary(text, names, arrays):
     return found
 
 
+@settings(max_examples=60)
 @given(
     lines=st.lists(st.sampled_from(LINES), min_size=1, max_size=12),
     script=st.sampled_from((*SCRIPTS, SUBMODEL)),

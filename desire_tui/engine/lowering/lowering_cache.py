@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowering.lowering_context import UNKNOWN_SLOT
 from desire_tui.engine.lowering.scope import LiveScope
 from desire_tui.engine.recently_used import RecentlyUsed
+from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from desire_tui.engine.lowered.expressions import Load, Value
+    from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.lowering_context import LoweringContext
     from desire_tui.engine.nodes.expressions import Expr
 
@@ -52,10 +54,25 @@ def can_read(context: LoweringContext, reads: Iterable[tuple[str, int]]) -> bool
     """Whether names can be read without more ado, in the slots where they were."""
     ready = context.flow.ready.get
     for name, slot in reads:
-        load = ready(name)
+        load = ready(name) or parameter(context, name)
         if load is None or load.slot != slot:
             return False
     return True
+
+
+def parameter(context: LoweringContext, name: str) -> Load | None:
+    """Return what reads a number that the segment does not set; from now on it is among those ready."""
+    quantity = context.scope.names.get(name)
+    if (
+        quantity is None
+        or name in context.assigned
+        or quantity.shape
+        or quantity.kind is Kind.COMPLEX
+        or not context.scope.is_defined(quantity)
+    ):
+        return None
+    load = context.flow.ready[name] = Load(quantity.slot)
+    return load
 
 
 def lower_cached(context: LoweringContext, node: Expr) -> Value:

@@ -17,7 +17,7 @@ from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowered.segment import StateRange
 from desire_tui.engine.lowered.statements import Deriv, Set, Where
-from desire_tui.engine.lowering.lowering_cache import Cached, cache_of, can_read, known_value
+from desire_tui.engine.lowering.lowering_cache import Cached, cache_of, can_read, known_value, parameter
 from desire_tui.engine.lowering.operators import COMPOSED, OPERATIONS, power
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.expressions import Binary, Call, Name, Number, Unary
@@ -189,7 +189,9 @@ def _value(context: LoweringContext, node: Expr, reads: dict[str, int]) -> Value
             return Op(operation, (first, load))
         return Op(operation, (first, _value(context, right, reads)))
     if type(node) is Name:
-        load = context.flow.ready.get(node.name) or _parameter(context, node.name)
+        load = context.flow.ready.get(node.name) or parameter(context, node.name)
+        if load is None:
+            raise _NotPlain
         reads[node.name] = load.slot
         return load
     if type(node) is Number:
@@ -210,18 +212,3 @@ def _power(context: LoweringContext, node: Binary, reads: dict[str, int]) -> Val
     if node.op != "^":
         raise _NotPlain
     return power(_value(context, node.left, reads), _value(context, node.right, reads))
-
-
-def _parameter(context: LoweringContext, name: str) -> Load:
-    """Return what reads a number that the segment does not set; from now on it is among those ready."""
-    quantity = context.scope.names.get(name)
-    if (
-        quantity is None
-        or name in context.assigned
-        or quantity.shape
-        or quantity.kind is Kind.COMPLEX
-        or not context.scope.is_defined(quantity)
-    ):
-        raise _NotPlain
-    load = context.flow.ready[name] = Load(quantity.slot)
-    return load

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.jit.compiler import machine
-from desire_tui.engine.codegen.pieces.pass_pieces import cut, write
+from desire_tui.engine.codegen.pieces.kept_pieces import piece_of
+from desire_tui.engine.codegen.pieces.pass_pieces import cut
 from desire_tui.engine.codegen.scalar.rerolling import roll
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ class PieceTables:
                 piece = written.get(key)
                 if piece is None:
                     cancellation_point()
-                    piece = written[key] = write(group)
+                    piece = written[key] = piece_of(group)
                     self._pieces[piece.name] = piece
                 names[kind].append(piece.name)
         self.temps = max((piece.temps for piece in self._pieces.values()), default=0)
