@@ -19,9 +19,9 @@ def lowered(text):
     """The segment of a program that has run, its values, its state slots."""
     caught = []
 
-    def model(backend, segment, rule, values):
+    def model(backend, segment, rule, values, **how):
         caught.append(segment)
-        return real(backend, segment, rule, values)
+        return real(backend, segment, rule, values, **how)
 
     real = ReferenceBackend.model
     with pytest.MonkeyPatch.context() as patch:
