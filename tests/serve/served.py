@@ -84,6 +84,7 @@ class Browser:
         """What the page was told beside what it draws."""
         self._screen = pyte.Screen(100, 60)
         self._stream = pyte.Stream(self._screen)
+        self._rows = [""] * self._screen.lines
         self._decode = getincrementaldecoder("utf-8")("replace").decode
         self._came = asyncio.Event()
         self._reading = asyncio.create_task(self._read())
@@ -125,13 +126,23 @@ class Browser:
         self._came.set()
 
     @property
+    def rows(self) -> list[str]:
+        """What each row shows; only those drawn since the last look are read again."""
+        columns = range(self._screen.columns)
+        for row in self._screen.dirty:
+            cells = self._screen.buffer[row]
+            self._rows[row] = "".join([cells[column].data for column in columns])
+        self._screen.dirty.clear()
+        return self._rows
+
+    @property
     def shown(self) -> str:
-        return "\n".join(self._screen.display)
+        return "\n".join(self.rows)
 
     @property
     def output(self) -> str:
         """What is shown, without what lies over it for some seconds."""
-        return "\n".join(row.partition("▌")[0] for row in self._screen.display)
+        return "\n".join(row.partition("▌")[0] for row in self.rows)
 
     async def type(self, text: str) -> None:
         for letter in text:
