@@ -21,6 +21,7 @@ from desire_tui.batch.output_names import named_for
 from desire_tui.batch.program_voice import Voice
 from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.diagnostics import internal_error
+from desire_tui.engine.thread_count import runs_at_once
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
@@ -49,6 +50,8 @@ class HowToRun:
     answers: str | None
     quiet: bool
     raw: bool
+    at_once: int = 1
+    """Programs that run side by side."""
 
 
 @dataclass
@@ -133,6 +136,7 @@ class _Pool:
             self._how.answers,
             self._how.quiet,
             self._how.raw,
+            min(self._jobs, len(self._names)),
         )
         terminal = tuple(shutil.get_terminal_size()) if sys.stdout.isatty() else None
         process = self._context.Process(target=_run_here, args=(name, how, *writers, terminal), daemon=True)
@@ -202,7 +206,8 @@ def _run_here(
         pipe.close()
     if terminal is not None:
         os.environ["COLUMNS"], os.environ["LINES"] = map(str, terminal)
-    sys.exit(run_file(name, how.options, how.outputs, how.answers, quiet=how.quiet, raw=how.raw))
+    with runs_at_once(how.at_once):
+        sys.exit(run_file(name, how.options, how.outputs, how.answers, quiet=how.quiet, raw=how.raw))
 
 
 @contextmanager

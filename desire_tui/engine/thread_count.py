@@ -5,10 +5,19 @@
 from __future__ import annotations
 
 import os
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from desire_tui.engine import user_folders
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
 THREADS_MOST = 64
+
+
+_runs_at_once: list[int] = []
+_listeners: list[Callable[[], object]] = []
 
 
 def cores() -> int:
@@ -19,9 +28,32 @@ def cores() -> int:
 def thread_count() -> int:
     """Return the number of threads for one run of a large model, 1 or more.
 
-    What is wrong in the configuration does not count here; the desktop says so when it starts.
+    Runs that go on at once share the threads. What is wrong in the configuration does not count here; the
+    desktop says so when it starts.
     """
-    return min(_configured() or cores(), THREADS_MOST)
+    return max(min(_configured() or cores(), THREADS_MOST) // max(sum(_runs_at_once), 1), 1)
+
+
+@contextmanager
+def runs_at_once(runs: int) -> Iterator[None]:
+    """Tell that so many runs go on side by side, in this process or in others like it."""
+    _runs_at_once.append(runs)
+    _tell()
+    try:
+        yield
+    finally:
+        _runs_at_once.remove(runs)
+        _tell()
+
+
+def when_it_changes(listener: Callable[[], object]) -> None:
+    """Call a function whenever `thread_count` may have changed."""
+    _listeners.append(listener)
+
+
+def _tell() -> None:
+    for listener in _listeners:
+        listener()
 
 
 def _configured() -> int:

@@ -7,6 +7,7 @@ from threading import Event
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.thread_count import runs_at_once
 from desire_tui.studies.chunk import end_runs, run_chunk
 
 if TYPE_CHECKING:
@@ -35,7 +36,10 @@ def chunks_by_threads(plan: Plan, missing: Iterable[tuple[int, int]], workers: i
         sizes.took(count, perf_counter() - began)
         return made
 
-    with ThreadPoolExecutor(workers, thread_name_prefix="desire-study") as pool:
+    with (
+        runs_at_once(workers),
+        ThreadPoolExecutor(workers, thread_name_prefix="desire-study") as pool,
+    ):
         try:
             while True:
                 while len(waiting) <= workers:

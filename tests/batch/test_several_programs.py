@@ -6,10 +6,16 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
+from pathlib import Path
 from time import sleep
 
 import pytest
 
+from desire_tui.batch import several_programs
+from desire_tui.batch.output_files import OutputFiles
+from desire_tui.batch.runner import RunOptions
+from desire_tui.engine import thread_count
 from tests.batch.command_line import ROOT, desire, desire_process
 
 RUN = "TMAX = 1 | DT = 0.1 | NN = 3 | x = {n}\ndrun\nwrite 'final '; x\nDYNAMIC\nd/dt x = 1\ndispt x\n"
@@ -141,3 +147,33 @@ def test_several_graphs_are_pages_of_one_pdf(tmp_path):
     assert pictures > 1
     assert [path.name for path in tmp_path.glob("*.pdf")] == ["g.pdf"]
     assert (tmp_path / "g.pdf").read_bytes().count(b"/Type /Page ") == pictures
+
+
+def test_programs_side_by_side_share_the_threads_of_large_models(monkeypatch):
+    given = []
+
+    class Context:
+        def set_forkserver_preload(self, names):
+            pass
+
+        def Pipe(self, *, duplex):
+            return None, None
+
+        def Process(self, *, target, args, daemon):
+            given.append(args)
+            raise InterruptedError
+
+    monkeypatch.setattr(several_programs.multiprocessing, "get_context", lambda _: Context())
+    how = several_programs.HowToRun(RunOptions(), OutputFiles(), None, quiet=True, raw=False)
+    for names, jobs, at_once in ((["a", "b", "c"], 2, 2), (["a", "b"], 5, 2)):
+        with pytest.raises(InterruptedError):
+            several_programs.run_files(names, how, jobs)
+        assert given.pop()[1].at_once == at_once
+    monkeypatch.setattr(thread_count, "_configured", lambda: 6)
+    monkeypatch.setattr(several_programs, "run_file", lambda *_, **__: thread_count.thread_count())
+    out, err = (Path(os.devnull).open() for _ in range(2))  # noqa: SIM115 - it closes them
+    with monkeypatch.context() as here:
+        here.setattr(os, "dup2", lambda *_: None)
+        with pytest.raises(SystemExit) as ended:
+            several_programs._run_here("a", replace(how, at_once=2), out, err, None)
+    assert ended.value.code == 3

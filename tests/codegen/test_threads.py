@@ -133,6 +133,30 @@ def test_a_child_process_goes_on_alone(pool, monkeypatch):
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 
 
+def test_runs_at_once_share_the_threads(pool, monkeypatch):
+    monkeypatch.setattr(thread_count, "_configured", lambda: 6)
+    with thread_count.runs_at_once(2):
+        assert thread_count.thread_count() == pool.members == 3
+        with thread_count.runs_at_once(4):
+            assert thread_count.thread_count() == pool.members == 1
+        assert pool.members == 3
+    assert thread_count.thread_count() == pool.members == 6
+
+
+def test_the_pool_changes_between_loops(pool, monkeypatch):
+    monkeypatch.setattr(shared_loops, "LEAST", 1)
+    text = HEAD.format(n=N, rule=3).replace("TMAX = 0.04", "TMAX = 1") + MODELS["neighbours"]
+    alone = arrays(text)
+    found: list[list[bytes]] = []
+    run = threading.Thread(target=lambda: found.append(arrays(text)))
+    run.start()
+    members = 1
+    while run.is_alive():
+        members = 4 - members
+        pool.resize(members)
+    assert found[0] == alone
+
+
 def test_threads_end_with_the_pool():
     pool = ThreadPool(4)
     names = {f"desire loop {member}" for member in range(1, 4)}

@@ -11,6 +11,7 @@ import pytest
 
 import desire_tui
 from desire_tui import DesireError
+from desire_tui.engine import thread_count
 from desire_tui.studies import plan as plan_module
 
 SPRING = """k = 3 | r = 0.1 | w = 2*k | DT = 0.01 | TMAX = 1 | NN = 21 | irule 3
@@ -267,3 +268,17 @@ def test_loops_of_runs_and_their_studies_agree(name):
     for curve in curves:
         assert found[f"{curve}[end]"].values.tolist() == [run[curve][-1] for run in runs]
         assert found[f"min({curve})"].values.tolist() == [run[curve].min() for run in runs]
+
+
+def test_a_study_shares_the_threads_of_large_models_among_its_runs(monkeypatch):
+    monkeypatch.setattr(thread_count, "_configured", lambda: 6)
+    seen = []
+    desire_tui.study(
+        SPRING,
+        over={"k": "1:4:3"},
+        keep="x[end]",
+        threads=2,
+        progress=lambda _: seen.append(thread_count.thread_count()),
+    )
+    assert set(seen) == {3}
+    assert thread_count.thread_count() == 6

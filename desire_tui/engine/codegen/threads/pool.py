@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.jit.compiler import compile_and_keep, kept_code, machine, module_text
 from desire_tui.engine.codegen.threads.pool_code import MEMBERS_MOST, pool_text
 from desire_tui.engine.digest import blake2b
-from desire_tui.engine.thread_count import thread_count
+from desire_tui.engine.thread_count import thread_count, when_it_changes
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.machine_code import MachineCode
@@ -32,7 +32,13 @@ class ThreadPool:
     def __init__(self, members: int) -> None:
         self._code = _native_code()
         self._threads: list[threading.Thread] = []
+        self._changing = threading.Lock()
         self._open(members)
+
+    @property
+    def members(self) -> int:
+        """How many threads share a loop, the one that runs the model among them."""
+        return len(self._threads) + 1
 
     @property
     def share(self) -> int:
@@ -40,9 +46,16 @@ class ThreadPool:
         return self._code.address("pool.share")
 
     def resize(self, members: int) -> None:
-        """Have other threads; no loop may be going on."""
-        self.close()
-        self._open(members)
+        """Have other threads; a loop that is going on is waited for."""
+        with self._changing:
+            _NOTHING(self._code.address("pool.claim"))()
+            self.close()
+            self._open(members)
+
+    def fit(self) -> None:
+        """Have as many threads as a run may have now."""
+        if thread_count() != self.members:
+            self.resize(thread_count())
 
     def after_fork(self) -> None:
         """Go on without threads in a child process: none of them is there."""
@@ -75,6 +88,7 @@ def thread_pool() -> ThreadPool:
         if _pool is None:
             _pool = ThreadPool(thread_count())
             os.register_at_fork(after_in_child=_pool.after_fork)
+            when_it_changes(_pool.fit)
         return _pool
 
 

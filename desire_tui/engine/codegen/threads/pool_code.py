@@ -38,10 +38,11 @@ def pool_text(triple: str) -> tuple[list[str], list[str]]:
     `void pool.share(body, values, derivatives, context, i64 count, i64 block)`: `body(values, derivatives,
     context, i64 first, i64 end)` for all blocks of `block` elements, the last one perhaps shorter. Where
     another thread of the process has the pool, or there are too many blocks, the caller does all of them.
+    `void pool.claim()`: waits until no loop goes on, and lets none begin until `pool.open`.
     `void pool.work(i64 member)`: what a thread runs until `void pool.close()`.
     """
     declared, pause = _PAUSES.get(triple.split("-", maxsplit=1)[0], ("", ""))
-    functions = [_OPEN, _SHARE, _TAKE, _WORK, _CLOSE]
+    functions = [_OPEN, _CLAIM, _SHARE, _TAKE, _WORK, _CLOSE]
     filled = [
         function.replace("PAUSE", pause).replace("LOOKS", str(_LOOKS)).replace("PATIENCE", str(_PATIENCE))
         for function in functions
@@ -82,6 +83,20 @@ _OPEN = """define void @pool.open(i64 %members) #0 {
   ret void
 }"""
 
+_CLAIM = """define void @pool.claim() #0 {
+entry:
+  br label %try
+try:
+  %asked = cmpxchg ptr @pool.owned, i64 0, i64 1 seq_cst seq_cst
+  %ours = extractvalue { i64, i1 } %asked, 1
+  br i1 %ours, label %out, label %yield
+yield:
+  %y = call i32 @sched_yield()
+  br label %try
+out:
+  ret void
+}"""
+
 _SHARE = f"""define void @pool.share(ptr %body, ptr %v, ptr %dx, ptr %c, i64 %count, i64 %block) #0 {{
 entry:
   %most = add i64 %count, %block
@@ -99,6 +114,7 @@ ask:
   %ours = extractvalue {{ i64, i1 }} %asked, 1
   br i1 %ours, label %publish, label %self
 publish:
+  %sharers = load atomic i64, ptr @pool.members seq_cst, align 8 ; a claim may have come between
   store ptr %body, ptr @pool.job
   store ptr %v, ptr getelementptr ({_JOB}, ptr @pool.job, i64 0, i32 1)
   store ptr %dx, ptr getelementptr ({_JOB}, ptr @pool.job, i64 0, i32 2)
@@ -115,16 +131,16 @@ part:
   %p = phi i64 [ 0, %publish ], [ %q, %part ]
   %q = add i64 %p, 1
   %f = mul i64 %p, %blocks
-  %first = udiv i64 %f, %members
+  %first = udiv i64 %f, %sharers
   %e = mul i64 %q, %blocks
-  %end = udiv i64 %e, %members
+  %end = udiv i64 %e, %sharers
   %middle = shl i64 %end, 16
   %low = or i64 %first, %middle
   %ticket = or i64 %low, %high
   %place = mul i64 %p, 8
   %at = getelementptr i64, ptr @pool.tickets, i64 %place
   store atomic i64 %ticket, ptr %at seq_cst, align 8
-  %more = icmp slt i64 %q, %members
+  %more = icmp slt i64 %q, %sharers
   br i1 %more, label %part, label %published
 published:
   %sleepers = load atomic i64, ptr @pool.sleepers seq_cst, align 8
@@ -149,7 +165,7 @@ pause:
   %enough = icmp eq i64 %looked, PATIENCE
   br i1 %enough, label %help, label %look.on
 help:
-  %theirs = call i64 @pool.take(i64 0, i64 %members)
+  %theirs = call i64 @pool.take(i64 0, i64 %sharers)
   br label %again
 look.on:
   %long = icmp sgt i64 %looked, LOOKS
