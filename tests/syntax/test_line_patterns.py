@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from desire_tui.engine.nodes.record import Node
 from desire_tui.engine.source import Source
-from desire_tui.engine.syntax import line_patterns
+from desire_tui.engine.syntax import line_patterns, shapes
 from desire_tui.engine.syntax.parse import parse
 from desire_tui.engine.syntax.parsed_lines import forget_lines
 
@@ -116,6 +116,14 @@ def test_lines_of_one_layout(lines, unlearned):
     expected = unlearned(text)
     forget_lines()
     assert meaning(text) == expected
+
+
+def test_a_line_is_learned_whose_shape_is_older_than_other_programs():
+    text = "d/dt x0 = a*(y0 - x0)"
+    parse(Source(text + "\n" + text.replace("0", "1")))
+    shapes._patterns.forget()  # as when many other shapes came since; what it made is still in use
+    forget_lines()
+    test_the_place_of_words_is_known_from_lines_before()
 
 
 def test_the_place_of_words_is_known_from_lines_before():

@@ -35,7 +35,8 @@ SHARED_TOKENS_MAX = 300
 _LETTERED = frozenset({"display", "FFT"})
 """Statements whose letter decides how many arguments they take: it is part of their shape."""
 _patterns: RecentlyUsed[tuple[str, ...], Statement] = RecentlyUsed(SHAPES_ROOM)
-_makers: RecentlyUsed[tuple[str, ...], Maker] = RecentlyUsed(SHAPES_ROOM)
+_makers: RecentlyUsed[tuple[str, ...], tuple[Maker, Statement]] = RecentlyUsed(SHAPES_ROOM)
+"""With the pattern it was made of, which may be forgotten meanwhile where it is kept by itself."""
 
 
 def statement(chunk: StatementTokens) -> Statement:
@@ -46,9 +47,9 @@ def statement(chunk: StatementTokens) -> Statement:
     if len(shape) > SHARED_TOKENS_MAX:
         alone: Statement = _filled(derive(chunk.kinds, chunk.texts), chunk)
         return alone
-    maker = _makers[shape]
-    if maker is not None:
-        return maker(chunk)
+    known = _makers[shape]
+    if known is not None:
+        return known[0](chunk)
     pattern = _patterns[shape]
     if pattern is None:
         pattern = derive(chunk.kinds, chunk.texts)
@@ -56,7 +57,7 @@ def statement(chunk: StatementTokens) -> Statement:
         node: Statement = _filled(pattern, chunk)
         return node
     maker = _generate(pattern)
-    _makers.keep(shape, maker)
+    _makers.keep(shape, (maker, pattern))
     return maker(chunk)
 
 
@@ -65,7 +66,9 @@ def function_of_words(chunk: StatementTokens, places: WordPlaces) -> MakerOfWord
 
     None for a shape that was not seen before, and for a statement nested too deep.
     """
-    pattern = _patterns[tuple(chunk.kinds)]
+    shape = tuple(chunk.kinds)
+    known = _makers[shape]
+    pattern = _patterns[shape] if known is None else known[1]
     if pattern is None:
         return None
     names: dict[str, Any] = {"octal_value": octal_value}
