@@ -14,7 +14,6 @@ from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.problems import at_statement
 from desire_tui.engine.lowered.statements import Assignment, Deriv, DerivVec
 from desire_tui.engine.lowered.walk import walk_actions
-from desire_tui.engine.runtime.moments.blocks import FIRINGS_MOST
 from desire_tui.engine.runtime.run_memory import Ended
 from desire_tui.engine.values import DT, ERRMAX, IROW, T
 
@@ -91,7 +90,7 @@ def fault(ended: Ended, segment: Segment, plan: RunPlan, memory: RunMemory, valu
         return _placed(_SOLVER_KEYS.get(which, "solver-broken"), facts, segment, where)
     if ended is Ended.ZENO:
         where = segment.events[which].where
-        return _placed("events-too-fast", {"t": t, "count": FIRINGS_MOST}, segment, where)
+        return _placed("events-too-fast", {"t": t}, segment, where)
     if which >= 0:
         name, where = state_name(segment, which)
         value = cells[_state_slot(segment, which)]

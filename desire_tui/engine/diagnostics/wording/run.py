@@ -144,7 +144,7 @@ MESSAGES: dict[str, Wording] = {
     ),
     "events-too-fast": Wording(
         486,
-        "this event came {count} times in hardly any time, at t = {t:.9g}",
+        "this event came many times in hardly any time, at t = {t:.9g}",
         "let it rest: set it still in the block when it is slow, or stop the run by `term`",
         "Each time sets off the next one after a shorter while (a ball that bounces lower and lower), or"
         " at once (a switch without hysteresis).",

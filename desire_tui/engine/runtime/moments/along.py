@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.taylor.isolation import begin_walk, next_part
 from desire_tui.engine.passes.series.nodes import NEVER_INSIDE, SAMPLED
-from desire_tui.engine.runtime.moments.blocks import any_rises, keep_arms
-from desire_tui.engine.runtime.moments.locate import begin_at_left, go_to, keep, locate
+from desire_tui.engine.runtime.moments.blocks import any_rises, has_doubt, keep_arms
+from desire_tui.engine.runtime.moments.locate import begin_at_left, clear_doubt, go_to, keep, locate
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.taylor.memory import Taylor
@@ -28,16 +28,22 @@ def look_along_series(s: Taylor, m: Moments, t0: float, t1: float) -> int:
     if m.condition_count == 0 or not t1 > t0:
         return 0
     keep_arms(m)
+    fallen = 0.0
+    if has_doubt(m) != 0:
+        fallen = clear_doubt(m, t0, t1) - t0
     m.left = 0.0
     m.right = t1 - t0
     found = 0
     for i in range(m.count):
         if m.period[i] == 0.0:
             m.fell[i] = -1.0
+            start = 0.0
+            if m.kept_doubt[i] != 0 and m.armed[i] != 0:
+                start = fallen
             if m.arguments[i] == SAMPLED:
-                found += look_at_places(m, i, t0, found)
+                found += look_at_places(m, i, t0, start, found)
             elif m.arguments[i] != NEVER_INSIDE:
-                found += walk(s, m, i, t0, found)
+                found += walk(s, m, i, t0, start, found)
     found += take_falls(m, t0)
     go_to(m, t0, t0 + m.right)
     if any_rises(m) == 0:
@@ -58,45 +64,50 @@ def keep_left(m: Moments, t0: float) -> None:
         any_rises(m)
 
 
-def walk(s: Taylor, m: Moments, i: int, t0: float, found: int) -> int:
-    """Go along the step, as far as `right`, to where condition i rises; 1: it does."""
+def walk(s: Taylor, m: Moments, i: int, t0: float, start: float, found: int) -> int:
+    """Go along the step, from `start` as far as `right`, to where condition i rises; 1: it does."""
     if begin_walk(s, m.arguments[i], 0.0, m.right) == 0:
         return 0
-    below = 0.0
+    below = start
     armed: int = m.armed[i]
     while next_part(s) != 0:
-        go_to(m, t0, t0 + s.right)
-        any_rises(m)
-        value: float = m.values[m.now + i]
-        if value < 0.0:
-            if armed == 0:
-                m.fell[i] = s.right
-            armed = 1
-            below = s.right
-        elif value > 0.0 and armed != 0:
-            bracket(m, below, s.right, found)
-            return 1
+        if s.right > start:
+            go_to(m, t0, t0 + s.right)
+            any_rises(m)
+            value: float = m.values[m.now + i]
+            if value < 0.0:
+                if armed == 0:
+                    m.fell[i] = s.right
+                armed = 1
+                below = s.right
+            elif value > 0.0 and armed != 0:
+                bracket(m, below, s.right, found)
+                return 1
     return 0
 
 
-def look_at_places(m: Moments, i: int, t0: float, found: int) -> int:
-    """Look at some places of the step, as far as `right`, for one where condition i has risen; 1: it has."""
-    before = 0.0
+def look_at_places(m: Moments, i: int, t0: float, start: float, found: int) -> int:
+    """Look at some places of the step, from `start` as far as `right`, for one where condition i has risen.
+
+    1: it has.
+    """
+    before = start
     armed: int = m.armed[i]
     step: float = m.right
     for k in range(1, PLACES_OF_SERIES + 1):
         place = step * k / PLACES_OF_SERIES
-        go_to(m, t0, t0 + place)
-        any_rises(m)
-        value: float = m.values[m.now + i]
-        if value < 0.0:
-            if armed == 0:
-                m.fell[i] = place
-            armed = 1
-        elif value > 0.0 and armed != 0:
-            bracket(m, before, place, found)
-            return 1
-        before = place
+        if place > start:
+            go_to(m, t0, t0 + place)
+            any_rises(m)
+            value: float = m.values[m.now + i]
+            if value < 0.0:
+                if armed == 0:
+                    m.fell[i] = place
+                armed = 1
+            elif value > 0.0 and armed != 0:
+                bracket(m, before, place, found)
+                return 1
+            before = place
     return 0
 
 

@@ -20,6 +20,10 @@ FIRINGS_MOST = 200
 """So many firings within the part of a run that `span` names end it."""
 _FEW_STEPS, _SHRUNK_LEAST = 12.0, 5
 """An event comes every few steps; before, the time between two became less so often in a row."""
+_SOONER_LEAST, _NARROW = 5, 1e-2
+"""An event has come ever sooner so many times in a row, until this part was left of the time between two."""
+_AT_ONCE = 1e-13
+"""Such an event comes at once: within `span`, or this part of t."""
 NEVER = 1.7976931348623157e308
 
 
@@ -28,6 +32,7 @@ def begin(m: Moments) -> int:
     t: float = m.values[T]
     m.firings = 0
     m.firings_since = t
+    m.lost = 0
     if m.condition_count != 0:
         m.conditions(m.memory, m.k_at[0])
     for i in range(m.count):
@@ -36,6 +41,9 @@ def begin(m: Moments) -> int:
         m.before[i] = value
         m.came[i] = t
         m.gap[i] = 0.0
+        m.widest[i] = 0.0
+        m.sooner[i] = 0
+        m.turned[i] = 0
         m.shrunk[i] = 0
         m.quick[i] = 0
         m.in_doubt[i] = 0
@@ -75,7 +83,7 @@ def any_rises(m: Moments) -> int:
 
 
 def any_doubt(m: Moments) -> int:
-    """Whether a condition that was 0 behind its own block is above 0: it may have been below in between."""
+    """Whether a condition not below 0 behind its own block is above 0: it may have been below in between."""
     found = 0
     for i in range(m.count):
         if m.in_doubt[i] != 0 and m.values[m.now + i] > 0.0:
@@ -83,18 +91,35 @@ def any_doubt(m: Moments) -> int:
     return found
 
 
-def take_side(m: Moments) -> None:
-    """Take conditions in doubt as being on the side of 0 where they are at the t and states in the values."""
+def take_side(m: Moments, rises_least: int) -> int:
+    """Arm conditions in doubt that are below 0 at the t and states in the values; 1: some are.
+
+    Those that have risen from one look to the next so many times in a row are in doubt no more.
+    """
     m.conditions(m.memory, m.k_at[0])
+    found = 0
     for i in range(m.count):
         value: float = m.values[m.now + i]
-        if m.in_doubt[i] != 0 and value != 0.0:
-            m.armed[i] = 1 if value < 0.0 else 0
+        if m.in_doubt[i] != 0:
+            if value < 0.0:
+                m.in_doubt[i] = 0
+                m.armed[i] = 1
+                m.turned[i] = 1
+                found = 1
+            elif value > m.before[i]:
+                m.in_doubt[i] += 1
+                if m.in_doubt[i] > rises_least:
+                    m.in_doubt[i] = 0
+                    if narrows(m, i, m.gap[i]) != 0:
+                        m.lost = i + 1
+            else:
+                m.in_doubt[i] = 1
             m.before[i] = value
+    return found
 
 
 def has_doubt(m: Moments) -> int:
-    """Whether a condition was 0 in front of its own block and behind it."""
+    """Whether it is not known of some condition if it falls behind its own block."""
     found = 0
     for i in range(m.count):
         if m.in_doubt[i] != 0:
@@ -107,6 +132,8 @@ def arm_fallen(m: Moments) -> None:
     for i in range(m.count):
         value: float = m.values[m.now + i]
         if m.period[i] == 0.0 and value < 0.0:
+            if m.in_doubt[i] != 0:
+                m.turned[i] = 1
             m.in_doubt[i] = 0
             m.armed[i] = 1
             m.before[i] = value
@@ -133,6 +160,9 @@ def arrive(m: Moments, slack: float) -> int:
 
     The conditions have been computed. 0: nothing was due, 1: something was, 2: far too much is.
     """
+    if m.lost != 0:
+        m.last_fired = m.lost - 1
+        return 2
     pass_returns(m, slack)
     if due(m, slack) == 0:
         return 0
@@ -180,10 +210,11 @@ def carry_out(m: Moments) -> int:
                 found += note(m, i)
             else:
                 value: float = m.values[m.now + i]
-                # at 0 by its own block: it may rise again; at 0 as it was before: it has had its turn,
-                # unless it falls from here on, as it does where the block has turned a state round
+                # at 0 by its own block: it may rise again; else it has had its turn, unless it falls from
+                # here on, as it does where the block has turned a state round
                 m.armed[i] = value < 0.0 or (value == 0.0 and m.fired[i] > 0.0)
-                m.in_doubt[i] = value == 0.0 and m.fired[i] == 0.0
+                m.in_doubt[i] = m.armed[i] == 0
+                m.turned[i] = m.armed[i]
                 m.before[i] = value
         if found == 0:
             return 1
@@ -192,7 +223,9 @@ def carry_out(m: Moments) -> int:
 def note(m: Moments, i: int) -> int:
     """Take up the present value of condition i; 1: its block is due."""
     value: float = m.values[m.now + i]
-    m.in_doubt[i] = 0
+    if m.in_doubt[i] != 0 and value < 0.0:
+        m.turned[i] = 1
+    m.in_doubt[i] = m.in_doubt[i] != 0 and value > 0.0 and value < m.before[i]  # still falling
     due = rises(m, i, value)
     if due != 0:
         m.values[m.due + i] = 1.0
@@ -206,19 +239,32 @@ def note(m: Moments, i: int) -> int:
     return due
 
 
-def piles_up(m: Moments, i: int, t: float) -> int:
+def narrows(m: Moments, i: int, gap: float) -> int:
+    """Whether event i has come ever sooner behind its own block, and at last `gap` behind the time before."""
+    times: int = m.sooner[i]
+    return times >= _SOONER_LEAST and gap < _NARROW * m.widest[i]
+
+
+def closes_in(m: Moments, i: int, gap: float, t: float) -> int:
+    """Whether event i, which comes `gap` behind the time before, came ever sooner and now comes at once."""
+    if m.turned[i] != 0 and gap < m.gap[i]:
+        m.sooner[i] += 1
+    else:
+        m.sooner[i] = 0
+        m.widest[i] = gap
+    return narrows(m, i, gap) != 0 and gap <= max(m.span, _AT_ONCE * abs(t))
+
+
+def piles_up(m: Moments, i: int, gap: float) -> int:
     """Whether event i came ever faster, and by now has come every few steps for a long time.
 
-    Fixed steps hide that it comes faster still: what bounces is carried on by the size of DT alone.
+    Fixed steps may hide that it comes faster still: what bounces is carried on by the size of DT alone.
     """
-    gap: float = t - m.came[i]
-    m.came[i] = t
     if gap > _FEW_STEPS * m.values[DT]:
         m.shrunk[i] = m.shrunk[i] + 1 if gap < m.gap[i] else 0
         m.quick[i] = 0
     elif m.shrunk[i] >= _SHRUNK_LEAST:
         m.quick[i] += 1
-    m.gap[i] = gap
     times: int = m.quick[i]
     return times >= FIRINGS_MOST
 
@@ -230,8 +276,13 @@ def has_fired(m: Moments, t: float) -> int:
         if m.period[i] == 0.0 and m.values[m.due + i] != 0.0:
             m.last_fired = i
             fired = 1
-            if m.is_variable == 0 and m.stages != 0 and piles_up(m, i, t) != 0:
+            gap: float = t - m.came[i]
+            if closes_in(m, i, gap, t) != 0:
                 return 1
+            if m.is_variable == 0 and m.stages != 0 and piles_up(m, i, gap) != 0:
+                return 1
+            m.came[i] = t
+            m.gap[i] = gap
     m.firings += fired
     if m.firings < FIRINGS_MOST:
         return 0

@@ -14,6 +14,11 @@ if TYPE_CHECKING:
 
 SAME = 1e-10
 """Part of COMINT by which two moments are the same (`Moments.near`)."""
+FIRST_LOOK = 0.25
+"""Part of the time since an event came before: so early behind it a step ends, if it may fall and come again.
+
+A longer step's polynomial would be as exact as ERMAX asks, and what bounces lower than that fall through.
+"""
 PLACES = 4
 """A step is looked at in so many places, its end included; histories have as many knots in it."""
 
@@ -29,6 +34,10 @@ def limit_step(m: Moments, t: float, wish: float, t_next: float) -> float:
     if abs(soon - t_next) <= m.near:
         soon = t_next
     stop = min(wish, max(soon, t))
+    for i in range(m.count):
+        look = m.came[i] + FIRST_LOOK * m.gap[i]
+        if m.in_doubt[i] != 0 and look > t:
+            stop = min(stop, look)
     if m.tau_least > 0.0:
         stop = min(stop, t + m.tau_least)
     return stop

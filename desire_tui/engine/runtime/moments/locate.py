@@ -24,8 +24,10 @@ if TYPE_CHECKING:
     from desire_tui.engine.runtime.moments.memory import Moments
 
 
-PROBES = 60
-"""Looks at a step's first half, quarter, eighth … for a condition that falls from 0 and rises again."""
+NEAREST = 4.5e-16
+"""Part of t by which the first look behind a step's start lies behind it; each other twice as far."""
+RISES_LEAST = 3
+"""So many looks in a row at which a condition is larger than before tell that it does not fall."""
 
 
 def go_to(m: Moments, here: float, t: float) -> None:
@@ -38,51 +40,54 @@ def go_to(m: Moments, here: float, t: float) -> None:
 
 
 def rises_in_step(m: Moments, here: float, end: float) -> int:
-    """Whether an expression has risen in the step from `here` to `end` that has been made."""
+    """Whether an expression has risen in the step from `here` to `end` that has been made; behind `left`."""
+    m.left = here
     risen = any_rises(m)
     if any_doubt(m) == 0:
         return risen
-    clear_doubt(m, here, end)
+    m.left = clear_doubt(m, here, end)
     go_to(m, here, end)
     return any_rises(m)
 
 
-def clear_doubt(m: Moments, here: float, end: float) -> None:
-    """Look at ever smaller parts of a step, on which side of 0 conditions in doubt are behind its start."""
-    part = 1.0
-    for _ in range(PROBES):
-        part *= 0.5
-        t = here + part * (end - here)
-        if not t > here:
-            break
-        go_to(m, here, t)
-        take_side(m)
+def clear_doubt(m: Moments, here: float, end: float) -> float:
+    """Look ever farther behind a step's start whether conditions in doubt fall below 0.
+
+    Returns where the last of them is below 0; `here`: none of them falls.
+    """
+    fallen = here
+    reach = NEAREST * max(abs(here), abs(end))
+    while has_doubt(m) != 0 and here + reach < end:
+        if here + reach > here:
+            go_to(m, here, here + reach)
+            if take_side(m, RISES_LEAST) != 0:
+                fallen = here + reach
+        reach *= 2.0
+    return fallen
 
 
 def look_inside(m: Moments, t0: float, t1: float) -> int:
     """Find the first event in a step of a rule 9 … 17; 1: t and the states are those just behind it."""
     if m.condition_count == 0 or not t1 > t0:
         return 0
-    begin_at_left(m)
     keep_arms(m)
-    if has_doubt(m) != 0:
-        go_to(m, t0, t1)
-        any_rises(m)
-        if any_doubt(m) != 0:
-            clear_doubt(m, t0, t1)
     left = t0
+    if has_doubt(m) != 0:
+        left = clear_doubt(m, t0, t1)
+    begin_at_left(m)
     places: int = m.places
     for k in range(1, places + 1):
         right = t1
         if k < places:
             right = t0 + (t1 - t0) * k / places
-        go_to(m, t0, right)
-        if any_rises(m) != 0:
-            locate(m, t0, left, right)
-            return 1
-        arm_fallen(m)
-        keep(m, 0)
-        left = right
+        if right > left:
+            go_to(m, t0, right)
+            if any_rises(m) != 0:
+                locate(m, t0, left, right)
+                return 1
+            arm_fallen(m)
+            keep(m, 0)
+            left = right
     return 0
 
 

@@ -44,11 +44,15 @@ class Moments(ctypes.Structure):
         ("now", _INT), ("due", _INT),  # first slots
         ("before", _REALS), ("at_left", _REALS), ("at_right", _REALS), ("fired", _REALS),
         ("armed", _INTS),
-        ("in_doubt", _INTS),  # at 0 in front of its own block and behind it: up or down?
+        ("in_doubt", _INTS),  # not below 0 behind its own block: up or down?
         ("goes_on", _INT),  # 1: the run continues one, in which what stands at 0 has had its turn
         ("period", _REALS), ("start", _REALS), ("ticks", _REALS), ("next", _REALS),
         # an event that comes ever faster, until it does every few steps
         ("came", _REALS), ("gap", _REALS),  # of each: when it came last, and how long behind the one before
+        ("turned", _INTS),  # 1: it fell at once behind its own block, to come again
+        ("sooner", _INTS),  # so often in a row it turned, and came sooner than before
+        ("widest", _REALS),  # the time between two before it came sooner
+        ("lost", _INT),  # number + 1 of one that came so, and then went through: what comes is too close
         ("shrunk", _INTS), ("quick", _INTS),  # so often in a row the gap became less; was a few steps
         # very many events in a very short time
         ("firings", _INT), ("firings_since", _REAL), ("span", _REAL), ("last_fired", _INT),

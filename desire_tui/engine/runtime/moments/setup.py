@@ -92,11 +92,22 @@ class Stepper:
             "next",
             "came",
             "gap",
+            "widest",
             "fell",
             "kept_before",
         ):
             self._reals(name, np.zeros(count))
-        for name in ("armed", "in_doubt", "shrunk", "quick", "arguments", "kept_armed", "kept_doubt"):
+        for name in (
+            "armed",
+            "in_doubt",
+            "turned",
+            "sooner",
+            "shrunk",
+            "quick",
+            "arguments",
+            "kept_armed",
+            "kept_doubt",
+        ):
             self._ints(name, np.zeros(count, dtype=np.int64))
         self._period, self._start = np.zeros(count), np.zeros(count)
         self._reals("period", self._period)

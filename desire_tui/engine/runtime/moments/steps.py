@@ -75,7 +75,7 @@ def fixed_step(m: Moments, memory: RunMemory) -> Int32:
         m.values[T] = stop
         if m.condition_count != 0 and rises_in_step(m, here, stop) != 0:
             begin_at_left(m)
-            stop = locate(m, here, here, stop)
+            stop = locate(m, here, m.left, stop)
         came = arrive(m, SLACK * dt)
         if came > 1:
             return Ended.ZENO
@@ -149,7 +149,7 @@ def variable_step(m: Moments, memory: RunMemory, t_next: float) -> Int32:
         m.look(m.watch, here, m.values[T])
     if m.condition_count != 0 and rises_in_step(m, here, m.values[T]) != 0:
         begin_at_left(m)
-        locate(m, here, here, m.values[T])
+        locate(m, here, m.left, m.values[T])
     came = arrive(m, SLACK * dt)
     if came > 1:
         return Ended.ZENO
