@@ -24,6 +24,7 @@ async def test_a_letter_and_the_cursors_place_are_drawn_without_the_lines_betwee
         await desk.press("alt+e")
         area.go_to(3 + gap, 0)
         await desk.idle()
+        await desk.pilot.pause()  # the text has scrolled, and is drawn
         crops: list[Region] = []
         render = BandedCompositor._render_chops
 

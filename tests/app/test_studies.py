@@ -69,7 +69,7 @@ async def test_a_study_explains_itself(program):
         at = frame.left + frame.columns - 1
         height = (1 - 48 / 60) / 2 * frame.rows
         await desk.pilot.hover("#graph", offset=(at, frame.top + int(height)))
-        assert "run 48 · c = 48" in row(keys)
+        await desk.until(lambda: "run 48 · c = 48" in row(keys))
         await desk.pilot.hover("#prompt")
         assert "c = 1 … 48" in row(keys)
 
