@@ -8,6 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
+from desire_tui.engine.thread_count import THREADS_MOST, runs_at_once
 from desire_tui.studies.chunk import run_chunk
 
 if TYPE_CHECKING:
@@ -112,9 +113,13 @@ def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iter
 
 
 def timed_chunk(task: Task, first: int, rows: NDArray[np.float64]) -> tuple[Chunk, float]:
-    """Make some runs; return what they gave, and the seconds that took. Carried out on a worker."""
+    """Make some runs; return what they gave, and the seconds that took. Carried out on a worker.
+
+    A chunk takes one thread, as the scheduler counts: others have the machine's other cores.
+    """
     began = perf_counter()
-    return run_chunk(task, first, rows), perf_counter() - began
+    with runs_at_once(THREADS_MOST):
+        return run_chunk(task, first, rows), perf_counter() - began
 
 
 def _lost() -> tuple[type[BaseException], ...]:

@@ -9,6 +9,7 @@ import pytest
 
 import desire_tui
 from desire_tui import DesireError
+from desire_tui.engine import thread_count
 from desire_tui.studies import cluster
 
 NOISY = """k = 1 | DT = 0.01 | TMAX = 1 | NN = 101 | x = 1 | n = 0
@@ -56,3 +57,11 @@ def test_a_scheduler_that_is_not_there(monkeypatch):
     problem = error.value.diagnostics[0]
     assert problem.code == 514
     assert "tcp://127.0.0.1:9 cannot be reached" in problem.message
+
+
+def test_a_chunk_takes_one_thread(monkeypatch):
+    threads = []
+    monkeypatch.setattr(thread_count, "cores", lambda: 8)
+    monkeypatch.setattr(cluster, "run_chunk", lambda *_: threads.append(thread_count.thread_count()))
+    cluster.timed_chunk(None, 0, None)
+    assert threads == [1]

@@ -28,17 +28,11 @@ BACKENDS = ("native", "reference")
 
 
 def make_backend(name: str, compiler: CompilerState | None = None) -> Backend:
-    """Return the back end; the reference one where there is no LLVM.
-
-    `compiler` keeps what a native one compiles; without it, what all sessions share.
-    """
+    """Return the back end; `compiler` keeps what a native one compiles (default: all sessions share that)."""
     if name == "native":
-        try:
-            from desire_tui.engine.codegen.backend import NativeBackend
+        from desire_tui.engine.codegen.backend import NativeBackend
 
-            return NativeBackend(compiler)
-        except ImportError:
-            pass  # no llvmlite on this machine: slower, the same numbers
+        return NativeBackend(compiler)
     from desire_tui.engine.reference.backend import ReferenceBackend
 
     return ReferenceBackend()
