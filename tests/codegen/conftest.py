@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from desire_tui.engine import disk_cache
 from desire_tui.engine.codegen import native_model
 from desire_tui.engine.codegen.backend import NativeBackend
+from desire_tui.engine.codegen.jit import compiler
+from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.reference.backend import ReferenceBackend
 from desire_tui.engine.runtime.run_memory import Ended, RunMemory
 from desire_tui.engine.session.session import Session
@@ -47,6 +50,27 @@ def storage(request, monkeypatch, quick_code_only):
     if request.param == "arrays":
         monkeypatch.setattr(native_model, "SMALL", -1)
     return request.param
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Where compiled code is kept."""
+    machine()
+    monkeypatch.setattr(disk_cache, "_path", lambda name: str(tmp_path / "cache" / name))
+    return tmp_path / "cache"
+
+
+@pytest.fixture
+def compiled(monkeypatch):
+    """Levels of the modules compiled from now on."""
+    translate, levels = compiler._object_file, []
+
+    def counted(text, level, **how):
+        levels.append(level)
+        return translate(text, level, **how)
+
+    monkeypatch.setattr(compiler, "_object_file", counted)
+    return levels
 
 
 def memory_for(values, segment, *, t_max, dt, nn, **more):

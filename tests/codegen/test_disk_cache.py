@@ -24,26 +24,6 @@ define i64 @seven(i64 %x) {
 """
 
 
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    machine()
-    monkeypatch.setattr(disk_cache, "_path", lambda name: str(tmp_path / "cache" / name))
-    return tmp_path / "cache"
-
-
-@pytest.fixture
-def compiled(monkeypatch):
-    """Levels of the modules compiled from now on."""
-    translate, levels = compiler._object_file, []
-
-    def counted(text, level, **how):
-        levels.append(level)
-        return translate(text, level, **how)
-
-    monkeypatch.setattr(compiler, "_object_file", counted)
-    return levels
-
-
 def seven(code):
     return ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(code.address("seven"))(35)
 

@@ -6,10 +6,9 @@ import ctypes
 
 import pytest
 
-from desire_tui.engine import disk_cache
 from desire_tui.engine.codegen.compiler_state import CompilerState
 from desire_tui.engine.codegen.jit import compiler
-from desire_tui.engine.codegen.jit.compiler import compile_text, machine
+from desire_tui.engine.codegen.jit.compiler import compile_text
 from desire_tui.engine.codegen.jit.linker import LinkedCode
 from desire_tui.engine.codegen.jit.movable_text import has_addresses, movable_text
 from desire_tui.engine.codegen.jit.placed_code import PlacedCode
@@ -19,19 +18,7 @@ from desire_tui.engine.source import Source
 CALLBACK = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)
 
 
-@pytest.fixture
-def compiled(tmp_path, monkeypatch):
-    """Levels of the modules compiled from now on, with a folder of their own."""
-    machine()
-    monkeypatch.setattr(disk_cache, "_path", lambda name: str(tmp_path / "cache" / name))
-    translate, levels = compiler._object_file, []
-
-    def counted(text, level, **how):
-        levels.append(level)
-        return translate(text, level, **how)
-
-    monkeypatch.setattr(compiler, "_object_file", counted)
-    return levels
+pytestmark = pytest.mark.usefixtures("folder")
 
 
 def text_for(name, memory, callback):

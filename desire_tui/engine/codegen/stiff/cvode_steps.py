@@ -14,7 +14,7 @@ from desire_tui.engine.integration.problem import (
 from desire_tui.engine.integration.sundials.signatures import ONE_STEP
 
 if TYPE_CHECKING:
-    from desire_tui.engine.integration.plain_types import Int32, cvode  # noqa: TC004 - is compiled, never run
+    from desire_tui.engine.integration.plain_types import cvode  # noqa: TC004 - is compiled, never run
     from desire_tui.engine.integration.problem import SolverProblem
 
 
@@ -72,15 +72,3 @@ def failures(problem: SolverProblem) -> int:
 def interpolate(problem: SolverProblem, t: float) -> None:
     """Write the states inside the last step to `between`."""
     cvode.CVodeGetDky(problem.solver, t, 0, problem.between_vector)
-
-
-def look(problem: SolverProblem, t0: float, t1: float) -> Int32:
-    """Find the first switching in the last step (`switching.watch.look_back`)."""
-    found: int = problem.look(problem.watch, t0, t1)
-    return found
-
-
-def look_for_moments(problem: SolverProblem, t0: float, t1: float) -> int:
-    """Find the first event in the last step (`runtime.moments.locate.look_inside`)."""
-    found: int = problem.look_inside(problem.moments, t0, t1)
-    return found

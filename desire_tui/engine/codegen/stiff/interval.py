@@ -5,11 +5,11 @@ and comes back with `Ended.RUNNING` once t is `t_next`; with STOPPED where `stop
 statement's number in `which`; SOLVER with CVODE's flag in `which`; ZENO where events come too fast; FULL
 where there is no room for what delays remember.
 
-The steps are those of `cvode_steps` or `own_steps`, whichever this text is compiled with. Where the problem
-`is_free` they go on beyond communication points, whose states are interpolated: the solver is then ahead of
-the values. It keeps a history of the solution and begins anew where the states in the values are not what it
-left there (at a run's start, where difference-equation code changed one, where the user did), where an input
-has changed, and where a derivative jumps.
+The steps are those of `cvode_steps`, `own_steps`, `explicit_steps` or `taylor_steps`, whichever this text is
+compiled with. Where the problem `is_free` they go on beyond communication points, whose states are
+interpolated: the solver is then ahead of the values. It keeps a history of the solution and begins anew
+where the states in the values are not what it left there (at a run's start, where difference-equation code
+changed one, where the user did), where an input has changed, and where a derivative jumps.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from desire_tui.engine.codegen.stiff.cvode_steps import (
     failures,
     interpolate,
     last_size,
-    look,
     take_step,
 )
+from desire_tui.engine.codegen.stiff.look_back import look
 from desire_tui.engine.codegen.stiff.model_calls import gather, scatter, transfer
 from desire_tui.engine.codegen.stiff.moment_steps import (
     begin_interval,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.stiff.cvode_steps import look_for_moments
+from desire_tui.engine.codegen.stiff.look_back import look_for_moments
 from desire_tui.engine.codegen.stiff.model_calls import gather
 from desire_tui.engine.runtime.moments.inside import SAME
 from desire_tui.engine.runtime.moments.steps import SPLITS_MOST

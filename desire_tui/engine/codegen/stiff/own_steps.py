@@ -9,7 +9,7 @@ from desire_tui.engine.integration.bdf.step import advance, put_inside
 
 if TYPE_CHECKING:
     from desire_tui.engine.integration.bdf.memory import Bdf
-    from desire_tui.engine.integration.plain_types import Int32, Reals
+    from desire_tui.engine.integration.plain_types import Reals
     from desire_tui.engine.integration.problem import SolverProblem
 
 
@@ -46,15 +46,3 @@ def interpolate(problem: SolverProblem, t: float) -> None:
     solver: Bdf = problem.solver
     between: Reals = problem.between
     put_inside(solver, t, between)
-
-
-def look(problem: SolverProblem, t0: float, t1: float) -> Int32:
-    """Find the first switching in the last step (`switching.watch.look_back`)."""
-    found: int = problem.look(problem.watch, t0, t1)
-    return found
-
-
-def look_for_moments(problem: SolverProblem, t0: float, t1: float) -> int:
-    """Find the first event in the last step (`runtime.moments.locate.look_inside`)."""
-    found: int = problem.look_inside(problem.moments, t0, t1)
-    return found

@@ -20,6 +20,7 @@ from desire_tui.engine.codegen.stiff import (
     explicit_steps,
     interval,
     jacobian_fill,
+    look_back,
     model_calls,
     moment_steps,
     own_steps,
@@ -64,10 +65,10 @@ _CALLED = (
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails", "CVodeSetJacEvalFrequency",
 )  # fmt: skip
 _MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, progress, interval)
-_CVODE = (*_MODEL, cvode_callbacks, cvode_steps)
-_OWN = (*_MODEL, own_steps, choice, coefficients, newton, start, step)
+_CVODE = (*_MODEL, look_back, cvode_callbacks, cvode_steps)
+_OWN = (*_MODEL, look_back, own_steps, choice, coefficients, newton, start, step)
 _TAYLOR = (*_MODEL, taylor_steps, taylor_step, square_roots, isolation, roots, located)
-_EXPLICIT = (*_MODEL, explicit_steps, explicit_step, hermite)
+_EXPLICIT = (*_MODEL, look_back, explicit_steps, explicit_step, hermite)
 _CONSTANTS = (
     memory, explicit_memory, taylor_memory, problem, run_memory, signatures, switching, moments_inside,
     moments_memory, moments_steps,

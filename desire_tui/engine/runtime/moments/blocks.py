@@ -24,6 +24,8 @@ _SOONER_LEAST, _NARROW = 5, 1e-2
 """An event has come ever sooner so many times in a row, until this part was left of the time between two."""
 _AT_ONCE = 1e-13
 """Such an event comes at once: within `span`, or this part of t."""
+_RISES_LEAST = 3
+"""So many looks in a row at which a condition is larger than before tell that it does not fall."""
 NEVER = 1.7976931348623157e308
 
 
@@ -91,10 +93,10 @@ def any_doubt(m: Moments) -> int:
     return found
 
 
-def take_side(m: Moments, rises_least: int) -> int:
+def take_side(m: Moments) -> int:
     """Arm conditions in doubt that are below 0 at the t and states in the values; 1: some are.
 
-    Those that have risen from one look to the next so many times in a row are in doubt no more.
+    Those that have risen from one look to the next some times in a row are in doubt no more.
     """
     m.conditions(m.memory, m.k_at[0])
     found = 0
@@ -108,7 +110,7 @@ def take_side(m: Moments, rises_least: int) -> int:
                 found = 1
             elif value > m.before[i]:
                 m.in_doubt[i] += 1
-                if m.in_doubt[i] > rises_least:
+                if m.in_doubt[i] > _RISES_LEAST:
                     m.in_doubt[i] = 0
                     if narrows(m, i, m.gap[i]) != 0:
                         m.lost = i + 1

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 NEAREST = 4.5e-16
 """Part of t by which the first look behind a step's start lies behind it; each other twice as far."""
-RISES_LEAST = 3
-"""So many looks in a row at which a condition is larger than before tell that it does not fall."""
 
 
 def go_to(m: Moments, here: float, t: float) -> None:
@@ -60,7 +58,7 @@ def clear_doubt(m: Moments, here: float, end: float) -> float:
     while has_doubt(m) != 0 and here + reach < end:
         if here + reach > here:
             go_to(m, here, here + reach)
-            if take_side(m, RISES_LEAST) != 0:
+            if take_side(m) != 0:
                 fallen = here + reach
         reach *= 2.0
     return fallen
