@@ -12,9 +12,16 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from desire_tui.engine.codegen.exact_functions import compiled, hyperbolic_tangent, lookups, sine_and_cosine
+from desire_tui.engine.codegen.exact_functions import (
+    compiled,
+    decimal_logarithm,
+    hyperbolic_tangent,
+    logarithm,
+    lookups,
+    sine_and_cosine,
+)
 from desire_tui.engine.codegen.exact_functions.angles import sines_and_cosines, step
-from desire_tui.engine.codegen.exact_functions.constants import half_pi, ln_2
+from desire_tui.engine.codegen.exact_functions.constants import half_pi, ln_2, logarithm_of
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.studies import chunk as chunks
 from desire_tui.studies.chunk import run_chunk
@@ -22,7 +29,7 @@ from desire_tui.studies.task import Task
 
 MODEL = (
     "k = 3 | DT = 0.01 | TMAX = 2 | NN = 21 | x = 1 | v = 0\ndrun\nDYNAMIC\nd/dt x = v\n"
-    "d/dt v = -k*sin(3*x) - tanh(v) + exp(-x*x)\ny = cos(x) + sin(x)\ndispt x\n"
+    "d/dt v = -k*sin(3*x) - tanh(v) + exp(-x*x) + ln(k + v*v)\ny = cos(x) + sin(x) + log(k + x)\ndispt x\n"
 )
 SPECIAL = (0.0, -0.0, math.nan, 1e-310, -5e-324, 1e-9, 0.126, 0.855469, 2.426265, 1e300, -3e5, 699.5, -710.0)
 UNFUSED = """
@@ -53,7 +60,9 @@ def arguments(seed: int) -> np.ndarray:
     random = np.random.default_rng(seed)
     sizes = random.uniform(-1, 1, 4000) * 10.0 ** random.uniform(-9, 6, 4000)
     turns = random.integers(-300, 300, 2000) * (math.pi / 2) * (1 + 10.0 ** random.uniform(-16, -3, 2000))
-    return np.concatenate([sizes, turns, random.uniform(-4, 4, 4000), np.resize(np.array(SPECIAL), 16)])
+    ones = 1 + random.uniform(-1, 1, 2000) * 10.0 ** random.uniform(-16, -1, 2000)
+    everything = np.concatenate([sizes, turns, ones, random.uniform(-4, 4, 4000)])
+    return np.concatenate([everything, np.resize(np.array(SPECIAL), 16)])
 
 
 def library(name: str, x: float) -> float:
@@ -61,6 +70,8 @@ def library(name: str, x: float) -> float:
         return getattr(math, name)(x)
     except OverflowError:  # of math.exp: the C library's result is inf
         return math.inf
+    except ValueError:  # of logarithms: the C library's are -inf and nan
+        return -math.inf if x == 0 else math.nan
 
 
 @pytest.mark.parametrize("name", compiled.NAMES)
@@ -83,6 +94,17 @@ def test_constants_have_all_their_bits():
     assert abs(
         ln_2() - Fraction("0.693147180559945309417232121458176568075500134360255254120680")
     ) < Fraction(1, 10**59)
+    assert float(logarithm_of(Fraction(3, 2))) == math.log(1.5)
+
+
+def test_in_every_cell_of_the_logarithm_what_is_left_is_a_double():
+    for low, high, inverse, most in logarithm.cells():
+        for z in (low, math.nextafter(low, high), (low + high) / 2, math.nextafter(high, low)):
+            left = Fraction(z) * Fraction(inverse) - 1
+            assert Fraction(float(left)) == left, z
+            assert abs(left) <= most < 0.035
+    first, last = logarithm.cells()[0].low, logarithm.cells()[-1].high
+    assert last == 2 * first
 
 
 def test_sines_and_cosines_have_all_their_bits():
@@ -120,9 +142,11 @@ def test_a_function_that_differs_from_the_library_is_not_used(monkeypatch):
     monkeypatch.setattr(sine_and_cosine, "_band", lambda *_, **__: 0.0)  # nothing is in doubt
     monkeypatch.setattr(sine_and_cosine, "_RELATIVE", 0.0)
     monkeypatch.setattr(hyperbolic_tangent, "_ONE_FROM", 3.0)
+    monkeypatch.setattr(logarithm, "_BAND_SMALL", 0.0)
+    monkeypatch.setattr(decimal_logarithm, "_PER_LN_10", 0.4342944819032519)
     width = 2 * machine().width
-    assert compiled.exact_function("sin", width) is None
-    assert compiled.exact_function("tanh", width) is None
+    for name in ("sin", "tanh", "log", "log10"):
+        assert compiled.exact_function(name, width) is None
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="glibc's switches")

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 _GLIBC = (2, 28)
-"""Since then sin, cos and exp are those whose accuracy is relied on."""
-_FAST_LIBRARY, _WIDE = frozenset(("exp",)), 32
+"""Since then sin, cos, exp and log are those whose accuracy is relied on."""
+_FAST_LIBRARY, _WIDE = frozenset(("exp", "log")), 32
 """Of these the library is so quick that only vectors of so many doubles gain."""
 _TRIED = 16_384
 _TELLING = """
@@ -38,8 +38,11 @@ _TELLING = """
 0x1.dc3f8ae290b4cp-2 0x1.8664c39a67bc6p-3 0x1.ed2b1b85f200ep-2 0x1.655b96dea81ddp+0 0x1.cb3b3073ea6a6p+0
 0x1.658d29b8df687p+0 0x1.57057b9ea6aa7p+0 0x1.c3640441af049p+0 0x1.70a14507dcaa1p+0 0x1.3ebc84804d19ap+0
 0x1.d37c2a6829e5dp+0 0x1.b4cadf4d196f1p+0 0x1.6b55fd5dedc14p+0
+0x1.d40f330175377p-1 0x1.141061eec33e1p+0 0x1.11f07bfbf8a4cp+0 0x1.1390e8f39e3e2p+0 0x1.21fd5fd7f95bcp+0
+0x1.c3e6fa5665928p-1 0x1.cff86bd267f6ep-1 0x1.100ae9e16766ep+0 0x1.dff4dd3dc461ap-1 0x1.146a1ff66ec44p+0
 """
-"""Where glibc's sin (the first 8) or cos compiled without fused operations are off by more than with them."""
+"""Where glibc's sin (the first 8) or cos (10) compiled without fused operations are off by more than with
+them, and where its log (10) is most off."""
 _TRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)
 _lock = Lock()
 _known: dict[tuple[str, int], ExactFunction | None] = {}
@@ -159,9 +162,10 @@ def _arguments() -> Floats:
     """Return numbers spread over everything: where functions are used most, all sizes, what is special."""
     golden = (np.arange(_TRIED) * 0.6180339887498949) % 1.0
     near = 40.0 * golden[: _TRIED // 2] - 20.0
+    near[::8] = 1.0 + near[::8] ** 3 * 1e-5  # where logarithms are small
     part = golden[_TRIED // 2 :]
     signs = np.where(np.arange(len(part)) % 2, 1.0, -1.0)
     far = signs * 10.0 ** (12.0 * part - 6.0)
     special = [0.0, -0.0, np.inf, -np.inf, np.nan, 1.0, -1.0, 5e-324, 1e300, np.pi, np.pi / 2, 710.0, -746.0]
     telling = [float.fromhex(number) for number in _TELLING.split()]
-    return np.concatenate([near, far, np.resize(np.array([*special, *telling]), 32)])
+    return np.concatenate([near, far, np.resize(np.array([*special, *telling]), 64)])

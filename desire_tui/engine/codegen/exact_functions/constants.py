@@ -1,4 +1,4 @@
-"""π/2 and ln 2 as rational numbers, to 200 bits: enough for three doubles and what they leave."""
+"""π/2 and logarithms as rational numbers, to 200 bits: enough for three doubles and what they leave."""
 
 from __future__ import annotations
 
@@ -23,6 +23,11 @@ def half_pi() -> Fraction:
 
 
 def ln_2() -> Fraction:
-    """Return ln 2 = 2·artanh(1/3)."""
-    third = Fraction(1, 3)
-    return 2 * _series(third, third**2)
+    """Return ln 2."""
+    return logarithm_of(Fraction(2))
+
+
+def logarithm_of(x: Fraction) -> Fraction:
+    """Return ln x = 2·artanh((x - 1)/(x + 1)), for x near 1: between a half and 2."""
+    part = (x - 1) / (x + 1)
+    return 2 * _series(part, part**2)

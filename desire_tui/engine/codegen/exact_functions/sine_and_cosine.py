@@ -22,6 +22,7 @@ from desire_tui.engine.codegen.exact_functions.angles import sines_and_cosines, 
 from desire_tui.engine.codegen.exact_functions.constants import half_pi
 from desire_tui.engine.codegen.exact_functions.lookups import SIZE, looked_up, second_of, two_in_one
 from desire_tui.engine.codegen.exact_functions.pairs import Pair, Pairs
+from desire_tui.engine.codegen.exact_functions.polynomials import economized
 from desire_tui.engine.codegen.exact_functions.rounding_test import Result, beyond, rounded
 
 if TYPE_CHECKING:
@@ -57,29 +58,13 @@ def _band(angle: int, *, fused: bool) -> float:
     return roundings * 2.0**-62 + _OWN + _LEFT_OUT * abs(lacks)
 
 
-def _economized(terms: list[Fraction], most: Fraction) -> list[Fraction]:
-    """Return a polynomial of one degree less, as near as can be for x in [0, most].
-
-    The last term gives way to what Chebyshev's polynomial of its degree leaves of it (C. Lanczos 1938).
-    """
-    degree = len(terms) - 1
-    before, now = [Fraction(1)], [Fraction(-1), 2 / most]  # T0, T1 of 2x/most - 1
-    for _ in range(1, degree):
-        doubled = [2 * a for a in (*(-c for c in now), Fraction(0))]
-        for power, c in enumerate(now):
-            doubled[power + 1] += 4 / most * c
-        before, now = now, [a - b for a, b in zip(doubled, [*before, Fraction(0), Fraction(0)], strict=False)]
-    part = terms[-1] / now[-1]
-    return [term - part * c for term, c in zip(terms[:-1], now[:-1], strict=True)]
-
-
 @cache
 def _series() -> tuple[list[Fraction], list[Fraction]]:
     """Return P and 2·Q as polynomials in r²: 2⁻⁶⁹ and less off."""
     odd, even = ([Fraction((-1) ** (n // 2), factorial(n)) for n in range(k, k + 10, 2)] for k in (3, 4))
     both = [2 * a + b for a, b in zip(even, odd, strict=True)]
-    most = Fraction(1, 100)
-    return _economized(odd, most), _economized(both, most)
+    none, most = Fraction(0), Fraction(1, 100)
+    return economized(odd, none, most), economized(both, none, most)
 
 
 class SineAndCosine:

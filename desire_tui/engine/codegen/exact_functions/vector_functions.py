@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.codegen.exact_functions.decimal_logarithm import decimal_logarithm
 from desire_tui.engine.codegen.exact_functions.exponential import exponential
 from desire_tui.engine.codegen.exact_functions.hyperbolic_tangent import hyperbolic_tangent
+from desire_tui.engine.codegen.exact_functions.logarithm import logarithm
 from desire_tui.engine.codegen.exact_functions.rounding_test import Result, function_text
 from desire_tui.engine.codegen.exact_functions.sine_and_cosine import SineAndCosine
 from desire_tui.engine.codegen.ir.lanes import Lanes
@@ -14,7 +16,7 @@ from desire_tui.engine.codegen.ir.text import IrText
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-NAMES = ("sin", "cos", "sincos", "exp", "tanh")
+NAMES = ("sin", "cos", "sincos", "exp", "log", "log10", "tanh")
 """By their C names; `sincos` returns both, as a structure."""
 
 
@@ -30,6 +32,12 @@ def ways(name: str) -> Sequence[Callable[[Lanes], list[Result]]]:
     """Return the ways to compute a function: C libraries differ in what they compute."""
     if name == "exp":
         return (lambda lanes: [exponential(lanes)],)
+    if name == "log":
+        return (lambda lanes: [logarithm(lanes, "%x")],)
+    if name == "log10":
+        return tuple(
+            lambda lanes, fused=fused: [decimal_logarithm(lanes, fused=fused)] for fused in (True, False)
+        )
     if name == "tanh":
         return tuple(
             lambda lanes, fused=fused: [Result(hyperbolic_tangent(lanes, fused=fused), "zeroinitializer")]
