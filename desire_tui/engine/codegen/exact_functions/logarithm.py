@@ -105,7 +105,7 @@ def logarithm(lanes: Lanes, x: str) -> Result:
 
 
 def power_of_two(lanes: Lanes, bits: str) -> str:
-    """Return as a double what stands above the last 52 bits: of a positive double its power of 2, plus 1023."""
+    """Return as a double what stands above the last 52 bits: of positive doubles 1023 + their power of 2."""
     text = lanes.text
     power = text.op(f"lshr {lanes.integers} {bits}, {lanes.integer(52)}")
     power = text.op(f"or {lanes.integers} {power}, {lanes.integer(_BITS_OF_2_52)}")
