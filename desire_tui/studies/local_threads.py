@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from threading import Event
+from concurrent.futures import ThreadPoolExecutor
+from queue import SimpleQueue
+from threading import Event, Lock, Semaphore
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -18,66 +19,109 @@ if TYPE_CHECKING:
 
 FIRST = 64
 """Runs of the first chunks: a result is seen at once."""
-SECONDS = 0.25
-"""How long a chunk should take: short enough to stop at, long enough to cost nothing."""
+SECONDS, LEAST = 0.25, 0.002
+"""How long a chunk takes, at most and at least: short enough to stop at, long enough to cost nothing."""
+_WAITING = 2
+"""Chunks for each thread that are being made or wait for whoever stores them."""
+_GROWTH = 16
+"""How many times as large as those before chunks become at once: their first runs may have ended early."""
 NUMBERS_MOST = 1 << 22
 """Numbers that chunks under way may keep."""
 
 
 def chunks_by_threads(plan: Plan, missing: Iterable[tuple[int, int]], workers: int) -> Iterator[Chunk]:
     """Yield what runs gave, in the order in which they end. DesireError: none of them can be made."""
-    stop, sizes = Event(), _Sizes(plan, workers)
-    waiting: set[Future[Chunk]] = set()
-    jobs = sizes.jobs(missing)
-
-    def work(first: int, count: int) -> Chunk:
-        began = perf_counter()
-        made = run_chunk(plan.task, first, plan.design.rows(first, count), stop.is_set)
-        sizes.took(count, perf_counter() - began)
-        return made
-
+    crew = _Crew(plan, missing, workers)
     with (
         runs_at_once(workers),
         ThreadPoolExecutor(workers, thread_name_prefix="desire-study") as pool,
     ):
         try:
-            while True:
-                while len(waiting) <= workers:
-                    job = next(jobs, None)
-                    if job is None:
-                        break
-                    waiting.add(pool.submit(work, *job))
-                if not waiting:
-                    return
-                done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-                for future in done:
-                    yield future.result()
+            for _ in range(workers):
+                pool.submit(crew.work)
+            yield from crew.chunks()
         finally:
-            stop.set()
-            end_runs(plan.task)
-            for future in waiting:
-                future.cancel()
+            crew.end()
+
+
+class _Crew:
+    """Threads that take the next runs as soon as they are done with those before: nobody hands them out."""
+
+    def __init__(self, plan: Plan, missing: Iterable[tuple[int, int]], workers: int) -> None:
+        self._plan, self._workers, self._working = plan, workers, workers
+        self._sizes = _Sizes(plan, workers)
+        self._jobs = self._sizes.jobs(missing)
+        self._lock, self._stop = Lock(), Event()
+        self._made: SimpleQueue[Chunk | BaseException | None] = SimpleQueue()
+        """None: a thread has ended."""
+        self._room = Semaphore(_WAITING * workers)
+
+    def work(self) -> None:
+        """Make runs until there are none left."""
+        try:
+            while (job := self._next()) is not None:
+                self._made.put(self._chunk(*job))
+        except BaseException as error:  # noqa: BLE001 - who waits for the chunks raises it
+            self._made.put(error)
+        self._made.put(None)
+
+    def _next(self) -> tuple[int, int] | None:
+        self._room.acquire()
+        with self._lock:
+            return None if self._stop.is_set() else next(self._jobs, None)
+
+    def _chunk(self, first: int, count: int) -> Chunk:
+        began = perf_counter()
+        made = run_chunk(self._plan.task, first, self._plan.design.rows(first, count), self._stop.is_set)
+        self._sizes.took(count, perf_counter() - began)
+        return made
+
+    def chunks(self) -> Iterator[Chunk]:
+        """Yield what they make."""
+        while self._working:
+            made = self._made.get()
+            if made is None:
+                self._working -= 1
+            elif isinstance(made, BaseException):
+                raise made
+            else:
+                yield made
+                self._room.release()
+
+    def end(self) -> None:
+        """Let them make no more."""
+        self._stop.set()
+        end_runs(self._plan.task)
+        self._room.release(self._workers)
 
 
 class _Sizes:
-    """Cuts stretches of runs into chunks that take about SECONDS each."""
+    """Cuts stretches of runs into chunks by the time that those before have taken."""
 
     def __init__(self, plan: Plan, workers: int) -> None:
-        self._size = FIRST
+        self._size, self._least = FIRST, FIRST
         self._workers = workers
         self._most = max(1, NUMBERS_MOST // max(plan.kept.size, 1))
 
     def took(self, runs: int, seconds: float) -> None:
         """Note how long a chunk took."""
-        wanted = int(runs * SECONDS / max(seconds, 1e-6))
-        self._size = max(1, min(self._most, wanted, 16 * self._size))
+        per_second = runs / max(seconds, 1e-6)
+        self._size = max(1, min(int(per_second * SECONDS), _GROWTH * self._size))
+        self._least = max(1, min(int(per_second * LEAST), self._size))
 
     def jobs(self, missing: Iterable[tuple[int, int]]) -> Iterator[tuple[int, int]]:
         """Yield chunks: the first run, how many."""
         for begin, runs in missing:
             first, left = begin, runs
             while left:
-                # half of a fair share: what is left at the end is small, and no thread waits long for another
-                count = min(left, self._size, -(-left // (2 * self._workers)) + FIRST)
+                count = min(left, self._most, self._next(left))
                 yield first, count
                 first, left = first + count, left - count
+
+    def _next(self, left: int) -> int:
+        """Return how many runs of those left are next: whole groups of lanes where there are many."""
+        if self._workers == 1:
+            return self._size
+        # half of a fair share: what is left at the end is small, and no thread waits long for another
+        count = min(self._size, max(self._least, left // (2 * self._workers)))
+        return count if count < FIRST else -(-count // FIRST) * FIRST

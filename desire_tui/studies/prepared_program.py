@@ -98,13 +98,16 @@ class PreparedProgram:
             begin = made.first + first
             random = streams(self.first_state(), begin, count) if lock_step.draws else None
             table, counts, left, numbers = lock_step.run(settings[first : first + count], random)
-            good = np.flatnonzero(~left)
+            there = made.numbers[first : first + count]
             if numbers is not None:
-                made.numbers[first + good] = numbers[good]
-            elif len(good):
-                some = table if len(good) == count else table[:, :, good]
-                made.numbers[first + good] = reduce(self.kept.items, some[0], list(some[1:]), counts[good])
-            alone += (first + np.flatnonzero(left)).tolist()
+                there[:] = numbers
+            elif not left.all():
+                good = ~left
+                some = table if good.all() else table[:, :, good]
+                there[good] = reduce(self.kept.items, some[0], list(some[1:]), counts[good])
+            if left.any():
+                there[left] = np.nan
+                alone += (first + np.flatnonzero(left)).tolist()
             first += count
         return alone
 
@@ -118,17 +121,17 @@ class PreparedProgram:
         self, made: Chunk, places: Iterable[int], settings: Floats, stopped: Callable[[], bool]
     ) -> None:
         """Make the runs at some places of a chunk; what they sample is reduced for several at a time."""
-        gathered, numbers = _Gathered(self.kept.items), settings.tolist()
+        gathered = _Gathered(self.kept.items)
         for place in places:
             if stopped():
                 break
-            number = made.first + place
+            number, row = made.first + place, settings[place].tolist()
             try:
-                record = self._record(number, numbers[place])
+                record = self._record(number, row)
             except DesireError as error:
                 problem = error.diagnostics[0]
                 if made.failures.is_new(problem):
-                    problem = self._explained(number, numbers[place], problem)
+                    problem = self._explained(number, row, problem)
                 made.errors[place] = made.failures.note(number, error.diagnostics[0], problem.message)
                 continue
             gathered.add(place, self._columns(record))
