@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 import pytest
 
 from desire_tui.engine import cancellation
@@ -19,7 +21,7 @@ TEXT = "\n".join((*LINES, "TMAX = 1", "drun", "DYNAMIC", *SEGMENT))
 
 @pytest.fixture
 def clock(monkeypatch):
-    """Goes on by a second at each look."""
+    """The thread's, which goes on by a second at each look; that on the wall is far ahead."""
     looks = 0
 
     def look():
@@ -28,6 +30,7 @@ def clock(monkeypatch):
         return float(looks)
 
     monkeypatch.setattr(cancellation, "thread_time", look)
+    monkeypatch.setattr(cancellation, "perf_counter", lambda: inf)
     return lambda: looks
 
 
@@ -73,3 +76,17 @@ def test_a_check_that_was_stopped_is_no_answer_to_who_has_time(clock):
     source = Source(TEXT)
     assert codes(session.check(source, seconds=60.0))[-1][0] == 476
     assert [row for _, row in codes(session.check(source))] == [21, 71, 154]
+
+
+def test_processor_time_counts_and_is_asked_for_when_it_can_be_over(monkeypatch):
+    wall, processor = 0.0, 0.0
+    asked = []
+    monkeypatch.setattr(cancellation, "perf_counter", lambda: wall)
+    monkeypatch.setattr(cancellation, "thread_time", lambda: asked.append(wall) or processor)
+    with cancellation.time_limit(10.0):
+        for wall, processor in ((5.0, 5.0), (10.5, 6.0), (14.0, 6.0), (14.5, 9.5), (14.9, 9.9), (15.0, 10.0)):  # noqa: B007 - read by the clocks
+            cancellation.cancellation_point()
+        assert asked == [0.0, 10.5, 14.5, 15.0]
+        wall, processor = 15.1, 10.1
+        with pytest.raises(cancellation.OutOfTime):
+            cancellation.cancellation_point()
