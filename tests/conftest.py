@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING
 import pytest
 from hypothesis import settings
 
+from .one_report import OneReport
+
 if TYPE_CHECKING:
     from collections.abc import Generator
 
@@ -43,6 +45,8 @@ def pytest_configure(config: pytest.Config) -> None:
         from desire_tui.engine.syntax.parse import parse
 
         parse(Source("x = 1"))
+    if "PYTEST_XDIST_WORKER" in os.environ and config.getoption("durations", None) is None:
+        config.pluginmanager.register(OneReport())
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
