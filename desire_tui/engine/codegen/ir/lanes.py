@@ -35,6 +35,29 @@ class Lanes:
         """Return a 64-bit integer in every lane."""
         return str(value) if self.width == 1 else f"splat (i64 {value})"
 
+    def load_first(self, address: str, active: int) -> str:
+        """Return `active` numbers from an address on, by one instruction; lanes behind them hold 0.
+
+        It takes longer than an ordinary one where what it reads was stored just now.
+        """
+        function = f"@llvm.masked.load.{self.suffix}.p0"
+        self.text.declarations.add(f"declare {self.kind} {function}(ptr, i32, {self.flags}, {self.kind})")
+        mask = f"{self.flags} {self._first(active)}"
+        return self.text.op(
+            f"call {self.kind} {function}(ptr {address}, i32 8, {mask}, {self.kind} zeroinitializer)"
+        )
+
+    def store_first(self, value: str, address: str, active: int) -> None:
+        """Write the first `active` lanes from an address on, by one instruction."""
+        function = f"@llvm.masked.store.{self.suffix}.p0"
+        self.text.declarations.add(f"declare void {function}({self.kind}, ptr, i32, {self.flags})")
+        mask = f"{self.flags} {self._first(active)}"
+        self.text.do(f"call void {function}({self.kind} {value}, ptr {address}, i32 8, {mask})")
+
+    def _first(self, active: int) -> str:
+        """Return flags that are set for the first lanes."""
+        return f"<{', '.join(f'i1 {lane < active:d}' for lane in range(self.width))}>"
+
     def add(self, a: str, b: str) -> str:
         """Return a + b."""
         return self.text.op(f"fadd {self.kind} {a}, {b}")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.scalar import templates
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.statements import Set
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ def _write(statements: ArrayOperands, rolled: Rolled) -> None:
         target = statements.text.op(f"getelementptr double, ptr %dx, i64 {first.state}")
 
     def body(strip: Strip) -> None:
+        strip = replace(strip, masked=strip.active > 1)  # half the time to compile the loop and its rest
         leaves = iter(
             strip.fetch(place) if isinstance(operand, int) else place
             for place, operand in zip(places, rolled.operands, strict=True)

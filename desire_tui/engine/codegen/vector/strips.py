@@ -18,6 +18,7 @@ class Strip:
     """Elements `index` … `index + active - 1` (an LLVM value), of a row where there are rows.
 
     `active` < the width: only so many lanes are real. `edge`: a shifted operand may reach outside.
+    `masked`: a strip that is not full is moved by one instruction, which is short but not always quick.
     `row`, `column`: of the first element, where the statement has rows; the strip stays in its row.
     """
 
@@ -25,6 +26,7 @@ class Strip:
     index: str
     active: int
     edge: bool = False
+    masked: bool = False
     row: str = ""
     column: str = ""
 
@@ -34,6 +36,8 @@ class Strip:
         at = text.op(f"getelementptr double, ptr {base}, i64 {self.index if index is None else index}")
         if self.active == lanes.width:
             return text.op(f"load {lanes.kind}, ptr {at}, align 8")
+        if self.masked:
+            return lanes.load_first(at, self.active)
         result = "zeroinitializer"
         for lane in range(self.active):
             one = at if lane == 0 else text.op(f"getelementptr double, ptr {at}, i64 {lane}")
@@ -60,6 +64,9 @@ class Strip:
         at = text.op(f"getelementptr double, ptr {base}, i64 {self.index}")
         if self.active == lanes.width:
             text.do(f"store {lanes.kind} {value}, ptr {at}, align 8")
+            return
+        if self.masked:
+            lanes.store_first(value, at, self.active)
             return
         for lane in range(self.active):
             one = at if lane == 0 else text.op(f"getelementptr double, ptr {at}, i64 {lane}")
