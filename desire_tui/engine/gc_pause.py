@@ -2,9 +2,9 @@
 
 Parsing, lowering and writing code make a hundred thousand small objects that stay and hold no cycles. The
 collector looks through the young ones again after every 700 new objects and finds nothing: half of the time
-from the text to the first derivative call, as measured with 1401 equations. Once more at the end is a twentieth
-of it, with 40,001 equations a third: so they become old unseen. Reference counting frees what is dropped all
-the same.
+from the text to the first derivative call, as measured with 1401 equations. Once more at the end is a
+twentieth of it, with 40,001 equations a third: so they become old unseen. Reference counting frees what is
+dropped all the same.
 """
 
 from __future__ import annotations
