@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from desire_tui.engine.lowered.lazy_operations import LazyOperands
 from desire_tui.engine.nodes.record import node
 
 
@@ -22,7 +23,7 @@ class Load:
 
 
 @node
-class Op:
+class Op(LazyOperands):
     """An operation, elementwise over vectors.
 
     `name`: `add sub mul div neg`, `pow` (general power), `ipow` (second argument a whole `Const`: repeated

@@ -20,16 +20,21 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.lowering_context import LoweringContext
+    from desire_tui.engine.nodes.assignments import Assign
     from desire_tui.engine.nodes.expressions import Expr
+    from desire_tui.engine.nodes.segment import Derivative
 
 ROOM = 5_000
 """Expressions of earlier programs in a cache: some 2 KB each."""
 
 
 class Cached(NamedTuple):
-    """What an expression became, and the slots of its names; `node` is held so that its id stays taken."""
+    """What an expression became, and the slots of its names; `node` is held so that its id stays taken.
 
-    node: Expr
+    By statements that have forms (`written_lines`), what theirs became.
+    """
+
+    node: Expr | Derivative | Assign
     reads: tuple[tuple[str, int], ...]
     value: Value
 

@@ -8,17 +8,19 @@ ordinary way, `statements` with `expressions`, would come to the same; every oth
 from __future__ import annotations
 
 from itertools import repeat
-from operator import add, attrgetter
+from operator import add
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.left_chains import LONG
 from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.lowered.expressions import Const, Load, Op
+from desire_tui.engine.lowered.lazy_operations import new_record
 from desire_tui.engine.lowered.segment import StateRange
 from desire_tui.engine.lowered.statements import Deriv, Set, Where
-from desire_tui.engine.lowering.lowering_cache import Cached, cache_of, can_read, known_value, parameter
+from desire_tui.engine.lowering.lowering_cache import Cached, cache_of, known_value, parameter
 from desire_tui.engine.lowering.operators import COMPOSED, OPERATIONS, power
+from desire_tui.engine.lowering.written_lines import lowered_derivatives, lowered_value
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.expressions import Binary, Call, Name, Number, Unary
 from desire_tui.engine.nodes.segment import Derivative, VectorDerivative
@@ -28,7 +30,7 @@ from desire_tui.engine.source import Span
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.builder import SegmentBuilder
@@ -37,8 +39,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.recently_used import RecentlyUsed
 
-_ONE_BY_ONE = 8
-"""Derivatives at the start of a run before the names that many of them read are looked up together."""
+_STRETCH_FIRST, _STRETCH_MOST = 8, 512
+"""Lines that are lowered together: at first, and once many have been."""
 _LINES_AT_ONCE = 200
 """Between two points where the work can be broken off."""
 _FUNCTIONS = {
@@ -61,10 +63,14 @@ def scalar_states(context: LoweringContext, lines: Sequence[Line]) -> list[State
     None: some line has to be looked at by itself. The states become states of the session here.
     """
     nodes = [node for node, _ in lines if type(node) is Derivative]
-    targets = [node.target for node in nodes]
-    names = [target.name for target in targets]
+    names = [
+        node.words[node.form.target] if node.form is not None else node.target.name
+        for node in nodes
+        if node.form is not None or type(node.target) is Name
+    ]
     if (
-        {*map(type, targets)} != {Name}
+        not names
+        or len(names) != len(nodes)
         or VectorDerivative in {type(node) for node, _ in lines}
         or len({*names}) != len(names)
         or "PI" in names
@@ -75,13 +81,15 @@ def scalar_states(context: LoweringContext, lines: Sequence[Line]) -> list[State
     if slots is None or len({*slots}) != len(slots):
         return None
     offsets = [frame.at for node, frame in lines if type(node) is Derivative]
-    spans = tuples(
-        Span,
-        map(add, offsets, map(attrgetter("start"), nodes)),
-        map(add, offsets, map(attrgetter("end"), nodes)),
+    starts = map(add, offsets, [node.start for node in nodes])
+    places = tuples(
+        Where, tuples(Span, starts, map(add, offsets, [node.end for node in nodes])), repeat(None)
     )
-    places = tuples(Where, spans, repeat(None))
-    states = [*map(StateRange, names, slots, range(len(names)), repeat(1), places)]
+    states: list[StateRange] = []
+    for number, (name, slot, where) in enumerate(zip(names, slots, places, strict=True)):
+        state: StateRange = new_record(StateRange)  # a third of the time of its constructor
+        state.name, state.slot, state.first, state.count, state.where = name, slot, number, 1, where  # type: ignore[misc]  # frozen for the type checker only
+        states.append(state)
     context.plain_states = dict(zip(map(id, nodes), states, strict=True))
     return states
 
@@ -95,30 +103,30 @@ def lower_plain_lines(builder: SegmentBuilder, lines: Sequence[Line], at: int) -
     flow, body = context.flow, builder.body
     states = {} if builder.guards else context.plain_states
     cache = cache_of(context)
-    derivatives = 0  # known ones that came just now, one after the other
+    stretch = _STRETCH_FIRST
     for _ in range(_LINES_AT_ONCE):
-        if derivatives >= _ONE_BY_ONE:
-            stretch = lines[at : at + 2 * derivatives]  # growing, so that most of what is looked at is taken
-            made = _known_derivatives(context, stretch, states, cache)
-            body += made
-            at += len(made)
-            derivatives = derivatives + len(made) if len(made) == len(stretch) else 0
+        wanted = lines[at : at + stretch]  # growing, so that most of what is looked at is taken
+        made = lowered_derivatives(context, wanted, states, cache) if states else []
+        body += made
+        at += len(made)
+        if len(made) == stretch:
+            stretch = min(2 * stretch, _STRETCH_MOST)
+            continue
+        stretch = _STRETCH_FIRST
         if at == len(lines):
             break
         node, frame = lines[at]
         if type(node) is Derivative:
             state = states.get(id(node))
-            value = None if state is None else _lowered(context, node.value, cache)
+            value = None if state is None else _lowered(context, node, cache)
             if state is None or value is None:
                 break
             body.append(Deriv(state.first, value, state.where))
-            derivatives += 1
         elif type(node) is Assign and type(node.target) is Name:
             slot = _slot_of(context, node.target.name)
-            value = None if slot is None else _lowered(context, node.value, cache)
+            value = None if slot is None else _lowered(context, node, cache)
             if slot is None or value is None:
                 break
-            derivatives = 0
             definition = Set(slot, value, Where(Span(frame.at + node.start, frame.at + node.end)))
             body.append(definition)
             flow.assignments.append(definition)
@@ -130,26 +138,6 @@ def lower_plain_lines(builder: SegmentBuilder, lines: Sequence[Line], at: int) -
     return at
 
 
-def _known_derivatives(
-    context: LoweringContext,
-    lines: Sequence[Line],
-    states: Mapping[int, StateRange],
-    cache: RecentlyUsed[int, Cached],
-) -> list[Deriv]:
-    """Return the first of some lines lowered: `d/dt` lines that were lowered before and stay the same."""
-    sound: list[tuple[StateRange, Cached]] = []
-    for node, _ in lines:
-        if type(node) is not Derivative:
-            break
-        state, kept = states.get(id(node)), cache[id(node.value)]
-        if state is None or kept is None:
-            break
-        sound.append((state, kept))
-    if not can_read(context, set[tuple[str, int]]().union(*[kept.reads for _, kept in sound])):
-        return []
-    return [Deriv(state.first, kept.value, state.where) for state, kept in sound]
-
-
 def _slot_of(context: LoweringContext, name: str) -> int | None:
     """Return the slot of a scalar that may be assigned."""
     quantity = context.scope.names.get(name)
@@ -158,8 +146,13 @@ def _slot_of(context: LoweringContext, name: str) -> int | None:
     return None if name == "PI" or name in context.functions else quantity.slot
 
 
-def _lowered(context: LoweringContext, node: Expr, cache: RecentlyUsed[int, Cached]) -> Value | None:
-    """Lower an expression, and keep it; None: it is left to the ordinary way."""
+def _lowered(
+    context: LoweringContext, line: Derivative | Assign, cache: RecentlyUsed[int, Cached]
+) -> Value | None:
+    """Lower a line's expression, and keep it; None: it is left to the ordinary way."""
+    if line.form is not None:
+        return lowered_value(context, line, cache)
+    node = line.value
     known = known_value(context, node, cache)
     if known is not None:
         return known

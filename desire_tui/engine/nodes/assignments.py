@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.nodes.lazy_parts import LazyParts
 from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
 
 
 @node
-class Assign(Node):
+class Assign(LazyParts):
     """`x = e`, `x[i] = e`: script assignment, defined variable, difference equation, Jacobian element."""
 
     target: Target

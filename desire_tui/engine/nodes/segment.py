@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from desire_tui.engine.nodes.lazy_parts import LazyParts
 from desire_tui.engine.nodes.record import Node, node
 
 if TYPE_CHECKING:
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
 
 
 @node
-class Derivative(Node):
+class Derivative(LazyParts):
     """`d/dt x = e`."""
 
     target: Target

@@ -13,12 +13,15 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left, bisect_right
+from functools import partial
 from itertools import accumulate
 from math import isinf
 from operator import itemgetter
 from string import ascii_letters, digits
 from typing import TYPE_CHECKING, NamedTuple
 
+from desire_tui.engine.left_chains import LONG
+from desire_tui.engine.nodes.lazy_parts import LineForm
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.syntax import shapes
 from desire_tui.engine.syntax.statement_tokens import NAME, NUMBER
@@ -50,17 +53,22 @@ _DIGITS_MOST = 300
 
 
 class _Pattern(NamedTuple):
-    """How many words a line has, and what makes its statement from them and from their lengths added up."""
+    """How many words a line has, and what makes its statement from them and from their lengths added up.
+
+    `lazy`: what makes its form, if its parts can be made later.
+    """
 
     words: int
     make: shapes.MakerOfWords
     base: int
+    lazy: Callable[[Sequence[int]], LineForm] | None
 
 
 class _Layout(NamedTuple):
     """Where the words of a line stand, their lengths added up, and what the first must not be."""
 
     pattern: _Pattern
+    form: LineForm | None
     words: Callable[[str], tuple[str, ...]]
     lengths: list[int]
     heads: frozenset[str]
@@ -91,8 +99,8 @@ def read(line: str) -> tuple[Statement, int] | None:
     words = layout.words(line)
     if words[0] in layout.heads or not _LOGICAL.isdisjoint(words):
         return None
-    pattern = layout.pattern
-    return pattern.make(words, layout.lengths), pattern.base
+    pattern, form = layout.pattern, layout.form
+    return pattern.make(words, layout.lengths) if form is None else form.line(words), pattern.base
 
 
 def _read_anew(line: str, classes: str) -> tuple[Statement, int] | None:
@@ -107,13 +115,14 @@ def _read_anew(line: str, classes: str) -> tuple[Statement, int] | None:
     if any(isinf(float(number)) for number in numbers):
         return None  # a fault that the tokenizer reports
     lengths = [*accumulate(map(len, words))]
+    form = pattern.lazy(lengths) if pattern.lazy is not None and len(line) < LONG else None
     if not _layouts_seen[classes]:
         _layouts_seen.keep(classes, True)
     elif len(words) > 1 and all(map(_is_always_finite, numbers)):
         heads = _DERIVATIVE_HEADS if line.startswith(_DERIVATIVE) else _HEADS
         places = itemgetter(*(slice(*word.span()) for word in _WORDS.finditer(line)))
-        _layouts.keep(classes, _Layout(pattern, places, lengths, heads))
-    return pattern.make(words, lengths), pattern.base
+        _layouts.keep(classes, _Layout(pattern, form, places, lengths, heads))
+    return pattern.make(words, lengths) if form is None else form.line(words), pattern.base
 
 
 def _is_always_finite(number: str) -> bool:
@@ -138,7 +147,20 @@ def learn(line: str, chunk: StatementTokens) -> None:
         return
     make = shapes.function_of_words(chunk, places)
     if make is not None:
-        _patterns.keep(skeleton, _Pattern(len(words), make, chunk.base))
+        _patterns.keep(skeleton, _Pattern(len(words), make, chunk.base, _lazy(chunk, places, words)))
+
+
+def _lazy(
+    chunk: StatementTokens, places: shapes.WordPlaces, words: Sequence[str]
+) -> Callable[[Sequence[int]], LineForm] | None:
+    """Return what makes the form of a line from the lengths of its words, added up."""
+    found = shapes.makers_of_parts(chunk, places)
+    if found is None:
+        return None
+    kind, makers = found
+    numbered = [f"#{k}" if word[0].isalpha() else str(k) for k, word in enumerate(words)]
+    target, value = (makers[part](numbered, (0,) * len(words)) for part in ("target", "value"))
+    return partial(LineForm, kind, int(target.name[1:]), value, makers)
 
 
 def age() -> None:

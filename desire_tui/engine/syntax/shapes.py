@@ -11,8 +11,10 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from desire_tui.engine.left_chains import OPERATORS, chain
-from desire_tui.engine.nodes.expressions import Binary
+from desire_tui.engine.nodes.assignments import Assign
+from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
 from desire_tui.engine.nodes.record import Node
+from desire_tui.engine.nodes.segment import Derivative
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.syntax.automaton import derive
 from desire_tui.engine.syntax.build import NumberToken, Token
@@ -22,6 +24,7 @@ from desire_tui.engine.syntax.statement_tokens import NUMBER, STRING
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from desire_tui.engine.nodes.lazy_parts import MakerOfPart
     from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
@@ -34,6 +37,7 @@ SHARED_TOKENS_MAX = 300
 """Longer statements (mostly data lists) share no shape: they seldom look alike, and lines are cached."""
 _LETTERED = frozenset({"display", "FFT"})
 """Statements whose letter decides how many arguments they take: it is part of their shape."""
+_OPERATIONS, _SIGNS = frozenset("+-*/"), frozenset("+-")
 _patterns: RecentlyUsed[tuple[str, ...], Statement] = RecentlyUsed(SHAPES_ROOM)
 _makers: RecentlyUsed[tuple[str, ...], tuple[Maker, Statement]] = RecentlyUsed(SHAPES_ROOM)
 """With the pattern it was made of, which may be forgotten meanwhile where it is kept by itself."""
@@ -78,6 +82,40 @@ def function_of_words(chunk: StatementTokens, places: WordPlaces) -> MakerOfWord
     except (SyntaxError, MemoryError, RecursionError):
         return None
     return made
+
+
+def makers_of_parts(
+    chunk: StatementTokens, places: WordPlaces
+) -> tuple[type[Derivative | Assign], dict[str, MakerOfPart]] | None:
+    """Return the class of `x = e` or `d/dt x = e`, and functions of words that make one part each.
+
+    None for other statements, and where e is no operation of two or holds more than names, numbers, + - * /.
+    """
+    shape = tuple(chunk.kinds)
+    known = _makers[shape]
+    pattern = _patterns[shape] if known is None else known[1]
+    if (
+        not isinstance(pattern, Derivative | Assign)
+        or type(pattern.target) is not Name
+        or not isinstance(pattern.value, Binary)
+        or not _is_plain(pattern.value)
+    ):
+        return None
+    names: dict[str, Any] = {"octal_value": octal_value}
+    code = _Code(names, places)
+    parts = {name: code.of(getattr(pattern, name)) for name in ("target", "value")}
+    parts |= {"start": places.starts[pattern.start], "end": places.ends[pattern.end]}
+    makers = {name: eval(f"lambda v, c: {text}", names) for name, text in parts.items()}  # noqa: S307 - see _Code
+    return type(pattern), makers
+
+
+def _is_plain(part: Any) -> bool:
+    """Whether a pattern's expression holds names, numbers, signs and the four operations."""
+    if type(part) is Binary:
+        return part.op in _OPERATIONS and _is_plain(part.left) and _is_plain(part.right)
+    if type(part) is Unary:
+        return part.op in _SIGNS and _is_plain(part.operand)
+    return type(part) in {Name, Number}
 
 
 def age() -> None:

@@ -16,6 +16,7 @@ from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.ir.functions import C_FUNCTIONS
 from desire_tui.engine.codegen.scalar.templates import NotPlainError, shape
 from desire_tui.engine.data_classes import dataclass
+from desire_tui.engine.lowered.expressions import Op
 from desire_tui.engine.lowered.statements import Deriv, Set
 from desire_tui.engine.recently_used import RecentlyUsed
 
@@ -25,13 +26,14 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action
 
+    _Shape = tuple[tuple[object, ...], Sequence[int | float]]
+
 _RUN_LEAST = 16
 """Shorter runs are not worth a loop."""
 _ONE_BY_ONE = 16
 """Statements at the start of a run before whole columns of operands are compared; no less than a vector's."""
 _INEXACT = frozenset((*C_FUNCTIONS, "sinc", "sigmoid"))
 
-_Shape = tuple[tuple[object, ...], list[int | float]]
 _SHAPES_ROOM = 5_000
 """Shapes of earlier programs' values: some 1 KB each."""
 _shapes: RecentlyUsed[int, tuple[Value, _Shape | None]] = RecentlyUsed(_SHAPES_ROOM)
@@ -56,7 +58,7 @@ class _Run:
 
     __slots__ = ("actions", "contiguous", "key", "kind", "leaves", "periodic", "target")
 
-    def __init__(self, action: Set | Deriv, key: tuple[object, ...], leaves: list[int | float]) -> None:
+    def __init__(self, action: Set | Deriv, key: tuple[object, ...], leaves: Sequence[int | float]) -> None:
         self.actions = [action]
         self.kind = type(action)
         self.key = key
@@ -214,10 +216,13 @@ def _plain(action: Action) -> _Shape | None:
     """Return shape and leaves of the value of a statement that may be rolled up."""
     if type(action) is not Deriv and type(action) is not Set:
         return None
-    known = _shapes[id(action.value)]
+    value = action.value
+    if type(value) is Op and value.outline is not None:
+        return value.outline.key, value.leaves
+    known = _shapes[id(value)]
     if known is None:
-        known = action.value, _shape(action.value)
-        _shapes.keep(id(action.value), known)
+        known = value, _shape(value)
+        _shapes.keep(id(value), known)
     return known[1]
 
 
