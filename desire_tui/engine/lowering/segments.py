@@ -17,7 +17,15 @@ from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment, StateRange
 from desire_tui.engine.lowered.statements import Guard
 from desire_tui.engine.lowered.walk import walk_actions
-from desire_tui.engine.lowering import arrays, learning, lowering_cache, requests, statements, targets
+from desire_tui.engine.lowering import (
+    arrays,
+    learning,
+    lowering_cache,
+    requests,
+    statements,
+    targets,
+    written_lines,
+)
 from desire_tui.engine.lowering.builder import SegmentBuilder
 from desire_tui.engine.lowering.calls import LEVELS_MOST
 from desire_tui.engine.lowering.expressions import ExpressionLowering
@@ -81,6 +89,7 @@ def lower_segment(
     """Return the lowered segment and every problem found in it."""
     submodels, faults = structure.submodels, structure.faults
     lowering_cache.age()
+    written_lines.age()
     context = ExpressionLowering(scope, source, functions)
     context.reads_as_written = not (submodels or context.redefines_library)
     lines = expand(context, text.body, submodels)

@@ -210,8 +210,3 @@ def _slots(context: LoweringContext, names: Sequence[str]) -> list[int]:
 def age() -> None:
     """Between two segments: forget forms that no program of late had."""
     _outlines.age()
-
-
-def forget() -> None:
-    """Forget all forms."""
-    _outlines.forget()
