@@ -64,7 +64,9 @@ def test_no_node_is_made_until_somebody_asks():
         values.assign(values.scalar(name).slot, 1.0)
     segment = lower(program, None, values)
     last = program.segments[0].body[36].node
-    assert isinstance(last, Derivative) and last.form is not None and not _parts_made(last)
+    assert isinstance(last, Derivative)
+    assert last.form is not None
+    assert not _parts_made(last)
     lazy = [action.value for action in segment.body if isinstance(action.value, Op) and action.value.outline]
     assert len(lazy) > 20
     for value in lazy:
@@ -73,14 +75,17 @@ def test_no_node_is_made_until_somebody_asks():
         templates.shape(value, key, leaves)
         assert (tuple(key), repr(leaves)) == (by_columns[0], repr(by_columns[1]))
         assert rerolling._plain(segment.body[0]) is not None
-    assert last.target.name == "x36" and _parts_made(last) == ["target"]
-    assert last.value.left.left.name == "a" and _parts_made(last) == ["target", "value"]
+    assert last.target.name == "x36"
+    assert _parts_made(last) == ["target"]
+    assert last.value.left.name == "a"
+    assert _parts_made(last) == ["target", "value"]
 
 
 @pytest.mark.parametrize("kind", [Assign, Derivative])
 def test_statements_without_a_form_lack_nothing(kind):
     statement = kind(None, None, 1, 2)
-    assert statement.form is None and statement == kind(None, None)
+    assert statement.form is None
+    assert statement == kind(None, None)
     with pytest.raises(AttributeError, match="words"):
         _ = statement.words
     with pytest.raises(AttributeError, match="nonsense"):

@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from desire_tui.engine.lowered.expressions import Op
-
     Leaves = Sequence[int | float]
     """Slots (int) and numbers (float) of a scalar expression, from left to right."""
 
@@ -22,8 +20,8 @@ class Outline(Protocol):
 
     key: tuple[object, ...]
 
-    def filled(self, leaves: Leaves) -> Op:
-        """Return an expression with operands."""
+    def filled(self, leaves: Leaves) -> LazyOperands:
+        """Return the operation with its operands."""
         ...
 
 

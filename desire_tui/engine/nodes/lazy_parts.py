@@ -6,23 +6,22 @@ is found from these (`lowering.written_lines`), its nodes only for messages, the
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from desire_tui.engine.nodes.record import Node
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from desire_tui.engine.nodes.assignments import Assign
     from desire_tui.engine.nodes.expressions import Expr
-    from desire_tui.engine.nodes.segment import Derivative
 
     MakerOfPart = Callable[[Sequence[str], Sequence[int]], Any]
 
+Line = TypeVar("Line", bound="LazyParts")
 _new: Callable[..., Any] = object.__new__
 
 
-class LineForm:
+class LineForm(Generic[Line]):
     """What lines `x = e` or `d/dt x = e` have in common whose words stand at the same places.
 
     `target` is the number of the word that is assigned. `value` is their expression, an operation, over word
@@ -34,7 +33,7 @@ class LineForm:
 
     def __init__(
         self,
-        kind: type[Derivative | Assign],
+        kind: type[Line],
         target: int,
         value: Expr,
         makers: Mapping[str, MakerOfPart],
@@ -45,11 +44,11 @@ class LineForm:
         self.start: int = makers["start"]((), lengths)
         self.end: int = makers["end"]((), lengths)
 
-    def line(self, words: Sequence[str]) -> Derivative | Assign:
+    def line(self, words: Sequence[str]) -> Line:
         """Return a statement without its parts."""
-        made: Derivative | Assign = _new(self.kind)
+        made: Line = _new(self.kind)
         made.form, made.words = self, words
-        made.start, made.end = self.start, self.end  # type: ignore[misc]  # frozen for the type checker only
+        made.start, made.end = self.start, self.end
         return made
 
 
@@ -60,7 +59,7 @@ class LazyParts(Node):
     """
 
     __slots__ = ("form", "words")
-    form: LineForm | None
+    form: LineForm[Any] | None
     words: Sequence[str]
 
     if not TYPE_CHECKING:

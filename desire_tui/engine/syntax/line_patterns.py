@@ -31,6 +31,8 @@ from desire_tui.engine.syntax.words import KEYWORDS
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from desire_tui.engine.nodes.assignments import Assign
+    from desire_tui.engine.nodes.segment import Derivative
     from desire_tui.engine.nodes.statements import Statement
     from desire_tui.engine.syntax.statement_tokens import StatementTokens
 
@@ -61,14 +63,14 @@ class _Pattern(NamedTuple):
     words: int
     make: shapes.MakerOfWords
     base: int
-    lazy: Callable[[Sequence[int]], LineForm] | None
+    lazy: Callable[[Sequence[int]], LineForm[Derivative | Assign]] | None
 
 
 class _Layout(NamedTuple):
     """Where the words of a line stand, their lengths added up, and what the first must not be."""
 
     pattern: _Pattern
-    form: LineForm | None
+    form: LineForm[Derivative | Assign] | None
     words: Callable[[str], tuple[str, ...]]
     lengths: list[int]
     heads: frozenset[str]
@@ -152,7 +154,7 @@ def learn(line: str, chunk: StatementTokens) -> None:
 
 def _lazy(
     chunk: StatementTokens, places: shapes.WordPlaces, words: Sequence[str]
-) -> Callable[[Sequence[int]], LineForm] | None:
+) -> Callable[[Sequence[int]], LineForm[Derivative | Assign]] | None:
     """Return what makes the form of a line from the lengths of its words, added up."""
     found = shapes.makers_of_parts(chunk, places)
     if found is None:
