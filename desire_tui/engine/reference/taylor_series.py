@@ -129,6 +129,14 @@ class ReferenceSeries:
         a, b = (self.rows(o) for o in node.operands)
         return (k * a[k] - _convolution(_slopes(u), b, k, 1, k - 1)) / (b[0] * k)
 
+    def _power(self, node: Series, k: int) -> Array:
+        """Return u_k from Σ (b·j - (k - j))·a_j·u_{k-j} = 0, j from 0 to k."""
+        u, a, exponent = self._rows[node.number], self.rows(node.operands[0]), self._other(node)
+        total = np.zeros(node.size)
+        for j in range(1, k + 1):
+            total = total + (exponent * j - (k - j)) * a[j] * u[k - j]
+        return total / (k * a[0])
+
     def _select(self, node: Series, k: int) -> Array:
         condition, yes, no = node.operands
         assert isinstance(condition, Constant)

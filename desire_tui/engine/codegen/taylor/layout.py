@@ -32,7 +32,7 @@ class Layout:
         assert ORDER_MOST < ROW
         self._places: dict[int, int] = {}
         self._cells: dict[tuple[str, int], int] = {}
-        self._squares: dict[int, int] = {}
+        self._squares: dict[tuple[int, int], int] = {}
         self._program = program
         self.cleared = 0
 
@@ -40,19 +40,19 @@ class Layout:
         """Return the place of a series' cell, which is 0 at a step's start."""
         return self._cells[what, number]
 
-    def squares(self, node: Series) -> int:
+    def squares(self, which: tuple[int, int]) -> int:
         """Return the place of the products of equal orders that a sum consists of: 2k's at `place` + 2k."""
-        return self._squares[node.number]
+        return self._squares[which]
 
-    def finish(self, cells: Iterable[tuple[str, Series]], sums: Iterable[Series]) -> None:
-        """Give everything its place: `cells` in memory, rows for `sums` of products."""
+    def finish(self, cells: Iterable[tuple[str, int]], sums: Iterable[tuple[int, int]]) -> None:
+        """Give everything its place: `cells` of series in memory, rows for `sums` of products."""
         place = 0
-        for what, node in cells:
-            self._cells[what, node.number] = place
+        for cell in cells:
+            self._cells[cell] = place
             place += CELL
         self.cleared = place
-        for node in sums:
-            self._squares[node.number] = place
+        for which in sums:
+            self._squares[which] = place
             place += ROW
         for node in self._program.nodes:
             self._places[node.number] = place

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.text import literal
-from desire_tui.engine.codegen.taylor.sums import Factor
+from desire_tui.engine.codegen.taylor.sums import Factor, Sum
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.taylor.straight_sums import StraightSums
     from desire_tui.engine.codegen.taylor.sums import Sums
 
-WITH_SUMS = frozenset(("mul", "div", "sqrt", "integral", "quotient"))
+WITH_SUMS = frozenset(("mul", "div", "sqrt", "integral", "quotient", "power"))
 """Kinds whose coefficients are sums of products."""
 
 
@@ -30,22 +30,27 @@ class ScalarRecurrences:
         self._frame, self._sums = frame, sums
         self._lanes = frame.lanes
         self._slopes: dict[int, str] = {}
+        self._rates: dict[int, str] = {}
+        """Of powers, their derivative by the base at the step's start."""
 
     # ------------------------------------------------------------------ before the loop
 
     def announce(self, node: Series) -> bool:
-        """Tell `sums` the sum of products that a series consists of; whether there is one."""
-        if node.kind not in WITH_SUMS:
-            return False
-        factors = _factors(node)
-        if factors is not None:
-            self._sums.add(node, *factors)
-        return factors is not None
+        """Tell `sums` the sums of products that a series consists of; whether there is one."""
+        sums = _factors(node) if node.kind in WITH_SUMS else ()
+        for part, factors in enumerate(sums):
+            self._sums.add(Sum(node.number, part), *factors)
+        return len(sums) > 0
 
     def prepare(self, node: Series) -> None:
         """Compute before the loop what a series needs in it."""
         if node.kind in {"div", "quotient", "over"}:
             self._frame.load_reciprocal(node.operands[1])
+        if node.kind == "power":
+            base, exponent = node.operands
+            self._frame.load_reciprocal(base)
+            now = self._lanes.mul(self._frame.first(exponent), self._frame.first(node))
+            self._rates[node.number] = self._lanes.mul(now, self._frame.reciprocal(base))
         if node.kind == "sqrt":
             self._frame.load_reciprocal(node, 0.5)
 
@@ -145,28 +150,42 @@ class ScalarRecurrences:
         rest = lanes.sub(frame.coefficient(a), frame.over_order(self._sums.known(node)))
         return lanes.mul(rest, frame.reciprocal(b))
 
+    def _power(self, node: Series) -> str:
+        """Return u_k from k·a_0·u_k = Σ (b·j·a_j·u_{k-j} - a_j·(k - j)·u_{k-j}), j from 1 to k."""
+        base, exponent = node.operands
+        lanes, frame = self._lanes, self._frame
+        by_slopes, slopes = (self._sums.known(node, part) for part in (0, 1))
+        known = lanes.mul(lanes.mul_add(frame.first(exponent), by_slopes, lanes.neg(slopes)), frame.reciprocal(base))
+        return lanes.mul_add(self._rates[node.number], frame.coefficient(base), frame.over_order(known))
+
     def _select(self, node: Series) -> str:
         condition, yes, no = node.operands
         flag = self._lanes.compare("ogt", self._frame.first(condition), literal(0.0))
         return self._lanes.choose(flag, self._frame.coefficient(yes), self._frame.coefficient(no))
 
 
-def _factors(node: Series) -> tuple[Factor, Factor] | None:
-    """Return the factors of a series' sum of products; None: it has none."""
+def _factors(node: Series) -> tuple[tuple[Factor, Factor], ...]:
+    """Return the factors of each sum of products that a series has."""
     series = [operand for operand in node.operands if isinstance(operand, Series)]
     match node.kind:
         case "mul":
-            return Factor("value", series[0]), Factor("value", series[1])
+            return ((Factor("value", series[0]), Factor("value", series[1])),)
         case "div":
-            return Factor("value", node), Factor("value", series[-1])
+            return ((Factor("value", node), Factor("value", series[-1])),)
         case "sqrt":
-            return Factor("value", node), Factor("value", node)
+            return ((Factor("value", node), Factor("value", node)),)
         case "quotient":
-            return Factor("slope", node), Factor("value", series[1])
+            return ((Factor("slope", node), Factor("value", series[1])),)
+        case "power":
+            base = series[0]
+            return (
+                (Factor("slope", base), Factor("value", node)),
+                (Factor("value", base), Factor("slope", node)),
+            )
         case _:  # integral
             if len(series) == 1:
-                return None
-            return Factor("slope", series[1]), Factor("value", series[0])
+                return ()
+            return ((Factor("slope", series[1]), Factor("value", series[0])),)
 
 
 def _number(operand: Series | Constant) -> int:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from desire_tui.engine.codegen.ir.text import literal
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.taylor.fused import Fused
+from desire_tui.engine.codegen.taylor.sums import Sum
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.taylor.frame import Frame
@@ -28,7 +29,7 @@ _WIDE = 4
 class _Pack(NamedTuple):
     """Sums side by side; `first` is `second` where all are of squares."""
 
-    numbers: list[int]
+    sums: list[Sum]
     first: Keys
     second: Keys
 
@@ -38,15 +39,15 @@ class StraightSums:
 
     def __init__(self, frame: Frame) -> None:
         self._frame = frame
-        self._sums: dict[int, tuple[Factor, Factor]] = {}
+        self._sums: dict[Sum, tuple[Factor, Factor]] = {}
         self._packs: list[_Pack] = []
         self._rows: dict[Keys, list[str]] = {}
         """Coefficients 1, 2 … of factors side by side."""
-        self._known: dict[int, str] = {}
+        self._known: dict[Sum, str] = {}
 
-    def add(self, node: Series, first: Factor, second: Factor) -> None:
+    def add(self, which: Sum, first: Factor, second: Factor) -> None:
         """Announce a sum before anything is written."""
-        self._sums[node.number] = first, second
+        self._sums[which] = first, second
 
     @property
     def factors(self) -> list[Factor]:
@@ -57,14 +58,14 @@ class StraightSums:
         """Choose which sums stand side by side."""
         most = min(_WIDE, machine().width)
         for squares in (False, True):
-            alike = [number for number, (a, b) in self._sums.items() if (a == b) is squares]
+            alike = [which for which, (a, b) in self._sums.items() if (a == b) is squares]
             for at in range(0, len(alike), most):
-                numbers = alike[at : at + most]
+                sums = alike[at : at + most]
                 first, second = (
-                    tuple((self._sums[n][side].what, self._sums[n][side].series.number) for n in numbers)
+                    tuple((self._sums[n][side].what, self._sums[n][side].series.number) for n in sums)
                     for side in (0, 1)
                 )
-                self._packs.append(_Pack(numbers, first, second))
+                self._packs.append(_Pack(sums, first, second))
                 self._rows[first], self._rows[second] = [], []
 
     def turn(self) -> None:
@@ -72,18 +73,18 @@ class StraightSums:
         k, text = self._frame.order, self._frame.text
         assert k is not None
         for pack in self._packs:
-            lanes = self._lanes(len(pack.numbers))
+            lanes = self._lanes(len(pack.sums))
             total = self._total(pack, k, lanes)
-            for lane, number in enumerate(pack.numbers):
-                self._known[number] = (
+            for lane, which in enumerate(pack.sums):
+                self._known[which] = (
                     literal(0.0) if k == 1
                     else total if lanes.width == 1
                     else text.op(f"extractelement {lanes.kind} {total}, i64 {lane}")
                 )  # fmt: skip
 
-    def known(self, node: Series) -> str:
+    def known(self, node: Series, part: int = 0) -> str:
         """Return what `turn` has written."""
-        return self._known[node.number]
+        return self._known[Sum(node.number, part)]
 
     def end_turn(self, coefficients: dict[tuple[str, int], str]) -> None:
         """Keep the factors' coefficients of the order in turn."""

@@ -37,6 +37,18 @@ class Factor(NamedTuple):
     series: Series
 
 
+class Sum(NamedTuple):
+    """Which sum of a series: one with two has parts 0 and 1."""
+
+    number: int
+    part: int
+
+    @property
+    def cell(self) -> str:
+        """What a cell of the layout holds."""
+        return f"sum {self.part}"
+
+
 class Sums:
     """Writes the sums of a function.
 
@@ -47,13 +59,13 @@ class Sums:
         self._frame, self._in_memory = frame, in_memory
         self._text = frame.text
         self._one, self._wide = Fused(frame.text), Fused(frame.text, LANES)
-        self._sums: dict[int, tuple[Series, Factor, Factor]] = {}
+        self._sums: dict[Sum, tuple[Factor, Factor]] = {}
         self._factors: dict[tuple[str, int], Factor] = {}
         self._cells: dict[tuple[str, str, int], str] = {}
 
-    def add(self, node: Series, first: Factor, second: Factor) -> None:
+    def add(self, which: Sum, first: Factor, second: Factor) -> None:
         """Announce a sum before anything is written."""
-        self._sums[node.number] = node, first, second
+        self._sums[which] = first, second
         for factor in (first, second):
             self._factors[factor.what, factor.series.number] = factor
 
@@ -64,11 +76,9 @@ class Sums:
 
     def finish_layout(self) -> None:
         """Place everything."""
-        cells = [(f.what, f.series) for f in self._factors.values()]
-        cells += [("sums", node) for node, _, _ in self._sums.values()]
-        self._frame.layout.finish(
-            cells if self._in_memory else (), [node for node, _, _ in self._sums.values()]
-        )
+        cells = list(self._factors)
+        cells += [(which.cell, which.number) for which in self._sums]
+        self._frame.layout.finish(cells if self._in_memory else (), self._sums)
 
     def begin(self) -> None:
         """Write what makes cells in the function's frame, all 0; those in memory have been cleared."""
@@ -77,9 +87,9 @@ class Sums:
         for what, number in self._factors:
             for part in ("vector", "first", "before"):
                 self._make(what, number, part)
-        for number in self._sums:
+        for which in self._sums:
             for part in ("vector", "next"):
-                self._make("sums", number, part)
+                self._make(which.cell, which.number, part)
 
     def turn(self) -> None:
         """Write what all sums need in a turn: which element is coefficient k's."""
@@ -90,12 +100,13 @@ class Sums:
         places = ", ".join(f"i64 {i}" for i in range(2, 2 + LANES))
         text.do(f"%k.here = icmp eq {lanes} %k.all, <{places}>")
 
-    def known(self, node: Series) -> str:
+    def known(self, node: Series, part: int = 0) -> str:
         """Return the sum of order k without the products in which a coefficient 0 is a factor."""
-        _, first, second = self._sums[node.number]
+        which = Sum(node.number, part)
+        first, second = self._sums[which]
         one = self._one
-        squares = self._frame.get(self._frame.layout.squares(node), "%k")
-        total = self._get("sums", node.number, "next")
+        squares = self._frame.get(self._frame.layout.squares(which), "%k")
+        total = self._get(which.cell, which.number, "next")
         total = one.mul_add(self._factor(first, "first"), self._factor(second, "before"), total)
         if first == second:
             return one.mul_add(literal(2.0), total, squares)
@@ -112,19 +123,19 @@ class Sums:
         splats = {key: wide.splat(coefficients[key]) for key in self._factors}
         vectors = {key: self._get(*key, "vector") for key in self._factors}
         moved = f"<{', '.join(f'i32 {i}' for i in range(1, LANES + 1))}>"
-        for number, (node, first, second) in self._sums.items():
+        for which, (first, second) in self._sums.items():
             a, b = ((f.what, f.series.number) for f in (first, second))
-            sums = self._get("sums", number, "vector")
-            self._put("sums", number, "next", text.op(f"extractelement {wide.kind} {sums}, i64 0"))
+            sums = self._get(which.cell, which.number, "vector")
+            self._put(which.cell, which.number, "next", text.op(f"extractelement {wide.kind} {sums}, i64 0"))
             ahead = text.op(
                 f"shufflevector {wide.kind} {sums}, {wide.kind} zeroinitializer, <{LANES} x i32> {moved}"
             )
             grown = wide.mul_add(splats[a], vectors[b], ahead)
             if a != b:
                 grown = wide.mul_add(splats[b], vectors[a], grown)
-            self._put("sums", number, "vector", grown)
+            self._put(which.cell, which.number, "vector", grown)
             self._frame.put(
-                self._frame.layout.squares(node), one.mul(coefficients[a], coefficients[b]), double
+                self._frame.layout.squares(which), one.mul(coefficients[a], coefficients[b]), double
             )
         is_first = text.op("icmp eq i64 %k, 1")
         for key in self._factors:

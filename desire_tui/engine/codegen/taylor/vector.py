@@ -113,14 +113,30 @@ class VectorRecurrences(Arrays):
         factor, inner = node.operands
         if isinstance(factor, Constant):
             return self._lanes.mul(self._constant(factor, i), self._of(inner, i))
-        total = self._products(inner, factor, i, 1, 0, slope=True)
+        total = self._products(inner, factor, i, 1, 0, self._slope)
         return self._over_order(total)
 
     def _element_quotient(self, node: Series, i: str) -> str:
         lanes = self._lanes
         a, b = node.operands
-        known = self._over_order(self._products(node, b, i, 1, 1, slope=True))
+        known = self._over_order(self._products(node, b, i, 1, 1, self._slope))
         return lanes.div(lanes.sub(self._of(a, i), known), self._first(b, i))
+
+    def _element_power(self, node: Series, i: str) -> str:
+        """Return u_k from k·a_0·u_k = Σ ((b + 1)·j - k)·a_j·u_{k-j}, j from 1 to k."""
+        base, exponent = node.operands
+        assert isinstance(base, Series)
+        lanes, text = self._lanes, self._frame.text
+        raised = lanes.add(self._first(exponent, i), lanes.const(1.0))
+
+        def weighted(j: str, value: str) -> str:
+            count = lanes.splat(text.op(f"sitofp i64 {j} to double"))
+            return lanes.mul(lanes.sub(lanes.mul(count, raised), lanes.splat("%kf")), value)
+
+        total = self._sum_of_products(base, node, i, "1", "%k", weighted)
+        rate = lanes.mul(self._first(exponent, i), self._first(node, i))
+        known = self._over_order(total)
+        return lanes.div(lanes.mul_add(rate, self._of(base, i), known), self._first(base, i))
 
     def _element_select(self, node: Series, i: str) -> str:
         condition, yes, no = node.operands
@@ -142,6 +158,11 @@ class VectorRecurrences(Arrays):
         other = text.op(f"select i1 {is_even}, {lanes.kind} {middle}, {lanes.kind} {lanes.const(0.0)}")
         return lanes.mul_add(lanes.const(2.0), half, lanes.mul(middle, other))
 
+    def _slope(self, j: str, values: str) -> str:
+        """Return j·values."""
+        lanes = self._lanes
+        return lanes.mul(lanes.splat(self._frame.text.op(f"sitofp i64 {j} to double")), values)
+
     def _products(
         self,
         a: Series | Constant,
@@ -149,17 +170,22 @@ class VectorRecurrences(Arrays):
         i: str,
         first: int,
         less: int,
-        *,
-        slope: bool = False,
+        weighted: Callable[[str, str], str] | None = None,
     ) -> str:
-        """Return Σ a_j·b_{k-j}, j from `first` to k - `less`; `slope`: each times j."""
+        """Return Σ a_j·b_{k-j}, j from `first` to k - `less`; `weighted(j, values)`: a_j times what j says."""
         assert isinstance(a, Series)
         assert isinstance(b, Series)
         end = self._frame.text.op(f"add i64 %k, {1 - less}")
-        return self._sum_of_products(a, b, i, str(first), end, slope=slope)
+        return self._sum_of_products(a, b, i, str(first), end, weighted)
 
     def _sum_of_products(
-        self, a: Series, b: Series, i: str, first: str, end: str, *, slope: bool = False
+        self,
+        a: Series,
+        b: Series,
+        i: str,
+        first: str,
+        end: str,
+        weighted: Callable[[str, str], str] | None = None,
     ) -> str:
         text, lanes = self._frame.text, self._lanes
         cell = text.alloca(lanes.kind)
@@ -167,8 +193,8 @@ class VectorRecurrences(Arrays):
 
         def turn(j: str) -> None:
             left = self._at_order(a, j, i)
-            if slope:
-                left = lanes.mul(lanes.splat(text.op(f"sitofp i64 {j} to double")), left)
+            if weighted is not None:
+                left = weighted(j, left)
             right = self._at_order(b, text.op(f"sub i64 %k, {j}"), i)
             before = text.op(f"load {lanes.kind}, ptr {cell}")
             text.do(f"store {lanes.kind} {lanes.mul_add(left, right, before)}, ptr {cell}")

@@ -81,7 +81,7 @@ def whole_power(g: Graph, a: Operand, n: int) -> Operand:
 
 
 def power(g: Graph, a: Operand, b: Operand) -> Operand:
-    """Return a^b: u' = (b·u/a)·a' for a constant b, else exp(b·ln a)."""
+    """Return a^b: a·u' = b·u·a' for a constant b, else exp(b·ln a)."""
     if isinstance(b, Series):
         logarithm = g.computed("ln", a) if isinstance(a, Constant) else FUNCTIONS["ln"](g, a)
         exponent = mul(g, b, logarithm)
@@ -93,9 +93,7 @@ def power(g: Graph, a: Operand, b: Operand) -> Operand:
         return _sqrt(g, a)
     count = widest(a, b)
     base = a if count == a.count else _spread(g, a, count)
-    b = g.stored(b)
-    made = g.integral(_power_now(g.value(base), b.value), base)
-    return g.complete(made, div(g, mul(g, b, made), base), base)
+    return g.series("power", _power_now(g.value(base), b.value), base, b, count=count)
 
 
 def _power_now(base: Value, exponent: Value) -> Value:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action, Where
     from desire_tui.engine.passes.series.nodes import Operand
 
-_PRODUCTS = frozenset(("mul", "div", "sqrt", "integral", "quotient"))
+_PRODUCTS = frozenset(("mul", "div", "sqrt", "integral", "quotient", "power"))
 _OTHERS = frozenset(("add", "sub", "neg", "times", "over", "raised"))
 _LEAST_PRODUCTS, _LEAST_OTHERS = 8, 16
 """Fewer nodes of these kinds gain nothing: gathering costs about as much as adding."""

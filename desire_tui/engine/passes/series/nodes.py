@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 Kind = Literal[
     "state", "time", "raised", "add", "sub", "neg", "times", "over", "mul", "div", "sqrt",
-    "integral", "quotient", "select", "shift", "product", "total", "element", "gather",
+    "integral", "quotient", "power", "select", "shift", "product", "total", "element", "gather",
 ]  # fmt: skip
 """How the k-th coefficient u_k, k ≥ 1, follows; a, b are the operands:
 
@@ -22,6 +22,7 @@ Kind = Literal[
     over      a_k / constant                              mul       Σ a_j b_{k-j}
     div       u = a / b (a may be constant)               sqrt      u² = a
     integral  u' = a · b'                                 quotient  u' = a' / b
+    power     a · u' = b · u · a' with a constant b
     select    a where the constant is above 0, else b     shift     element i is element i + `by` of a
     product   a constant matrix times a                   total     the sum of a's elements
     element   a's element number `by`                     gather    elements of several series, one each
