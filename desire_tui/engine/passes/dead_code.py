@@ -15,6 +15,9 @@ from desire_tui.engine.lowered.walk import walk_actions, with_bodies
 from desire_tui.engine.passes.slot_set import SlotSet
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from desire_tui.engine.lowered.effects import Piece
     from desire_tui.engine.lowered.statements import Action, SimpleAction
 
 Actions = tuple["Action", ...]
@@ -34,6 +37,14 @@ def needed_by(actions: Actions, then: Actions) -> Actions:
     for action in walk_actions(then):
         for slot, count in reads(action):
             live.add(slot, count)
+    return _keep_live(actions, live, frozenset())
+
+
+def needed_for(actions: Actions, pieces: Iterable[Piece]) -> Actions:
+    """Leave out what no number of `pieces` (slot, count) is computed from."""
+    live = SlotSet()
+    for slot, count in pieces:
+        live.add(slot, count)
     return _keep_live(actions, live, frozenset())
 
 

@@ -87,7 +87,7 @@ class StiffModel:
         if rule_numbered(rule).solver == "Taylor":
             segment, switching, program = expanded(segment, values.room)
             self._series = SeriesCode(code, program)
-            extra = {"at_start": program.values_pass}
+            extra = {"at_start": self._series.values_pass}
         else:
             segment, switching = switches(segment, values.room)
         self._segment = segment

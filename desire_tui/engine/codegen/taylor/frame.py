@@ -30,6 +30,8 @@ class Frame:
         self.order: int | None = None
         self.lanes = Fused(text)
         self.now: dict[int, str] = {}
+        self.loaded: list[tuple[int, int]] = []
+        """Values that are read: from which slot on, how many."""
         self._first: dict[int, str] = {}
         self._constants: dict[int, str] = {}
         self._reciprocals: dict[tuple[int, float], str] = {}
@@ -43,11 +45,17 @@ class Frame:
         if isinstance(constant.value, Const):
             self._constants[id(constant)] = literal(constant.value.value)
         else:
+            self.loaded.append((constant.slot, 1))
             self._constants[id(constant)] = self.text.op(f"load double, ptr {self.slot(constant.slot)}")
 
     def load_first(self, node: Series) -> None:
         """Read coefficient 0 of a number's series."""
+        self.loaded.append((node.slot, 1))
         self._first[node.number] = self.text.op(f"load double, ptr {self.slot(node.slot)}")
+
+    def take_first(self, node: Series, value: str) -> None:
+        """Set coefficient 0 of a number's series."""
+        self._first[node.number] = value
 
     def load_reciprocal(self, operand: Series | Constant, part: float = 1.0) -> None:
         """Compute one over a number's coefficient 0, or a part of that."""

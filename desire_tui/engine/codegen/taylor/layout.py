@@ -20,6 +20,14 @@ CELL = 16
 VECTORS = 4
 """So many vectors are computed side by side: none waits for its own last sum."""
 
+_SHORT = frozenset((
+    "state", "raised", "add", "sub", "neg", "times", "over", "mul", "div", "sqrt",
+    "integral", "quotient", "power", "select", "gather",
+))  # fmt: skip
+_WITH_ROWS = frozenset(("mul", "div", "sqrt", "integral", "quotient", "power"))
+_VECTORS_MOST = 400
+"""In all arrays of a model whose arrays are short: the text grows with them."""
+
 
 class Layout:
     """Places in a flat array: first what must be 0 at a step's start, then rows and arrays.
@@ -30,6 +38,8 @@ class Layout:
 
     def __init__(self, program: SeriesProgram) -> None:
         assert ORDER_MOST < ROW
+        self.is_short = are_short(program)
+        """Whether arrays' coefficients are in registers: rows are those that others read, side by side."""
         self._places: dict[int, int] = {}
         self._cells: dict[tuple[str, int], int] = {}
         self._squares: dict[tuple[int, int], int] = {}
@@ -54,7 +64,16 @@ class Layout:
         for which in sums:
             self._squares[which] = place
             place += ROW
+        kept = rows_read(self._program) if self.is_short else ()
+        start = place = -(-place // 8) * 8
+        for node in kept:
+            self._places[node.number] = place
+            place += -(-node.size // 8) * 8
+        self._stride = place - start
+        place += ORDER_MOST * self._stride
         for node in self._program.nodes:
+            if self.is_short and node.count is not None:
+                continue
             self._places[node.number] = place
             place += ROW if node.count is None else apart(node) * (ORDER_MOST + 1)
             place = -(-place // 8) * 8
@@ -66,10 +85,18 @@ class Layout:
         """Return where coefficient 0 stands, an array's first element's."""
         return self._places[node.number]
 
+    def has_place(self, node: Series) -> bool:
+        """Whether a series' coefficients are kept."""
+        return node.number in self._places
+
+    def apart(self, node: Series) -> int:
+        """Return the distance of an element's neighbouring coefficients."""
+        return self._stride if self.is_short and node.count is not None else apart(node)
+
     @property
     def pieces(self) -> list[tuple[int, int, int, int]]:
         """The states' places, as `integration.taylor.memory.Taylor` wants them."""
-        return [(p.first, p.count, self.place(p.series), apart(p.series)) for p in self._program.states]
+        return [(p.first, p.count, self.place(p.series), self.apart(p.series)) for p in self._program.states]
 
     @property
     def mode_count(self) -> int:
@@ -85,7 +112,7 @@ class Layout:
     def arguments(self) -> list[tuple[int, int]]:
         """The places of modes' and events' arguments, as `integration.taylor.memory.Taylor` wants them."""
         return [
-            (self.place(o) + at, apart(o)) if isinstance(o, Series) else (-1, 0)
+            (self.place(o) + at, self.apart(o)) if isinstance(o, Series) else (-1, 0)
             for o, at in self._program.arguments
         ]
 
@@ -93,7 +120,29 @@ class Layout:
     def roots(self) -> list[tuple[int, int, int]]:
         """Where square roots stand, as `integration.taylor.memory.Taylor` wants them."""
         found = [node for node in self._program.nodes if node.kind == "sqrt"]
-        return [(self.place(node), apart(node), node.count or 1) for node in found]
+        return [(self.place(node), self.apart(node), node.count or 1) for node in found]
+
+
+def are_short(program: SeriesProgram) -> bool:
+    """Whether all arrays are short enough for registers (`short_arrays`), and of kinds that are known there."""
+    arrays = [node for node in program.nodes if node.count is not None]
+    known = all(node.kind in _SHORT for node in arrays) and all(n.kind != "total" for n in program.nodes)
+    most = _VECTORS_MOST * machine().width
+    return bool(arrays) and known and sum(node.size for node in arrays) <= most
+
+
+def rows_read(program: SeriesProgram) -> list[Series]:
+    """Return the arrays whose coefficients of lower orders others read: the solver, sums of products."""
+    found = [piece.series for piece in program.states]
+    found += [operand for operand, _ in program.arguments if isinstance(operand, Series)]
+    for node in program.nodes:
+        if node.count is None or node.kind not in _WITH_ROWS:
+            continue
+        found += [operand for operand in node.operands if isinstance(operand, Series)]
+        if node.kind != "mul":
+            found.append(node)
+    arrays = {node.number: node for node in found if node.count is not None}
+    return list(arrays.values())
 
 
 def strip(size: int) -> int:

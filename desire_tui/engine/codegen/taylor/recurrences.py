@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.ir.text import IrText
@@ -11,9 +11,11 @@ from desire_tui.engine.codegen.jit.piece import Piece
 from desire_tui.engine.codegen.taylor.arrays import scattered
 from desire_tui.engine.codegen.taylor.frame import Frame
 from desire_tui.engine.codegen.taylor.scalar import WITH_SUMS, ScalarRecurrences
+from desire_tui.engine.codegen.taylor.short_arrays import ShortArrays
 from desire_tui.engine.codegen.taylor.sums import Sums
 from desire_tui.engine.codegen.taylor.vector import VectorRecurrences
 from desire_tui.engine.digest import blake2b
+from desire_tui.engine.passes.dead_code import needed_for
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.taylor.layout import Layout
     from desire_tui.engine.codegen.taylor.straight_sums import StraightSums
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.passes.series.nodes import SeriesProgram
 
 REGISTERS_MOST = 24
@@ -28,18 +31,28 @@ REGISTERS_MOST = 24
 _OF_ARRAYS = frozenset(("element", "total"))
 
 
-def recurrences(program: SeriesProgram, layout: Layout) -> Piece:
+class Written(NamedTuple):
+    """A function, and which part of `SeriesProgram.values_pass` must have run before it."""
+
+    piece: Piece
+    values_pass: tuple[Action, ...]
+
+
+def recurrences(program: SeriesProgram, layout: Layout) -> Written:
     """Write `void f(double *values, double *coefficients, int64 order)` for a program.
 
-    Coefficients 0 are taken from the values (`SeriesProgram.values_pass` has put them there). `layout` is
-    finished here.
+    Coefficients 0 are taken from the values where they are not computed here. `layout` is finished here.
     """
     frame = Frame(IrText(), layout)
     many = sum(node.kind in WITH_SUMS for node in program.nodes if node.count is None)
     sums = Sums(frame, in_memory=many > REGISTERS_MOST)
     function = _Loop(program, frame, sums)
     sums.finish_layout()
-    return function.piece()
+    piece = function.piece()
+    values = program.values_pass
+    if layout.is_short or all(node.count is None for node in program.nodes):
+        values = needed_for(values, frame.loaded)
+    return Written(piece, values)
 
 
 class Recurrences:
@@ -50,8 +63,13 @@ class Recurrences:
         self.scalar = ScalarRecurrences(frame, sums)
         numbers = [node for node in program.nodes if node.count is None]
         self.has_sums = [self.scalar.announce(node) for node in numbers].count(True) > 0
-        self.vector = VectorRecurrences(frame, machine().width)
+        self.vector = (
+            ShortArrays(frame, program)
+            if frame.layout.is_short
+            else VectorRecurrences(frame, machine().width)
+        )
         self._kept = _kept(program)
+        self._read = self._kept | _read_first(program)
         self.derivatives = {piece.series.number: piece.derivative for piece in program.states}
 
     def piece(self, name: str | None = None) -> Piece:
@@ -74,22 +92,33 @@ class Recurrences:
         """Write what comes before the orders."""
         self.prepare()
         frame = self.frame
+        constants = [o for node in self.program.nodes for o in node.operands if isinstance(o, Constant)]
+        constants += [d for d in self.derivatives.values() if isinstance(d, Constant)]
+        for constant in constants:
+            frame.load_constant(constant)
+            self.vector.load_constant(constant)
         for node in self.program.nodes:
             if node.count is not None:
                 self.vector.load_first(node)
             else:
-                frame.load_first(node)
-                if node.number in self._kept:
-                    frame.put(frame.layout.place(node), frame.first(node))
+                self._load_first(node)
         for node in self.program.nodes:
-            for operand in node.operands:
-                if isinstance(operand, Constant):
-                    frame.load_constant(operand)
             if node.count is None:
                 self.scalar.prepare(node)
-        for derivative in self.derivatives.values():
-            if isinstance(derivative, Constant):
-                frame.load_constant(derivative)
+            else:
+                self.vector.prepare(node)
+        self.vector.before_orders()
+
+    def _load_first(self, node: Series) -> None:
+        """Read coefficient 0 of a number's series, if anything is made of it."""
+        if node.number not in self._read:
+            return
+        if node.kind == "element" and isinstance(self.vector, ShortArrays):
+            self.frame.take_first(node, self.vector.element_first(node))
+        else:
+            self.frame.load_first(node)
+        if node.number in self._kept:
+            self.frame.put(self.frame.layout.place(node), self.frame.first(node))
 
     def states(self, slopes: Mapping[int, str]) -> None:
         """Write what computes the states' coefficients; `slopes`: numbers' derivatives, one order lower."""
@@ -146,9 +175,11 @@ class _Loop(Recurrences):
         text.begin("inner")
         if self.has_sums:
             self._sums.turn()
+        self.vector.turn()
         self.others()
         if self.has_sums:
             self._sums.end_turn(self.scalar.factors(self._sums.factors))
+        self.vector.end_turn()
         for number, cell in cells.items():
             text.do(f"store double {self.frame.coefficient(self.derivatives[number])}, ptr {cell}")
         text.jump("turn")
@@ -176,4 +207,15 @@ def _kept(program: SeriesProgram) -> set[int]:
     for node in program.nodes:
         if node.count is not None and (node.kind in WITH_SUMS or (node.kind == "gather" and scattered(node))):
             found |= {operand.number for operand in node.operands if isinstance(operand, Series)}
+    return found
+
+
+def _read_first(program: SeriesProgram) -> set[int]:
+    """Return the numbers whose coefficient 0 is read by recurrences, arrays, or states of higher order."""
+    found = {p.derivative.number for p in program.states if isinstance(p.derivative, Series)}
+    for node in program.nodes:
+        if node.count is None and node.kind not in WITH_SUMS:
+            continue
+        found.add(node.number)
+        found |= {operand.number for operand in node.operands if isinstance(operand, Series)}
     return found

@@ -155,7 +155,9 @@ class ScalarRecurrences:
         base, exponent = node.operands
         lanes, frame = self._lanes, self._frame
         by_slopes, slopes = (self._sums.known(node, part) for part in (0, 1))
-        known = lanes.mul(lanes.mul_add(frame.first(exponent), by_slopes, lanes.neg(slopes)), frame.reciprocal(base))
+        known = lanes.mul(
+            lanes.mul_add(frame.first(exponent), by_slopes, lanes.neg(slopes)), frame.reciprocal(base)
+        )
         return lanes.mul_add(self._rates[node.number], frame.coefficient(base), frame.over_order(known))
 
     def _select(self, node: Series) -> str:

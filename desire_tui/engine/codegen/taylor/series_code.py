@@ -25,7 +25,7 @@ class SeriesCode:
     def __init__(self, code: CodeCache, program: SeriesProgram) -> None:
         self.layout = Layout(program)
         self._store, self._program = code, program
-        self._quick = recurrences(program, self.layout)
+        self._quick, self.values_pass = recurrences(program, self.layout)
         self._straight = f"{self._quick.name}s" if is_small(program) else None
         """Name of the function without a loop, whose bits are those of the loop over the order."""
         known = self._straight and code.find(self._straight, fast=True)

@@ -15,6 +15,9 @@ from desire_tui.engine.passes.series.nodes import Constant, Series
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    Weight = Callable[[str, str, str], str]
+    """f(j, a_j, place of the elements): a_j with its weight in a sum."""
+
 
 class VectorRecurrences(Arrays):
     """Writes the turns of arrays' series, and of numbers that are made of arrays' elements."""
@@ -28,6 +31,21 @@ class VectorRecurrences(Arrays):
                  lambda i: put(one, target, i, fetch(one, "%v", self._entry(table, i))))  # fmt: skip
             return
         self._copy(self._frame.at(self._frame.layout.place(node)), self._frame.slot(node.slot), node.size)
+
+    def load_constant(self, constant: Constant) -> None:
+        """Nothing is read ahead."""
+
+    def prepare(self, node: Series) -> None:
+        """Compute before the loop what an array needs in it: nothing."""
+
+    def before_orders(self) -> None:
+        """Write what stands before the loop over the orders: nothing."""
+
+    def turn(self) -> None:
+        """Write what stands at a turn's start: nothing."""
+
+    def end_turn(self) -> None:
+        """Write what stands at a turn's end: nothing."""
 
     def write(self, node: Series) -> None:
         """Write what computes an array's k-th coefficients."""
@@ -91,7 +109,7 @@ class VectorRecurrences(Arrays):
 
     def _element_over(self, node: Series, i: str) -> str:
         a, b = node.operands
-        return self._lanes.div(self._of(a, i), self._first(b, i))
+        return self._over_first(self._of(a, i), b, i)
 
     def _element_mul(self, node: Series, i: str) -> str:
         a, b = node.operands
@@ -102,12 +120,12 @@ class VectorRecurrences(Arrays):
         known = self._products(node, b, i, 0, 1)
         lanes = self._lanes
         rest = lanes.neg(known) if isinstance(a, Constant) else lanes.sub(self._of(a, i), known)
-        return lanes.div(rest, self._first(b, i))
+        return self._over_first(rest, b, i)
 
     def _element_sqrt(self, node: Series, i: str) -> str:
         lanes = self._lanes
         rest = lanes.sub(self._of(node.operands[0], i), self._square(node, i, 1))
-        return lanes.div(lanes.mul(lanes.const(0.5), rest), self._first(node, i))
+        return self._over_first(lanes.mul(lanes.const(0.5), rest), node, i)
 
     def _element_integral(self, node: Series, i: str) -> str:
         factor, inner = node.operands
@@ -120,23 +138,15 @@ class VectorRecurrences(Arrays):
         lanes = self._lanes
         a, b = node.operands
         known = self._over_order(self._products(node, b, i, 1, 1, self._slope))
-        return lanes.div(lanes.sub(self._of(a, i), known), self._first(b, i))
+        return self._over_first(lanes.sub(self._of(a, i), known), b, i)
 
     def _element_power(self, node: Series, i: str) -> str:
         """Return u_k from k·a_0·u_k = Σ ((b + 1)·j - k)·a_j·u_{k-j}, j from 1 to k."""
         base, exponent = node.operands
-        assert isinstance(base, Series)
-        lanes, text = self._lanes, self._frame.text
-        raised = lanes.add(self._first(exponent, i), lanes.const(1.0))
-
-        def weighted(j: str, value: str) -> str:
-            count = lanes.splat(text.op(f"sitofp i64 {j} to double"))
-            return lanes.mul(lanes.sub(lanes.mul(count, raised), lanes.splat("%kf")), value)
-
-        total = self._sum_of_products(base, node, i, "1", "%k", weighted)
+        lanes = self._lanes
+        known = self._over_order(self._products(base, node, i, 1, 1, self._by_power(exponent)))
         rate = lanes.mul(self._first(exponent, i), self._first(node, i))
-        known = self._over_order(total)
-        return lanes.div(lanes.mul_add(rate, self._of(base, i), known), self._first(base, i))
+        return self._over_first(lanes.mul_add(rate, self._of(base, i), known), base, i)
 
     def _element_select(self, node: Series, i: str) -> str:
         condition, yes, no = node.operands
@@ -158,10 +168,22 @@ class VectorRecurrences(Arrays):
         other = text.op(f"select i1 {is_even}, {lanes.kind} {middle}, {lanes.kind} {lanes.const(0.0)}")
         return lanes.mul_add(lanes.const(2.0), half, lanes.mul(middle, other))
 
-    def _slope(self, j: str, values: str) -> str:
-        """Return j·values."""
-        lanes = self._lanes
-        return lanes.mul(lanes.splat(self._frame.text.op(f"sitofp i64 {j} to double")), values)
+    def _over_first(self, values: str, divisor: Series | Constant, i: str) -> str:
+        """Return values over the divisor's coefficients 0."""
+        return self._lanes.div(values, self._first(divisor, i))
+
+    def _slope(self, count: str, values: str, i: str) -> str:  # noqa: ARG002 - powers' depend on it
+        """Return j·a_j; `count`: j as a double."""
+        return self._lanes.mul(self._lanes.splat(count), values)
+
+    def _by_power(self, exponent: Series | Constant) -> Weight:
+        def weighted(count: str, values: str, i: str) -> str:
+            lanes = self._lanes
+            raised = lanes.add(self._first(exponent, i), lanes.const(1.0))
+            factor = lanes.sub(lanes.mul(lanes.splat(count), raised), lanes.splat("%kf"))
+            return lanes.mul(factor, values)
+
+        return weighted
 
     def _products(
         self,
@@ -170,31 +192,31 @@ class VectorRecurrences(Arrays):
         i: str,
         first: int,
         less: int,
-        weighted: Callable[[str, str], str] | None = None,
+        weight: Weight | None = None,
     ) -> str:
-        """Return Σ a_j·b_{k-j}, j from `first` to k - `less`; `weighted(j, values)`: a_j times what j says."""
-        assert isinstance(a, Series)
-        assert isinstance(b, Series)
+        """Return Σ a_j·b_{k-j}, j from `first` to k - `less`, each with a weight."""
         end = self._frame.text.op(f"add i64 %k, {1 - less}")
-        return self._sum_of_products(a, b, i, str(first), end, weighted)
+        return self._sum_of_products(a, b, i, str(first), end, weight)
 
     def _sum_of_products(
         self,
-        a: Series,
-        b: Series,
+        a: Series | Constant,
+        b: Series | Constant,
         i: str,
         first: str,
         end: str,
-        weighted: Callable[[str, str], str] | None = None,
+        weight: Weight | None = None,
     ) -> str:
+        assert isinstance(a, Series)
+        assert isinstance(b, Series)
         text, lanes = self._frame.text, self._lanes
         cell = text.alloca(lanes.kind)
         text.do(f"store {lanes.kind} {lanes.const(0.0)}, ptr {cell}")
 
         def turn(j: str) -> None:
             left = self._at_order(a, j, i)
-            if weighted is not None:
-                left = weighted(j, left)
+            if weight is not None:
+                left = weight(text.op(f"sitofp i64 {j} to double"), left, i)
             right = self._at_order(b, text.op(f"sub i64 %k, {j}"), i)
             before = text.op(f"load {lanes.kind}, ptr {cell}")
             text.do(f"store {lanes.kind} {lanes.mul_add(left, right, before)}, ptr {cell}")
