@@ -176,6 +176,10 @@ class ReferenceSeries:
     def _times(self, node: Series, k: int) -> Array:
         return self._raised(node, k) * self._other(node)
 
+    def _plus_times(self, node: Series, k: int) -> Array:
+        rest, term, _ = node.operands
+        return self.rows(rest)[k] + self.rows(term)[k] * self._other(node)
+
     def _over(self, node: Series, k: int) -> Array:
         return self._raised(node, k) / self._other(node)
 

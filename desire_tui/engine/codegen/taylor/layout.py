@@ -21,7 +21,7 @@ VECTORS = 4
 """So many vectors are computed side by side: none waits for its own last sum."""
 
 _SHORT = frozenset((
-    "state", "raised", "add", "sub", "neg", "times", "over", "mul", "div", "sqrt",
+    "state", "raised", "add", "sub", "neg", "times", "plus_times", "over", "mul", "div", "sqrt",
     "integral", "quotient", "power", "select", "gather",
 ))  # fmt: skip
 _WITH_ROWS = frozenset(("mul", "div", "sqrt", "integral", "quotient", "power"))

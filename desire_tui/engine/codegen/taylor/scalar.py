@@ -108,6 +108,11 @@ class ScalarRecurrences:
         )
         return self._lanes.mul(a, b)
 
+    def _plus_times(self, node: Series) -> str:
+        rest, term, factor = node.operands
+        frame = self._frame
+        return self._lanes.mul_add(frame.coefficient(term), frame.first(factor), frame.coefficient(rest))
+
     def _over(self, node: Series) -> str:
         a, b = node.operands
         return self._lanes.mul(self._frame.coefficient(a), self._frame.reciprocal(b))

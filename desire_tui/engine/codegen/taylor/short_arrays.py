@@ -123,6 +123,10 @@ class ShortArrays(VectorRecurrences):
     def _first_times(self, node: Series, i: str) -> str:
         return self._lanes.mul(*self._firsts(node, i))
 
+    def _first_plus_times(self, node: Series, i: str) -> str:
+        rest, term, factor = self._firsts(node, i)
+        return self._lanes.add(rest, self._lanes.mul(term, factor))
+
     def _first_over(self, node: Series, i: str) -> str:
         return self._lanes.div(*self._firsts(node, i))
 

@@ -107,6 +107,10 @@ class VectorRecurrences(Arrays):
         a, b = (self._constant(o, i) if isinstance(o, Constant) else self._of(o, i) for o in node.operands)
         return self._lanes.mul(a, b)
 
+    def _element_plus_times(self, node: Series, i: str) -> str:
+        rest, term, factor = node.operands
+        return self._lanes.mul_add(self._of(term, i), self._first(factor, i), self._of(rest, i))
+
     def _element_over(self, node: Series, i: str) -> str:
         a, b = node.operands
         return self._over_first(self._of(a, i), b, i)

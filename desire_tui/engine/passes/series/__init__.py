@@ -9,6 +9,7 @@
     `reading`     which series stands in a slot where a statement reads it
     `expressions` expressions to nodes
     `translation` statements to nodes
+    `fused_terms` terms with constant factors joined with their sums
     `grouping`    numbers' series that are alike, put together as arrays
     `pieces`      kinks and tables as choices between smooth pieces, so that switches are located
 

@@ -9,47 +9,97 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.expressions import Vec
 from desire_tui.engine.lowered.statements import Set
+from desire_tui.engine.passes.series.fused_terms import join_terms
 from desire_tui.engine.passes.series.nodes import Constant, Series, SeriesProgram, StatePiece
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from desire_tui.engine.lowered.statements import Action, Where
     from desire_tui.engine.passes.series.nodes import Operand
 
 _PRODUCTS = frozenset(("mul", "div", "sqrt", "integral", "quotient", "power"))
-_OTHERS = frozenset(("add", "sub", "neg", "times", "over", "raised"))
-_LEAST_PRODUCTS, _LEAST_OTHERS = 8, 16
-"""Fewer nodes of these kinds gain nothing: gathering costs about as much as adding."""
+_OTHERS = frozenset(("add", "sub", "neg", "times", "over", "raised", "plus_times"))
+_LEAST = 8
+"""Fewer nodes gain nothing."""
+_ALWAYS = 64
+"""So many nodes are put together in any case: the text would grow with them."""
 _LEAST_STATES = 16
 """So many states one behind the other are an array too."""
+_WIDTH = 8
+"""Elements that are computed at a time, for an estimate."""
+_PACKING = 1.5
+"""What it costs to put a number into an array, in units of an addition."""
 
 
 def grouped(program: SeriesProgram, allocate: Callable[[int], int], where: Where) -> SeriesProgram:
     """Return the program with nodes that are alike put together; `allocate` as in `translation`."""
-    depths = _depths(program)
-    groups: dict[tuple[object, ...], list[Series]] = {}
-    for node in program.nodes:
+    runs = [run for run in _state_runs(program) if len(run) >= _LEAST_STATES]
+    if not runs and not _product_groups(_alike(program.nodes)):
+        return program
+    nodes, actions = join_terms(program, allocate, where)
+    joined = replace(program, nodes=nodes, values_pass=program.values_pass + actions)
+    states = [[piece.series for piece in run] for run in runs]
+    return _Grouping(joined, _depths(nodes), _worth(joined, states), allocate, where).made()
+
+
+Groups = dict[tuple[object, ...], list[Series]]
+
+
+def _alike(nodes: Sequence[Series]) -> Groups:
+    depths = _depths(nodes)
+    groups: Groups = {}
+    for node in nodes:
         if node.count is None and node.kind in _PRODUCTS | _OTHERS:
             groups.setdefault(_key(node, depths[node.number]), []).append(node)
-    large = [
-        members
-        for members in groups.values()
-        if len(members) >= (_LEAST_PRODUCTS if members[0].kind in _PRODUCTS else _LEAST_OTHERS)
-    ]
-    runs = [run for run in _state_runs(program) if len(run) >= _LEAST_STATES]
-    if not runs and not any(members[0].kind in _PRODUCTS for members in large):
-        return program
-    large += [[piece.series for piece in run] for run in runs]
-    return _Grouping(program, depths, large, allocate, where).made()
+    return groups
 
 
-def _depths(program: SeriesProgram) -> dict[int, int]:
+def _product_groups(groups: Groups) -> list[list[Series]]:
+    return [g for g in groups.values() if len(g) >= _LEAST and g[0].kind in _PRODUCTS]
+
+
+def _worth(program: SeriesProgram, states: list[list[Series]]) -> list[list[Series]]:
+    """Return the groups that gain by it: of products all, of others where little has to be gathered."""
+    groups = _alike(program.nodes)
+    chosen = states + _product_groups(groups)
+    others = [g for g in groups.values() if len(g) >= _LEAST and g[0].kind in _OTHERS]
+    wide = {id(node) for group in chosen + others for node in group}
+    packed = {id(o) for node in program.nodes if id(node) in wide for o in node.operands}
+    packed |= {id(p.derivative) for p in program.states if id(p.series) in wide}
+    lanes = {id(node): (id(g), lane) for g in chosen for lane, node in enumerate(g)}
+    depths = _depths(program.nodes)
+    for group in sorted(others, key=lambda g: depths[g[0].number]):
+        columns = zip(*(node.operands for node in group), strict=True)
+        together = len(group) / _WIDTH + sum(_gathering(list(column), lanes) for column in columns)
+        alone = len(group) + _PACKING * sum(id(node) in packed for node in group)
+        if together <= alone or len(group) >= _ALWAYS:
+            chosen.append(group)
+            lanes |= {id(node): (id(group), lane) for lane, node in enumerate(group)}
+    return chosen
+
+
+def _gathering(operands: list[Operand], lanes: dict[int, tuple[int, int]]) -> float:
+    """Estimate what it costs to gather what a group reads."""
+    if all(operand is operands[0] for operand in operands) or isinstance(operands[0], Constant):
+        return 0.0
+    cost = 0.0
+    for first in range(0, len(operands), _WIDTH):
+        found = [lanes.get(id(operand)) for operand in operands[first : first + _WIDTH]]
+        sources = {(lane[0], lane[1] // _WIDTH) for lane in found if lane is not None}
+        in_order = all(lane is not None and lane[1] == first + i for i, lane in enumerate(found))
+        cost += 0.0 if in_order and len(sources) == 1 else max(len(sources) - 1, 1)
+        cost += _PACKING * found.count(None)
+    return cost
+
+
+def _depths(nodes: Iterable[Series]) -> dict[int, int]:
     """Return how far each node is from what is given; an integral's factor comes later than the integral."""
     depths: dict[int, int] = {}
-    for node in program.nodes:
+    for node in nodes:
         before = node.operands[1:] if node.kind == "integral" else node.operands
         below = [depths[o.number] for o in before if isinstance(o, Series)]
         depths[node.number] = 1 + max(below, default=-1)

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.lowered.statements import Action
 
 Kind = Literal[
-    "state", "time", "raised", "add", "sub", "neg", "times", "over", "mul", "div", "sqrt",
+    "state", "time", "raised", "add", "sub", "neg", "times", "plus_times", "over", "mul", "div", "sqrt",
     "integral", "quotient", "power", "select", "shift", "product", "total", "element", "gather",
 ]  # fmt: skip
 """How the k-th coefficient u_k, k ≥ 1, follows; a, b are the operands:
@@ -19,6 +19,7 @@ Kind = Literal[
     state     f_{k-1} / k with its derivative f           time      1, 0, 0 …
     raised    a_k: a and a constant added                 neg       -a_k
     add, sub  a_k ± b_k                                   times     a_k · constant
+    plus_times  a_k + b_k · constant
     over      a_k / constant                              mul       Σ a_j b_{k-j}
     div       u = a / b (a may be constant)               sqrt      u² = a
     integral  u' = a · b'                                 quotient  u' = a' / b
