@@ -1,6 +1,7 @@
 """Coefficients of each function and operation against Cauchy's integral, by both back ends."""
 
 import cmath
+import re
 
 import numpy as np
 import pytest
@@ -115,6 +116,47 @@ def test_functions_of_states(way):
         error = np.abs(scaled - integral(exact)).max() / max(np.abs(exact).max(), 1.0)
         if not error < 4e-15:
             wrong[name] = error
+    assert not wrong
+
+
+SIDE_BY_SIDE = (
+    "1 - a", "-a", "2.5*a - 3*b", "p*a + b", "b - p*a", "-(2*a) + b", "3*a + p*b", "a/3", "a*t", "a*b", "a*a",
+    "b/(1 + a)", "1/(1 + a)", "(1 + a)^(-1.5)", "(1 + a)^1.7", "(1 + a)^q", "sqrt(1 + a)", "exp(a)",
+    "ln(1 + a*b)", "sin(a)*cos(b)", "abs(a)*b", "comp(b, a, t*a)",
+)  # fmt: skip
+"""Expressions of a state, a neighbour of it and parameters."""
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_numbers_equations_that_are_alike(way):
+    """They become short arrays, whose operands are other equations' elements; values by Cauchy's integral."""
+    n = 9
+    order = [3, 0, 7, 1, 8, 2, 6, 5, 4]
+    start = [0.2 + 0.07 * i for i in range(n)]
+    lines = [f"d/dt a{i} = {0.5 + 0.1 * i!r} - 0.4*t" for i in range(n)]
+    for e, text in enumerate(SIDE_BY_SIDE):
+        for i in range(n):
+            spelled = re.sub(r"\ba\b", f"a{i}", re.sub(r"\bb\b", f"a{order[i]}", text))
+            lines.append(f"d/dt y{e}_{i} = {spelled}")
+    given = {f"a{i}": start[i] for i in range(n)} | {"p": 1.5, "q": -0.8}
+    found = coefficients("DYNAMIC\n" + "\n".join(lines) + "\n", way, given)
+    wrong = {}
+    radius = 0.3
+    space = {name: getattr(cmath, name) for name in ("sqrt", "exp", "sin", "cos")}
+    space |= {"ln": cmath.log, "abs": lambda a: a, "comp": lambda b, a, c: c, "p": 1.5, "q": -0.8}
+    for e, text in enumerate(SIDE_BY_SIDE):
+        code = compile(text.replace("^", "**"), text, "eval")
+        for i in range(n):
+
+            def f(t, i=i, code=code):
+                a, b = (start[k] + (0.5 + 0.1 * k) * t - 0.2 * t * t for k in (i, order[i]))
+                return eval(code, space, {"a": a, "b": b, "t": t})
+
+            exact = by_cauchy(f, 0.0, radius, points=64)
+            scaled = found[f"y{e}_{i}"][1:] * radius ** np.arange(20)
+            error = np.abs(scaled - integral(exact)).max() / max(np.abs(exact).max(), 1.0)
+            if not error < 4e-15:
+                wrong[f"{text} {i}"] = error
     assert not wrong
 
 

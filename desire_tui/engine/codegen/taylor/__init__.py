@@ -3,7 +3,9 @@
 `layout`       where coefficients stand
 `scalar`       series of numbers
 `vector`       series of arrays: loops over elements
-`sums`         their sums of products, kept in registers as the order rises
+`short_arrays` the same of short arrays, in registers: coefficients 0 in `short_starts`, lanes moved by
+               `shuffles`, sums of products by `row_sums`
+`sums`         numbers' sums of products, kept in registers as the order rises
 `recurrences`  the function that holds them: a loop over the order
 `straight_line`, `straight_sums`  the same without a loop, for fast code of small models
 `fused`        products and sums rounded once

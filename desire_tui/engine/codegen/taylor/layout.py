@@ -124,7 +124,7 @@ class Layout:
 
 
 def are_short(program: SeriesProgram) -> bool:
-    """Whether all arrays are short enough for registers (`short_arrays`), and of kinds that are known there."""
+    """Whether all arrays are short enough for registers, and of kinds that `short_arrays` knows."""
     arrays = [node for node in program.nodes if node.count is not None]
     known = all(node.kind in _SHORT for node in arrays) and all(n.kind != "total" for n in program.nodes)
     most = _VECTORS_MOST * machine().width

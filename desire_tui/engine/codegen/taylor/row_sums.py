@@ -1,7 +1,7 @@
 """Sums of products Σ a_j·b_{k-j} of short arrays, j from 1 to k - 1: from rows in memory, many at a time.
 
-All that a turn asks for is made of coefficients that were there at its start, so one loop over j makes several
-sums at once: what two of them read is read once, and a loop's end is paid for once.
+All that a turn asks for is made of coefficients that were there at its start, so one loop over j makes
+several sums at once: what two of them read is read once, and a loop's end is paid for once.
 """
 
 from __future__ import annotations

@@ -26,28 +26,20 @@ def collected(lanes: Lanes, given: list[Lane]) -> list[str]:
 
 def _vector(lanes: Lanes, row: list[Lane]) -> str:
     text, kind, width = lanes.text, lanes.kind, lanes.width
-    if all(lane.at is None and lane.value == row[0].value for lane in row):
+    if all(lane == row[0] and lane.at is None for lane in row):
         return lanes.splat(row[0].value)
     sources = list(dict.fromkeys(lane.value for lane in row if lane.at is not None))
-    total = sources[0] if sources else "poison"
-    placed = [lane.at if lane.value == total else None for lane in row]
-    while sources[1:] or placed != list(range(width)):
-        if not sources:
-            break
-        other = sources[1] if sources[1:] else None
-        mask = []
+    total, *others = sources or ["poison"]
+    taken = [lane.at if lane.value == total else None for lane in row]
+    if not others and any(at not in {None, i} for i, at in enumerate(taken)):
+        others = ["poison"]
+    for other in others:
         for i, lane in enumerate(row):
-            here = placed[i]
-            if here is None and lane.at is not None and lane.value == other:
-                here = width + lane.at
-            mask.append("poison" if here is None else str(here))
-        listed = ", ".join(f"i32 {entry}" for entry in mask)
-        right = other or "poison"
-        total = text.op(f"shufflevector {kind} {total}, {kind} {right}, <{width} x i32> <{listed}>")
-        del sources[1:2]
-        placed = [i if entry != "poison" else None for i, entry in enumerate(mask)]
-        if other is None:
-            break
+            if lane.value == other and lane.at is not None:
+                taken[i] = width + lane.at
+        mask = ", ".join("i32 poison" if at is None else f"i32 {at}" for at in taken)
+        total = text.op(f"shufflevector {kind} {total}, {kind} {other}, <{width} x i32> <{mask}>")
+        taken = [None if at is None else i for i, at in enumerate(taken)]
     for i, lane in enumerate(row):
         if lane.at is None:
             total = text.op(f"insertelement {kind} {total}, double {lane.value}, i64 {i}")
