@@ -1,13 +1,12 @@
-"""Tables of sixteen numbers, looked up for each element of a vector.
+"""Tables looked up for each element of a vector.
 
-With AVX-512 a table is two registers, and one instruction (`vpermi2pd`) picks eight elements. Elsewhere
-tables lie side by side in memory, and each element's row is loaded as a vector: gathering takes twice as
-long.
+Of sixteen numbers with AVX-512: two registers, of which one instruction (`vpermi2pd`) picks eight elements.
+Else four tables lie side by side in memory, and each element's row is loaded as a vector: gathering takes
+twice as long.
 """
 
 from __future__ import annotations
 
-import struct
 from hashlib import blake2b
 from typing import TYPE_CHECKING
 
@@ -29,21 +28,8 @@ def looked_up(lanes: Lanes, index: str, tables: Sequence[Sequence[float]]) -> li
     """Return, for each of four tables, table[index mod 16] for each element of the integers `index`."""
     if machine().width == _REGISTER and lanes.width % _REGISTER == 0:
         return [_picked(lanes, index, table) for table in tables]
-    return _loaded(lanes, index, tables)
-
-
-def two_in_one(first: float, second: float) -> float:
-    """Return a table's entry that holds two numbers, of 20 bits each: itself, and `second_of` it."""
-    upper, lower = (struct.unpack("<Q", struct.pack("<d", value))[0] >> 32 for value in (first, second))
-    return float(struct.unpack("<d", struct.pack("<Q", upper << 32 | lower))[0])
-
-
-def second_of(lanes: Lanes, entry: str) -> str:
-    """Return the second of two numbers in one."""
-    text = lanes.text
-    bits = text.op(f"bitcast {lanes.kind} {entry} to {lanes.integers}")
-    bits = text.op(f"shl {lanes.integers} {bits}, {lanes.integer(32)}")
-    return text.op(f"bitcast {lanes.integers} {bits} to {lanes.kind}")
+    place = lanes.text.op(f"and {lanes.integers} {index}, {lanes.integer(SIZE - 1)}")
+    return loaded_rows(lanes, place, list(zip(*tables, strict=True)))
 
 
 def _picked(lanes: Lanes, index: str, table: Sequence[float]) -> str:
@@ -57,14 +43,16 @@ def _picked(lanes: Lanes, index: str, table: Sequence[float]) -> str:
     return _joined(lanes, parts, _REGISTER)
 
 
-def _loaded(lanes: Lanes, index: str, tables: Sequence[Sequence[float]]) -> list[str]:
-    """Load a row of four numbers for each element, and transpose the rows of four elements."""
+def loaded_rows(lanes: Lanes, place: str, rows: Sequence[Sequence[float]]) -> list[str]:
+    """Return, for each of the four numbers of a row, that of rows[place] for each element of `place`.
+
+    A row is loaded for each element, and the rows of four elements are transposed.
+    """
     text, kind = lanes.text, f"<{_ROW} x double>"
-    rows = ", ".join(f"{kind} {_constant(row)}" for row in zip(*tables, strict=True))
-    name = f"@table.{blake2b(rows.encode(), digest_size=6).hexdigest()}"
-    text.declarations.add(f"{name} = internal constant [{SIZE} x {kind}] [{rows}], align 64")
-    place = text.op(f"and {lanes.integers} {index}, {lanes.integer(SIZE - 1)}")
-    found: list[list[str]] = [[] for _ in tables]
+    listed = ", ".join(f"{kind} {_constant(row)}" for row in rows)
+    name = f"@table.{blake2b(listed.encode(), digest_size=6).hexdigest()}"
+    text.declarations.add(f"{name} = internal constant [{len(rows)} x {kind}] [{listed}], align 64")
+    found: list[list[str]] = [[] for _ in range(_ROW)]
     for first in range(0, lanes.width, _ROW):
         r = []
         for lane in range(first, first + _ROW):

@@ -1,149 +1,191 @@
-"""sin and cos of many numbers, with the bits of glibc's.
+"""sin and cos of many numbers: the operations of glibc's (2.28 and later).
 
-|x| = kπ/16 + r, |r| ≤ π/32, where r is a pair of doubles (Cody and Waite, fused). With the sine S and the
-cosine C of the multiple, sin x = S·cos r + C·sin r is
+Its results are up to 0.55 units of the last place off, so that no bound would tell which way 1 to 2 % of them
+are rounded. Operation by operation, then: ±(a + d) is left of |x| (`quarter_turns`); a = k/128 + r. With the
+sine S and the cosine C of k/128 from a table, each as two doubles,
 
-    S + t + t·r²·P + S·r⁴·Q,  t = r·(C - S·r/2),  P = (sin r - r)/r³,  Q = (cos r - 1 + r²/2)/r⁴ + P/2
+    sin(a + d) = S + (Sl + s·Cl - S·c + C·s),  s = sin(r + d),  c = 1 - cos(r + d)
 
-where only S + t is made without error; the rest is at most r³/6 < 2⁻¹²·⁵ (P. T. P. Tang, "Table-lookup
-algorithms for elementary functions and their error analysis", 10th IEEE Symposium on Computer Arithmetic,
-1991). cos x is the same with C for S and -S for C. What depends on what is as short as can be: runs wait for
-the result.
+and below 0.126 Taylor's series (S. Gal and B. Bachelis, "An accurate elementary mathematical library for the
+IEEE floating point standard", ACM TOMS 17, 1991). cos is the same with C for S and -S for C. Whether the C
+library at hand does this, with fused multiplication and addition where GCC puts it, `compiled` finds out.
 """
 
 from __future__ import annotations
 
-from fractions import Fraction
-from functools import cache
-from math import ceil, cos, factorial, log2, pi
 from typing import TYPE_CHECKING, NamedTuple
 
-from desire_tui.engine.codegen.exact_functions.angles import sines_and_cosines, step
+from desire_tui.engine.codegen.exact_functions.angles import ROWS, sines_and_cosines
 from desire_tui.engine.codegen.exact_functions.constants import half_pi
-from desire_tui.engine.codegen.exact_functions.lookups import SIZE, looked_up, second_of, two_in_one
-from desire_tui.engine.codegen.exact_functions.pairs import Pair, Pairs
-from desire_tui.engine.codegen.exact_functions.polynomials import economized
-from desire_tui.engine.codegen.exact_functions.rounding_test import Result, beyond, rounded
+from desire_tui.engine.codegen.exact_functions.lookups import loaded_rows
+from desire_tui.engine.codegen.exact_functions.pairs import Pairs
+from desire_tui.engine.codegen.exact_functions.quarter_turns import LARGEST, rest_of, sign_of, with_sign
+from desire_tui.engine.codegen.exact_functions.rounding_test import Result
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from desire_tui.engine.codegen.ir.lanes import Lanes
 
-_MOST = 2.0**17
-"""Larger arguments are the library's: of so many multiples two parts are taken away without error."""
-_MAGIC = 1.5 * 2.0**52
-"""Added and taken away: rounds to a whole number, whose last bits it shows."""
-_OWN = 0.5 * 2.0**-62
-"""Our error: three roundings in r³·P, and three of sums of at most 2⁻¹²·⁵."""
-_LEFT_OUT = 0.0049
-"""r²/2 at most: so much of what the double of S lacks is left out."""
-_ONCE = 0.8
-_RELATIVE = 1.4 * 2.0**-60
-"""Of r where S is 0: three roundings in r³·P and two of sums; glibc says 0.501 units of the last place."""
+_OWN_WAY = float(half_pi()) + 27 / 256
+"""Between 0.855 and 2.43 glibc's sin looks for k before it adds d to a, its cos and sincos after that. Where
+a is halfway between two k, these may differ; of all such numbers only this one has another sine for it.
+The library is asked."""
+_GRID = 1.5 * 2.0**45
+"""Added and taken away: rounds to multiples of 1/128, whose number its last bits show."""
+_TAYLOR_BELOW = 0.126
+_TAYLOR = tuple(
+    map(
+        float.fromhex,
+        (
+            "-0x1.5555555555555p-3",
+            "0x1.1111111110ecep-7",
+            "-0x1.a01a019db08b8p-13",
+            "0x1.71de27b9a7ed9p-19",
+            "-0x1.addffc2fcdf59p-26",
+        ),
+    )
+)
+"""(sin a - a)/a³ in powers of a²: glibc's coefficients."""
+_SINE = tuple(map(float.fromhex, ("-0x1.5555555555515p-3", "0x1.11110e829872fp-7")))
+"""(sin r - r)/r³ in powers of r², |r| ≤ 1/256."""
+_COSINE = tuple(map(float.fromhex, ("0x1p-1", "-0x1.5555555555535p-5", "0x1.6c16bedd9e239p-10")))
+"""(1 - cos r)/r²."""
 
 
-def _band(angle: int, *, fused: bool) -> float:
-    """Return how far from ours a number may be that glibc rounds to sin x, |x| being near angle·π/16.
+class _Row(NamedTuple):
+    """Of the function wanted at k/128: value and what it lacks, and the derivative's."""
 
-    glibc (2.28 and later) adds a correction to an entry of a table of sines at multiples of 1/128 (Gal and
-    Bachelis 1991). The correction is D·s with |s| ≤ 2⁻⁸ and D the derivative at that multiple. It is rounded
-    twice, at most by 2⁻⁶² each and by less if it is smaller, or once if glibc was compiled with `fused`
-    multiplication and addition; s once or, in what glibc does where D < 0.77, twice.
-    """
-    if not angle:
-        return 0.0  # `_RELATIVE` holds
-    slope = min(cos((angle - 0.5) * pi / SIZE) + 0.01, 1.0)
-    most = 2.0 ** ceil(log2(slope))
-    roundings = (1 if fused else 2) * most + (slope if slope > _ONCE else 2 * min(slope, 0.77))
-    (_, lacks), _ = sines_and_cosines()[angle]
-    return roundings * 2.0**-62 + _OWN + _LEFT_OUT * abs(lacks)
-
-
-@cache
-def _series() -> tuple[list[Fraction], list[Fraction]]:
-    """Return P and 2·Q as polynomials in r²: 2⁻⁶⁹ and less off."""
-    odd, even = ([Fraction((-1) ** (n // 2), factorial(n)) for n in range(k, k + 10, 2)] for k in (3, 4))
-    both = [2 * a + b for a, b in zip(even, odd, strict=True)]
-    none, most = Fraction(0), Fraction(1, 100)
-    return economized(odd, none, most), economized(both, none, most)
+    own: str
+    own_low: str
+    other: str
+    other_low: str
 
 
 class SineAndCosine:
-    """Both functions of the argument `%x`."""
+    """Functions of the argument `%x`: one of `sin` and `cos`, or both."""
 
-    def __init__(self, lanes: Lanes, *, fused: bool) -> None:
-        """`fused`: the C library's were compiled with fused multiplication and addition."""
-        self.lanes, self.pairs, self._fused = lanes, Pairs(lanes), fused
-        pairs = self.pairs
+    def __init__(self, lanes: Lanes, names: Sequence[str]) -> None:
+        self.lanes, self._fma, self._names = lanes, Pairs(lanes).fma, names
+        text, integers = lanes.text, lanes.integers
         self._size = lanes.intrinsic("fabs", "%x")
-        shifted = pairs.fma(self._size, lanes.const(float(8 / half_pi())), lanes.const(_MAGIC))
-        self._index = lanes.text.op(f"bitcast {lanes.kind} {shifted} to {lanes.integers}")
-        self._r = self._reduce(lanes.sub(shifted, lanes.const(_MAGIC)))
-        self._sine, self._cosine = self._table()
-        square = lanes.mul(self._r.high, self._r.high)
-        fourth = lanes.mul(square, square)
-        odd, even = (self._polynomial(square, fourth, series) for series in _series())
-        self._square, self._odd, self._fourth, self._even = square, odd, fourth, even
+        rest = self._rest = rest_of(lanes, self._size)
+        shifted = lanes.add(rest.size, lanes.const(_GRID))
+        self._r = lanes.sub(rest.size, lanes.sub(shifted, lanes.const(_GRID)))
+        place = text.op(f"bitcast {lanes.kind} {shifted} to {integers}")
+        place = text.op(f"and {integers} {place}, {lanes.integer(ROWS - 1)}")
+        odd = rest.turns
+        if names == ("cos",):  # of π/2 one more: then it is the sine
+            odd = text.op(f"xor {integers} {odd}, {lanes.integer(1)}")
+        odd = text.op(f"and {integers} {odd}, {lanes.integer(1)}")
+        self._odd = text.op(f"icmp ne {integers} {odd}, {lanes.integer(0)}")
+        if len(names) == 1:
+            second_half = text.op(f"mul {integers} {odd}, {lanes.integer(ROWS)}")
+            place = text.op(f"or {integers} {place}, {second_half}")
+        self._row = _Row(*loaded_rows(lanes, place, _rows()))
 
-    def _reduce(self, turns: str) -> Pair:
-        """Return |x| - turns·π/16, all but the last product without error."""
-        lanes, pairs = self.lanes, self.pairs
-        first, second, third = (lanes.const(-part) for part in step())
-        near = pairs.fma(turns, first, self._size)
-        high = pairs.fma(turns, second, near)
-        low = pairs.fma(turns, second, lanes.sub(near, high))
-        return Pair(high, pairs.fma(turns, third, low))
+    def results(self) -> list[Result]:
+        """Return what was asked for, in the order of the names."""
+        lanes, text = self.lanes, self.lanes.text
+        doubt = lanes.compare("oge", self._size, lanes.const(LARGEST))
+        if "sin" in self._names:
+            own_way = lanes.compare("oeq", self._size, lanes.const(_OWN_WAY))
+            doubt = text.op(f"or {lanes.flags} {doubt}, {own_way}")
+        doubts = text.op(f"sext {lanes.flags} {doubt} to {lanes.integers}")
+        if len(self._names) == 1:
+            values = dict.fromkeys(self._names, self._one())
+        else:
+            sine, cosine = self._both()
+            values = {
+                "sin": lanes.choose(self._odd, cosine, sine),
+                "cos": lanes.choose(self._odd, sine, cosine),
+            }
+        return [Result(self._signed(name, values[name]), doubts) for name in self._names]
 
-    def _table(self) -> tuple[_Entry, _Entry]:
-        """Look up sine and cosine of the multiple."""
-        lanes = self.lanes
-        values = sines_and_cosines()
-        halves = [[pair[part][0] / 2 for pair in values] for part in (0, 1)]
-        lows = [two_in_one(sine[1], cosine[1]) for sine, cosine in values]
-        by_angle = [_band(angle, fused=self._fused) for angle in range(SIZE // 2 + 1)]
-        bands = [two_in_one(by_angle[abs(SIZE // 2 - k)], by_angle[min(k, SIZE - k)]) for k in range(SIZE)]
-        sine, cosine, low, band = looked_up(lanes, self._index, [*halves, lows, bands])
-        return _Entry(sine, low, second_of(lanes, band)), _Entry(cosine, second_of(lanes, low), band)
+    def _one(self) -> str:
+        """Return sin(a + d) for even, cos(a + d) for odd elements, whose row has the cosine as its own."""
+        lanes, fma, odd, zero = self.lanes, self._fma, self._odd, self.lanes.const(0.0)
+        row, d = self._row, self._rest.low
+        r = lanes.choose(odd, lanes.add(self._r, d), self._r)
+        d = lanes.choose(odd, zero, d)
+        square, s, c = self._polynomials(r)
+        s = fma(lanes.mul(r, square), s, lanes.choose(odd, r, d))
+        s = lanes.choose(odd, s, lanes.add(r, s))
+        value = self._with_series(self._sum(row, s, self._two_products(r, d, square, c)), even_only=True)
+        integers = lanes.integers
+        sign = f"{integers} {lanes.integer(0)}, {integers} {self._rest.sign}"
+        return with_sign(lanes, value, lanes.text.op(f"select {lanes.flags} {odd}, {sign}"))
 
-    def _polynomial(self, x: str, square: str, c: list[Fraction]) -> str:
-        """Return c0 + c1·x + x²·(c2 + c3·x)."""
-        pairs, lanes = self.pairs, self.lanes
-        first, last = (pairs.fma(x, lanes.const(float(c[k + 1])), lanes.const(float(c[k]))) for k in (0, 2))
-        return pairs.fma(square, last, first)
+    def _both(self) -> tuple[str, str]:
+        """Return ± sin(a + d) and cos(a + d)."""
+        lanes, fma, r, row = self.lanes, self._fma, self._r, self._row
+        square, s, c = self._polynomials(r)
+        s = lanes.add(r, fma(lanes.mul(r, square), s, self._rest.low))
+        sine = self._sum(row, s, self._two_products(r, self._rest.low, square, c))
+        r = lanes.add(r, self._rest.low)
+        square, s, c = self._polynomials(r)
+        turned = _Row(row.other, row.other_low, lanes.neg(row.own), lanes.neg(row.own_low))
+        cosine = self._sum(turned, fma(lanes.mul(r, square), s, r), lanes.mul(square, c))
+        return with_sign(lanes, self._with_series(sine), self._rest.sign), cosine
 
-    def result(self, name: str) -> Result:
-        """Return `sin` or `cos`."""
-        lanes, pairs, text, r = self.lanes, self.pairs, self.lanes.text, self._r
-        own, other = self._sine, self._cosine
+    def _polynomials(self, r: str) -> tuple[str, str, str]:
+        """Return r², (sin r - r)/r³ and (1 - cos r)/r²."""
+        lanes, fma, const = self.lanes, self._fma, self.lanes.const
+        square = lanes.mul(r, r)
+        sine = fma(square, const(_SINE[1]), const(_SINE[0]))
+        cosine = fma(square, fma(square, const(_COSINE[2]), const(_COSINE[1])), const(_COSINE[0]))
+        return square, sine, cosine
+
+    def _two_products(self, a: str, b: str, c: str, d: str) -> str:
+        """Return a·b + c·d: GCC fuses the first product with the sum."""
+        return self._fma(a, b, self.lanes.mul(c, d))
+
+    def _sum(self, row: _Row, s: str, c: str) -> str:
+        fma = self._fma
+        correction = fma(self.lanes.neg(row.own), c, fma(s, row.other_low, row.own_low))
+        return self.lanes.add(row.own, fma(row.other, s, correction))
+
+    def _with_series(self, sine: str, *, even_only: bool = False) -> str:
+        """Return Taylor's sum instead where a is small; it is jumped over where none is."""
+        lanes, text = self.lanes, self.lanes.text
+        small = lanes.compare("olt", self._rest.size, lanes.const(_TAYLOR_BELOW))
+        if even_only:
+            even = text.op(f"xor {lanes.flags} {self._odd}, splat (i1 true)")
+            small = text.op(f"and {lanes.flags} {small}, {even}")
+        before = text.label
+        text.branch(lanes.any(small), "series", "summed")
+        text.begin("series")
+        chosen = lanes.choose(small, self._series(), sine)
+        text.jump("summed")
+        text.begin("summed")
+        return text.op(f"phi {lanes.kind} [ {sine}, %{before} ], [ {chosen}, %series ]")
+
+    def _series(self) -> str:
+        """Return sin(a + d)."""
+        lanes, fma, const = self.lanes, self._fma, self.lanes.const
+        a, d = self._rest.size, self._rest.low
+        square = lanes.mul(a, a)
+        total = const(_TAYLOR[-1])
+        for coefficient in _TAYLOR[-2::-1]:
+            total = fma(total, square, const(coefficient))
+        total = fma(total, a, lanes.neg(lanes.mul(const(0.5), d)))
+        return lanes.add(a, fma(total, square, d))
+
+    def _signed(self, name: str, value: str) -> str:
+        """Return a result from the one for |x| less all multiples."""
+        text, lanes, turns = self.lanes.text, self.lanes, self._rest.turns
         if name == "cos":
-            own, other = other, _Entry(lanes.neg(own.half), lanes.neg(own.low), own.band)
-        less, base, derivative = (
-            lanes.neg(own.half),
-            lanes.add(own.half, own.half),
-            lanes.add(other.half, other.half),
-        )
-        slope = pairs.fma(less, r.high, derivative)
-        left = pairs.fma(less, r.high, lanes.sub(derivative, slope))
-        change = pairs.times(r.high, Pair(slope, left))
-        total = pairs.sum(base, change.high)
-        low = pairs.fma(pairs.fma(less, r.high, slope), r.low, pairs.fma(other.low, r.high, own.low))
-        low = pairs.fma(lanes.mul(own.half, self._fourth), self._even, low)
-        low = lanes.add(low, pairs.fma(lanes.mul(change.high, self._square), self._odd, change.low))
-        relative = lanes.mul(lanes.intrinsic("fabs", r.high), lanes.const(_RELATIVE))
-        value, doubt = rounded(lanes, total, low, lanes.larger(relative, own.band))
-        doubt = text.op(f"or {lanes.integers} {doubt}, {beyond(lanes, self._size, _MOST)}")
-        bits = text.op(f"shl {lanes.integers} {self._index}, {lanes.integer(59)}")
+            turns = text.op(f"add {lanes.integers} {turns}, {lanes.integer(1)}")
+        flips = text.op(f"shl {lanes.integers} {turns}, {lanes.integer(62)}")
         if name == "sin":
             argument = text.op(f"bitcast {lanes.kind} %x to {lanes.integers}")
-            bits = text.op(f"xor {lanes.integers} {bits}, {argument}")
-        sign = text.op(f"and {lanes.integers} {bits}, {lanes.integer(-(2**63))}")
-        bits = text.op(f"bitcast {lanes.kind} {value} to {lanes.integers}")
-        bits = text.op(f"xor {lanes.integers} {bits}, {sign}")
-        return Result(text.op(f"bitcast {lanes.integers} {bits} to {lanes.kind}"), doubt)
+            flips = text.op(f"xor {lanes.integers} {flips}, {argument}")
+        flips = text.op(f"bitcast {lanes.integers} {flips} to {lanes.kind}")
+        return with_sign(lanes, value, sign_of(lanes, flips))
 
 
-class _Entry(NamedTuple):
-    """Of a sine: its half, what its double lacks, and the band of the rounding test."""
-
-    half: str
-    low: str
-    band: str
+def _rows() -> list[tuple[float, float, float, float]]:
+    """Return the table: sine and cosine of k/128, then the cosine and its derivative."""
+    values = sines_and_cosines()
+    sines = [(*sine, *cosine) for sine, cosine in values]
+    return sines + [(*cosine, -sine[0], -sine[1]) for sine, cosine in values]

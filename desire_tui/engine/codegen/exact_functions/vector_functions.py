@@ -43,10 +43,7 @@ def ways(name: str) -> Sequence[Callable[[Lanes], list[Result]]]:
             lambda lanes, fused=fused: [Result(hyperbolic_tangent(lanes, fused=fused), "zeroinitializer")]
             for fused in (True, False)
         )
-    return tuple(
-        lambda lanes, fused=fused: [*map(SineAndCosine(lanes, fused=fused).result, _library(name))]
-        for fused in (True, False)
-    )
+    return (lambda lanes: SineAndCosine(lanes, _library(name)).results(),)
 
 
 def written(name: str, symbol: str, width: int, way: Callable[[Lanes], list[Result]]) -> Written:

@@ -86,6 +86,11 @@ class Lanes:
         """Return yes where the flag is set, else no."""
         return self.text.op(f"select {self.flags} {flags}, {self.kind} {yes}, {self.kind} {no}")
 
+    def any(self, flags: str) -> str:
+        """Return an i1: some flag is set."""
+        bits = self.text.op(f"bitcast {self.flags} {flags} to i{self.width}")
+        return self.text.op(f"icmp ne i{self.width} {bits}, 0")
+
     def larger(self, a: str, b: str) -> str:
         """Return the larger one; b if a is not a number."""
         return self.choose(self.compare("ogt", a, b), a, b)

@@ -66,11 +66,6 @@ class Replicas(Lanes):
         both = self.text.op(f"call {pair} @runs.sincos.{self.width}({self.kind} {x})")
         return self.text.op(f"extractvalue {pair} {both}, {0 if name == 'sin' else 1}")
 
-    def any(self, flags: str) -> str:
-        """Return an i1: some flag is set."""
-        bits = self.text.op(f"bitcast {self.flags} {flags} to i{self.width}")
-        return self.text.op(f"icmp ne i{self.width} {bits}, 0")
-
     def both(self, a: str, b: str) -> str:
         """Return the flags that both have."""
         return self.text.op(f"and {self.flags} {a}, {b}")
