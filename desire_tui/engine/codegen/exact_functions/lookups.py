@@ -46,28 +46,53 @@ def _picked(lanes: Lanes, index: str, table: Sequence[float]) -> str:
 def loaded_rows(lanes: Lanes, place: str, rows: Sequence[Sequence[float]]) -> list[str]:
     """Return, for each of the four numbers of a row, that of rows[place] for each element of `place`.
 
-    A row is loaded for each element, and the rows of four elements are transposed.
+    A row is loaded for each element; four rows, or four pairs of rows side by side, are transposed at a time.
     """
     text, kind = lanes.text, f"<{_ROW} x double>"
     listed = ", ".join(f"{kind} {_constant(row)}" for row in rows)
     name = f"@table.{blake2b(listed.encode(), digest_size=6).hexdigest()}"
     text.declarations.add(f"{name} = internal constant [{len(rows)} x {kind}] [{listed}], align 64")
+    loaded = []
+    for offset in _offsets(lanes, place):
+        at = text.op(f"getelementptr i8, ptr {name}, i64 {offset}")
+        loaded.append(text.op(f"load {kind}, ptr {at}, align 32"))
+    size = min(lanes.width, 2 * _ROW)
     found: list[list[str]] = [[] for _ in range(_ROW)]
-    for first in range(0, lanes.width, _ROW):
-        r = []
-        for lane in range(first, first + _ROW):
-            own = text.op(f"extractelement {lanes.integers} {place}, i64 {lane}")
-            at = text.op(f"getelementptr {kind}, ptr {name}, i64 {own}")
-            r.append(text.op(f"load {kind}, ptr {at}, align 32"))
+    for first in range(0, lanes.width, size):
+        own = [_joined(lanes, loaded[first + k : first + size : _ROW], _ROW) for k in range(_ROW)]
         pairs = [
-            _shuffled(lanes, kind, r[k], r[k + 1], (odd, 4 + odd, 2 + odd, 6 + odd))
-            for odd in (0, 1)
-            for k in (0, 2)
+            [_mixed(lanes, own[k], own[k + 1], size, (odd, odd + 2), 1) for k in (0, 2)] for odd in (0, 1)
         ]
         for number, parts in enumerate(found):
-            a, b = pairs[2 * (number % 2) :][:2]
-            parts.append(_shuffled(lanes, kind, a, b, (0, 1, 4, 5) if number < _ROW // 2 else (2, 3, 6, 7)))
-    return [_joined(lanes, parts, _ROW) for parts in found]
+            parts.append(_mixed(lanes, *pairs[number % 2], size, (number // 2 * 2,), 2))
+    return [_joined(lanes, parts, size) for parts in found]
+
+
+def _offsets(lanes: Lanes, place: str) -> list[str]:
+    """Return 32·place as single integers, four of which leave the vector at a time."""
+    text, width = lanes.text, lanes.width
+    offsets = text.op(f"shl {lanes.integers} {place}, {lanes.integer(5)}")
+    small = text.op(f"trunc {lanes.integers} {offsets} to <{width} x i16>")
+    together = text.op(f"bitcast <{width} x i16> {small} to <{width // 4} x i64>")
+    found = []
+    for four in range(width // 4):
+        left = text.op(f"extractelement <{width // 4} x i64> {together}, i64 {four}")
+        for k in range(4):
+            shifted = text.op(f"lshr i64 {left}, {16 * k}")
+            found.append(text.op(f"and i64 {shifted}, 65535"))
+    return found
+
+
+def _mixed(lanes: Lanes, a: str, b: str, size: int, firsts: Sequence[int], count: int) -> str:
+    """Return, of each four elements of a and b, `count` of a's and b's from each of `firsts` on."""
+    places = [
+        place + k
+        for four in range(0, size, _ROW)
+        for first in firsts
+        for place in (four + first, size + four + first)
+        for k in range(count)
+    ]
+    return _shuffled(lanes, f"<{size} x double>", a, b, places)
 
 
 def _joined(lanes: Lanes, parts: list[str], size: int) -> str:

@@ -15,8 +15,12 @@ from desire_tui.engine.codegen.exact_functions.pairs import Pairs, split
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.lanes import Lanes
 
-LARGEST = float.fromhex("0x1.921fbp+26")
+_LARGEST = float.fromhex("0x1.921fbp+26")
 """From here on glibc takes multiples away in another way."""
+_OWN_WAY = float(half_pi()) + 27 / 256
+"""Between 0.855 and 2.43 glibc's sin looks into its table before it adds `low` to `size`, its cos and sincos
+after that. Where `size` is halfway between two entries these may differ; of all such numbers only this one
+has another sine for it."""
 _SOME, _MANY = float.fromhex("0x1.b6p-1"), float.fromhex("0x1.368fdp+1")
 _MAGIC = 1.5 * 2.0**52
 """Added and taken away: rounds to a whole number, whose last bits it shows."""
@@ -33,6 +37,8 @@ class Rest(NamedTuple):
     """Integers whose first bit is set where ± is -; their other bits are 0."""
     turns: str
     """Integers; the last two bits count."""
+    unknown: str
+    """Integers that are not 0 where all this is wrong, and the library is to be asked."""
 
 
 def quarter_turn() -> tuple[float, float, float, float]:
@@ -52,13 +58,15 @@ def rest_of(lanes: Lanes, size: str) -> Rest:
     text.branch(lanes.any(lanes.compare("uge", size, lanes.const(_SOME))), "reduce", "reduced")
     text.begin("reduce")
     signed, low, turns = _reduced(lanes, size)
+    unknown = _unknown(lanes, size)
     text.jump("reduced")
     text.begin("reduced")
     signed = text.op(f"phi {kind} [ {size}, %{before} ], [ {signed}, %reduce ]")
     low = text.op(f"phi {kind} [ zeroinitializer, %{before} ], [ {low}, %reduce ]")
     turns = text.op(f"phi {integers} [ zeroinitializer, %{before} ], [ {turns}, %reduce ]")
+    unknown = text.op(f"phi {integers} [ zeroinitializer, %{before} ], [ {unknown}, %reduce ]")
     sign = sign_of(lanes, signed)
-    return Rest(lanes.intrinsic("fabs", signed), with_sign(lanes, low, sign), sign, turns)
+    return Rest(lanes.intrinsic("fabs", signed), with_sign(lanes, low, sign), sign, turns, unknown)
 
 
 def _reduced(lanes: Lanes, size: str) -> tuple[str, str, str]:
@@ -79,6 +87,13 @@ def _reduced(lanes: Lanes, size: str) -> tuple[str, str, str]:
     value = fma(turns_of_many, const(-fourth), nearer)
     low = lanes.add(low, fma(turns_of_many, const(-fourth), lanes.sub(nearer, value)))
     return value, low, lanes.text.op(f"bitcast {lanes.kind} {shifted} to {lanes.integers}")
+
+
+def _unknown(lanes: Lanes, size: str) -> str:
+    large = lanes.compare("oge", size, lanes.const(_LARGEST))
+    own_way = lanes.compare("oeq", size, lanes.const(_OWN_WAY))
+    either = lanes.text.op(f"or {lanes.flags} {large}, {own_way}")
+    return lanes.text.op(f"sext {lanes.flags} {either} to {lanes.integers}")
 
 
 def nearest_turns(lanes: Lanes, size: str) -> str:

@@ -16,10 +16,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.exact_functions.angles import ROWS, sines_and_cosines
-from desire_tui.engine.codegen.exact_functions.constants import half_pi
 from desire_tui.engine.codegen.exact_functions.lookups import loaded_rows
 from desire_tui.engine.codegen.exact_functions.pairs import Pairs
-from desire_tui.engine.codegen.exact_functions.quarter_turns import LARGEST, rest_of, sign_of, with_sign
+from desire_tui.engine.codegen.exact_functions.quarter_turns import rest_of, sign_of, with_sign
 from desire_tui.engine.codegen.exact_functions.rounding_test import Result
 
 if TYPE_CHECKING:
@@ -27,10 +26,6 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.ir.lanes import Lanes
 
-_OWN_WAY = float(half_pi()) + 27 / 256
-"""Between 0.855 and 2.43 glibc's sin looks for k before it adds d to a, its cos and sincos after that. Where
-a is halfway between two k, these may differ; of all such numbers only this one has another sine for it.
-The library is asked."""
 _GRID = 1.5 * 2.0**45
 """Added and taken away: rounds to multiples of 1/128, whose number its last bits show."""
 _TAYLOR_BELOW = 0.126
@@ -68,8 +63,7 @@ class SineAndCosine:
     def __init__(self, lanes: Lanes, names: Sequence[str]) -> None:
         self.lanes, self._fma, self._names = lanes, Pairs(lanes).fma, names
         text, integers = lanes.text, lanes.integers
-        self._size = lanes.intrinsic("fabs", "%x")
-        rest = self._rest = rest_of(lanes, self._size)
+        rest = self._rest = rest_of(lanes, lanes.intrinsic("fabs", "%x"))
         shifted = lanes.add(rest.size, lanes.const(_GRID))
         self._r = lanes.sub(rest.size, lanes.sub(shifted, lanes.const(_GRID)))
         place = text.op(f"bitcast {lanes.kind} {shifted} to {integers}")
@@ -86,12 +80,7 @@ class SineAndCosine:
 
     def results(self) -> list[Result]:
         """Return what was asked for, in the order of the names."""
-        lanes, text = self.lanes, self.lanes.text
-        doubt = lanes.compare("oge", self._size, lanes.const(LARGEST))
-        if "sin" in self._names:
-            own_way = lanes.compare("oeq", self._size, lanes.const(_OWN_WAY))
-            doubt = text.op(f"or {lanes.flags} {doubt}, {own_way}")
-        doubts = text.op(f"sext {lanes.flags} {doubt} to {lanes.integers}")
+        lanes = self.lanes
         if len(self._names) == 1:
             values = dict.fromkeys(self._names, self._one())
         else:
@@ -100,7 +89,7 @@ class SineAndCosine:
                 "sin": lanes.choose(self._odd, cosine, sine),
                 "cos": lanes.choose(self._odd, sine, cosine),
             }
-        return [Result(self._signed(name, values[name]), doubts) for name in self._names]
+        return [Result(self._signed(name, values[name]), self._rest.unknown) for name in self._names]
 
     def _one(self) -> str:
         """Return sin(a + d) for even, cos(a + d) for odd elements, whose row has the cosine as its own."""
