@@ -47,9 +47,14 @@ for name in ("sin", "cos", "sincos"):
 
 @pytest.fixture
 def afresh(monkeypatch):
-    """No function and no program was made yet."""
+    """No function and no program was made yet; models compiled later call the functions that stay."""
+    known = compiled._known
     monkeypatch.setattr(compiled, "_known", {})
     monkeypatch.setattr(chunks, "_PROGRAMS", chunks._Programs())
+    yield
+    for function in known.values():
+        if function is not None:
+            function.register()
 
 
 def arguments(seed: int) -> np.ndarray:

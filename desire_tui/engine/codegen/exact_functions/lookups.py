@@ -60,11 +60,10 @@ def loaded_rows(lanes: Lanes, place: str, rows: Sequence[Sequence[float]]) -> li
     found: list[list[str]] = [[] for _ in range(_ROW)]
     for first in range(0, lanes.width, size):
         own = [_joined(lanes, loaded[first + k : first + size : _ROW], _ROW) for k in range(_ROW)]
-        pairs = [
-            [_mixed(lanes, own[k], own[k + 1], size, (odd, odd + 2), 1) for k in (0, 2)] for odd in (0, 1)
-        ]
-        for number, parts in enumerate(found):
-            parts.append(_mixed(lanes, *pairs[number % 2], size, (number // 2 * 2,), 2))
+        for odd in (0, 1):
+            a, b = (_mixed(lanes, own[k], own[k + 1], size, (odd, odd + 2), 1) for k in (0, 2))
+            for half in (0, 2):
+                found[odd + half].append(_mixed(lanes, a, b, size, (half,), 2))
     return [_joined(lanes, parts, size) for parts in found]
 
 
