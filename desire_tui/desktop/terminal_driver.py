@@ -47,6 +47,29 @@ class TerminalDriver(LinuxDriver):
         if self._key_thread is None or not self._key_thread.is_alive():  # it could not be taken
             self._lost()
 
+    def _sigcont_application(self, *signal_and_frame: Any) -> None:
+        """Go on. What was stopped by SIGSTOP did not leave the terminal before: it does so first.
+
+        Textual (pinned) would read in two threads, which disorder keys, and take the modes that
+        it has set for those to leave behind.
+        """
+        if self._auto_restart and self._key_thread is not None and self._key_thread.is_alive():
+            self._loop.call_soon_threadsafe(self._take_again)  # what a signal interrupts may hold locks
+        else:
+            super()._sigcont_application(*signal_and_frame)
+
+    def _take_again(self) -> None:
+        """Set the terminal's modes again, and draw all of the screen: a shell may have had it meanwhile."""
+        before = self.attrs_before
+        self.exit_event.set()
+        if self._key_thread is not None:
+            self._key_thread.join()
+        self.exit_event.clear()
+        self.close()
+        self._must_signal_resume = True
+        self.start_application_mode()
+        self.attrs_before = before
+
     def run_input_thread(self) -> None:
         """Read and send events until the driver, or the terminal, is at its end."""
         parser = XTermParser(self._debug)
