@@ -12,6 +12,8 @@ from desire_tui.common.paths import full
 from desire_tui.engine.diagnostics import DesireError, closest
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.studies.charts import ChartKind
     from desire_tui.studies.dataset import Layout
     from desire_tui.studies.study import Study
@@ -32,8 +34,10 @@ class StudyActions(Controller):
         app = self.app
         word, _, rest = argument.partition(" ")
         match word:
-            case "pause" | "go":
-                return self.pause()
+            case "pause":
+                return self._when_going(app.studies.pause)
+            case "go":
+                return self._when_going(app.studies.go_on)
             case "stop":
                 return self.stop()
             case "chart":
@@ -88,18 +92,20 @@ class StudyActions(Controller):
     def pause(self, argument: str = "") -> None:
         """Make no new runs, or go on."""
         del argument
-        if self.app.studies.is_going:
-            self.app.studies.pause()
-        else:
-            self.app.notify(NO_STUDY, timeout=3)
+        studies = self.app.studies
+        self._when_going(studies.go_on if studies.is_paused else studies.pause)
 
     def stop(self, argument: str = "") -> None:
         """End the study."""
         del argument
+        self._when_going(self.app.studies.stop)
+
+    def _when_going(self, act: Callable[[], object]) -> None:
+        """Tell a study that goes on what to do; the user is told if none does."""
         if self.app.studies.is_going:
-            self.app.studies.stop()
+            act()
         else:
-            self.app.notify(NO_STUDY, timeout=3)
+            self.app.notify(NO_STUDY if self.app.studies.study is None else "No study goes on.", timeout=3)
 
     async def chart(self, argument: str = "") -> None:
         """Show another chart: `histogram x[end]`, `scatter x[end] k`."""

@@ -64,11 +64,13 @@ class StudyRunner:
         self._look()
 
     def pause(self) -> None:
-        """Make no new runs, or go on; those under way are ended."""
-        if self._may_go_on.is_set():
-            self._may_go_on.clear()
-        else:
-            self._may_go_on.set()
+        """Make no new runs; those under way are ended."""
+        self._may_go_on.clear()
+        self._look()
+
+    def go_on(self) -> None:
+        """Make runs again."""
+        self._may_go_on.set()
         self._look()
 
     def stop(self) -> None:
@@ -137,6 +139,8 @@ class StudyRunner:
 
             study = planned(source, options)
             plan = study.plan
+            if output is not None:
+                plan.check_disk(output)
             charts = [StudyChart(one, usual_kind(plan, one)) for one in layouts(plan)[:CHARTS_MOST]]
             self.study, self.charts = study, charts
             study.run(options.get("threads"), progress=self._made)

@@ -45,16 +45,16 @@ def begin_page(pages: GraphPages, drawn: Chart, program: str) -> Graph:
 
 def update_page(page: Graph, drawn: Chart) -> None:
     """Show a chart on its page in place of what is there."""
+    page.texts |= {"title": drawn.title, "xlabel": drawn.x_name, "ylabel": drawn.y_name}
+    page.caption = f"{drawn.y_name} vs. {drawn.x_name}"
     if drawn.picture is not None:
         finite = np.abs(drawn.picture[np.isfinite(drawn.picture)])
         scale = float(finite.max()) if finite.size and finite.max() > 0 else 1.0
         page.frame = Frame("picture", 0.0, 1.0, 0.0, 1.0, scale)
-        page.caption = drawn.title
+        page.cells = drawn.cells
         page.shown = [ShownArray(drawn.y_name, drawn.picture.shape[1], scale, drawn.picture.ravel())]
         page.erased += 1
         return
-    page.texts |= {"title": drawn.title, "xlabel": drawn.x_name, "ylabel": drawn.y_name}
-    page.caption = f"{drawn.y_name} vs. {drawn.x_name}"
     page.frame = frame = _frame(drawn)
     page.has_keys = 1 < len(drawn.lines) <= KEYS_MOST
     record = still_record([drawn.x, *(line.y for line in drawn.lines)], frame)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 import numpy as np
 
 from desire_tui.engine.data_classes import dataclass, field
+from desire_tui.engine.graph.cells import Cells
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,7 +46,7 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True)
 class Chart:
-    """What is drawn. `picture`: a map, its rows from the top down; else `lines` over `x`."""
+    """What is drawn. `picture` (its rows from the top down, named by `cells`), or else `lines` over `x`."""
 
     kind: ChartKind
     title: str
@@ -55,6 +56,7 @@ class Chart:
     lines: Sequence[Line] = ()
     joined: bool = True
     picture: Floats | None = None
+    cells: Cells | None = None
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ def chart(results: Results, kind: ChartKind, parameter: str = "") -> Chart | str
             if results.numbers.shape[1] == 1:
                 told = f"{results.layout.name} is one number of a run"
                 return f"{told}: a {kind} chart needs times, {example(results)}"
-            return _fan(results) if kind == "fan" else _curves(results)
+            return _fan(results) if kind == "fan" else _curves(results, parameter)
         case "histogram" | "cumulated":
             if results.numbers.shape[1] > 1:
                 return CURVE_NOT_NUMBER.format(name=results.layout.name)
@@ -142,12 +144,30 @@ def _quantiles(numbers: Floats) -> Floats:
         return np.asarray(np.nanquantile(numbers, QUANTILES, axis=0))
 
 
-def _curves(results: Results) -> Chart:
-    shown = _spread(np.flatnonzero(results.made), CURVES_MOST)
+def _curves(results: Results, parameter: str) -> Chart | str:
+    """Draw the curves in the colours of a quantity that varies, of the first one if none is named."""
     names = results.plan.design.names
-    last = max(results.plan.runs - 1, 1)
-    lines = [Line(_values(names, results.values(int(k))), results.numbers[k], int(k) / last) for k in shown]
-    return Chart("curves", _named(results), "t", _ordinate(results), _times(results), lines)
+    if parameter and parameter not in names:
+        return _not_varied(parameter, names)
+    shown = _spread(np.flatnonzero(results.made), CURVES_MOST)
+    rows = [results.values(run) for run in shown.tolist()]
+    if not names:
+        parts, title = shown / max(results.plan.runs - 1, 1), _named(results)
+    else:
+        chosen = parameter or names[0]
+        along = np.array([row[names.index(chosen)] for row in rows])
+        low, high = (along.min(), along.max()) if len(along) else (0.0, 1.0)
+        parts = (along - low) / ((high - low) or 1.0)
+        title = f"{_named(results)} · {chosen} = {low:.4g} … {high:.4g}"
+    lines = [
+        Line(_values(names, row), results.numbers[run], part)
+        for run, row, part in zip(shown.tolist(), rows, parts.tolist(), strict=True)
+    ]
+    return Chart("curves", title, "t", _ordinate(results), _times(results), lines)
+
+
+def _not_varied(name: str, names: Sequence[str]) -> str:
+    return f"'{name}' does not vary; what does: {', '.join(names)}"
 
 
 def _values(names: Sequence[str], row: Floats) -> str:
@@ -204,19 +224,15 @@ def _map(results: Results) -> Chart | str:
         return "a map needs a grid over two quantities: --over a=…  --over b=…"
     numbers = results.numbers[:, 0].reshape(grid[0].size, grid[1].size)
     down, across = grid
-    across_from_to, down_from_to = _range(across.name, across.values), _range(down.name, down.values)
-    title = f"{_named(results)}: {across_from_to} across, {down_from_to} down"
+    assert across.values is not None
+    assert down.values is not None
     finite = numbers[np.isfinite(numbers)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     return Chart(
-        "map", f"{title}; dark to bright {low:.4g} … {high:.4g}", across.name, down.name,
+        "map", f"{_named(results)} · {low:.4g} … {high:.4g}", across.name, down.name,
         picture=(numbers - low) / ((high - low) or 1.0),
+        cells=Cells(tuple(across.values.tolist()), tuple(down.values.tolist()), low, high),
     )  # fmt: skip
-
-
-def _range(name: str, values: Floats | None) -> str:
-    assert values is not None
-    return f"{name} = {values[0]:.4g} … {values[-1]:.4g}"
 
 
 def _scatter(results: Results, parameter: str) -> Chart | str:
@@ -225,7 +241,7 @@ def _scatter(results: Results, parameter: str) -> Chart | str:
         return "nothing varies in this study"
     chosen = parameter or names[0]
     if chosen not in names:
-        return f"'{chosen}' does not vary; what does: {', '.join(names)}"
+        return _not_varied(chosen, names)
     runs = min(results.plan.runs, SCATTER_MOST)
     made = results.made[:runs]
     x = results.plan.design.rows(0, runs)[made, names.index(chosen)]

@@ -32,6 +32,8 @@ def study_file(name: str, options: dict[str, Any]) -> int:
             check_ending(output)
         store = output if output is not None and output.suffix == ".zarr" else None
         study = planned(source_named(name), options, store)
+        if output is not None:
+            study.plan.check_disk(output)
         shown = _ProgressLine(sys.stderr) if sys.stderr.isatty() and not options["quiet"] else None
         status = _run(study, options, shown)
         return _tell(study, output, status, quiet=options["quiet"])
@@ -109,7 +111,7 @@ def _tell(study: Study, output: Path | None, status: int, *, quiet: bool) -> int
         )
     if not quiet:
         shape = " × ".join(f"{axis.size} {axis.name}" for axis in study.plan.design.axes)
-        made = f"{runs} runs" if study.made == runs else f"{study.made} of {runs} runs"
+        made = f"{runs} run{'s' * (runs != 1)}" if study.made == runs else f"{study.made} of {runs} runs"
         sys.stdout.write(f"{made} ({shape}), {failures.count} failed; made {study.way}\n")
         if output is None or output.suffix != ".zarr":
             sys.stdout.write("".join(f"{line}\n" for line in summary(result)))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from desire_tui.studies.design import RUN
+from desire_tui.studies.texts import whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -45,13 +46,32 @@ def layouts(plan: Plan) -> list[Layout]:
     ]
 
 
+def check_names(plan: Plan) -> None:
+    """DesireError 510: two things of the result would have one name."""
+    own = [axis.name for axis in plan.design.axes if axis.values is None]
+    for name in plan.design.names:
+        if name in (ERROR, *own):
+            raise whole(name, "what varies").wrong(
+                f"'{name}' is what the results call something else", "call it otherwise in the program"
+            )
+    for item in plan.kept.items:
+        if item.label in (ERROR, *own, *plan.design.names):
+            told = "varies" if item.label in plan.design.names else "is what the results call something else"
+            place = whole(plan.kept.text, "--keep")
+            raise place._replace(text=item.label, at=plan.kept.text.find(item.label)).wrong(
+                f"'{item.label}' {told}", f"another name for what is kept: {item.label}_kept = …"
+            )
+
+
 def time_names(plan: Plan) -> dict[tuple[float, ...], str]:
     """Return the dimensions over times: `t`, `t_2`, … for different lists of times."""
     found: dict[tuple[float, ...], str] = {}
     taken = {axis.name for axis in plan.design.axes} | set(plan.design.names)
+    taken |= {item.label for item in plan.kept.items}
     for item in plan.kept.items:
         if item.kind == "at" and not item.single and item.times not in found:
-            number, name = len(found) + 1, _TIME if not found else f"{_TIME}_{len(found) + 1}"
+            number = len(found) + 1
+            name = _TIME if number == 1 else f"{_TIME}_{number}"
             while name in taken:
                 number += 1
                 name = f"{_TIME}_{number}"

@@ -2,29 +2,31 @@
 
 from __future__ import annotations
 
-import csv
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from desire_tui.engine.data_files.data_table import cells_of, number_in, separator_of
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.files import read_source
 from desire_tui.studies.distributions import EXAMPLE as DRAWN
 from desire_tui.studies.distributions import Distribution, distribution, read
-from desire_tui.studies.texts import name_and_rest, number, split, whole
+from desire_tui.studies.texts import Piece, name_and_rest, number, split, whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from desire_tui.studies.texts import Piece
+    from desire_tui.engine.source import Source
 
     Floats = NDArray[np.float64]
 
 EXAMPLE = "UC=0.2:0.3:101 (from, to, how many), k=1:1000:4:log, lead=0,5,10"
-COUNT_MOST = 1 << 40
+POINTS = "names, then a line of numbers for each run: k,x0"
+COUNT_MOST = 10_000_000
+"""Values of one quantity of a grid: they are kept in memory, and told in the result."""
 
 
 def over_texts(texts: Iterable[str]) -> dict[str, Floats]:
@@ -48,7 +50,9 @@ def values(piece: Piece) -> Floats:
     if len(parts) != 3 and not is_log:
         raise piece.wrong(f"'{piece.text}' names no values", f"from:to:count, for instance {EXAMPLE}")
     first, last, count = number(parts[0], EXAMPLE), number(parts[1], EXAMPLE), number(parts[2], EXAMPLE)
-    if count != int(count) or not 0 <= count <= COUNT_MOST:
+    if count > COUNT_MOST:
+        raise parts[2].wrong(f"{count:g} values are more than {COUNT_MOST:,}", "take fewer, or draw them")
+    if count != int(count) or count < 0:
         raise parts[2].wrong(f"{count:g} is no number of values", f"from:to:count, for instance {EXAMPLE}")
     if count == 0:
         facts = {"what": f"'{piece.text}' has no values", "remedy": "a count of 1 or more"}
@@ -94,27 +98,58 @@ def points_of(given: Any) -> dict[str, Floats]:
 
 
 def points_file(path: Path) -> dict[str, Floats]:
-    """Read a file whose first line holds names, the others numbers. DesireError 38, 510."""
+    """Read a file whose first line holds names, the others numbers. DesireError 38, 510, 511.
+
+    Between them stand commas, semicolons or tabs; decimal signs are points or commas; `#` begins comments.
+    """
     source = read_source(path)
-    rows = [row for row in csv.reader(source.text.splitlines()) if any(cell.strip() for cell in row)]
-    if not rows:
-        raise DesireError(
-            Diagnostic("study-empty", None, {"what": f"{path} is empty", "remedy": "names, then numbers"})
-        )
-    names = [
-        name_and_rest(whole(f"{cell}=", str(path))._replace(text=f"{cell.strip()}=0"), "k,x0")[0]
-        for cell in rows[0]
-    ]
-    columns: list[list[float]] = [[] for _ in names]
-    for line, row in enumerate(rows[1:], 2):
-        if len(row) != len(names):
-            text = whole(",".join(row), f"{path}:{line}")
-            raise text.wrong(
-                f"{len(row)} values stand in a line of {len(names)}", "one for each name in the first line"
-            )
-        for cell, column in zip(row, columns, strict=True):
-            column.append(number(whole(cell, f"{path}:{line}"), "0.25"))
-    return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
+    lines = list(_lines(source))
+    if not lines:
+        facts = {"what": f"{path} is empty", "remedy": "names, then numbers"}
+        raise DesireError(Diagnostic("study-empty", None, facts))
+    separator = separator_of(lines[0].text)
+    names: list[str] = []
+    for cell in _cells(lines[0], separator):
+        if not cell.text:
+            raise cell.wrong("a name is missing here", POINTS)
+        name = name_and_rest(cell._replace(text=f"{cell.text}=0"), POINTS)[0]
+        if name in names:
+            raise cell.wrong(f"'{name}' is given twice", "leave one of its columns away")
+        names.append(name)
+    table = np.empty((len(lines) - 1, len(names)))
+    for row, line in zip(table, lines[1:], strict=True):
+        cells = _cells(line, separator)
+        if len(cells) != len(names):
+            told = f"{len(cells)} value{'s' * (len(cells) != 1)} in a line of {len(names)}"
+            raise line.wrong(told, "one for each name in the first line")
+        for place, cell in enumerate(cells):
+            value = number_in(cell.text)
+            if value is None:
+                raise cell.wrong(
+                    f"'{cell.text}' is no number" if cell.text else "a number is missing", POINTS
+                )
+            row[place] = value
+    return {name: table[:, place].copy() for place, name in enumerate(names)}
+
+
+def _lines(source: Source) -> Iterator[Piece]:
+    """Yield the lines of a table, without blank ones and comments."""
+    at = 0
+    for line in source.text.split("\n"):
+        if line.strip() and not line.lstrip().startswith("#"):
+            yield Piece(line, at, source).part(0)
+        at += len(line) + 1
+
+
+def _cells(line: Piece, separator: str | None) -> list[Piece]:
+    """Return what stands between separators, without quotes, each with its place."""
+    found, at = [], 0
+    for text in (cell.strip() for cell in cells_of(line.text, separator)):
+        at = max(line.text.find(text, at), at)
+        found.append(line._replace(text=text, at=line.at + at))
+        at += len(text)
+        at = max(line.text.find(separator, at) + 1, at) if separator else at
+    return found
 
 
 def _name(text: str) -> str:

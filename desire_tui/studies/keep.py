@@ -9,6 +9,7 @@ import numpy as np
 
 from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import closest
+from desire_tui.engine.library import LIBRARY
 from desire_tui.engine.session.kept_expressions import Expression, KeptExpressions
 from desire_tui.studies.texts import number, outside, split, whole
 
@@ -23,6 +24,7 @@ REDUCTIONS = get_args(Reduction)
 EXAMPLE = "x[end], max(x), mean(x), t[x<1], x@2, x@0:2:0.1"
 _ALIAS = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)", re.ASCII)
 _CALL = re.compile(r"([A-Za-z]\w*)\s*\(", re.ASCII)
+_OF_KEPT = re.compile(r"\[\s*end\s*\]|\b(max|min|mean|integral|first|last)\s*\((?!.*,)")
 _NAME = re.compile(r"[A-Za-z][\w$]*(\[[^\[\]]*\])?", re.ASCII)
 _RELATION = re.compile(r"[<>=]|\b(and|or|not)\b")
 TIMES_MOST = 1_000_000
@@ -113,6 +115,13 @@ def _item(piece: Piece) -> Kept:
         near = closest(call[1], REDUCTIONS)
         if near and is_one:
             raise body.wrong(f"'{text}' is no number of a run", "", close=f"{near}({inside.text})")
+        if call[1] not in LIBRARY:
+            raise body.wrong(
+                f"'{call[1]}' is neither kept nor computed", f"there are {', '.join(REDUCTIONS)}"
+            )
+    if _OF_KEPT.search(text):
+        told = f"'{text}' is computed from what is kept"
+        raise body.wrong(told, "keep its parts, and compute with the results; or max(x - y), (x - y)[end]")
     example = text if _NAME.fullmatch(text) else "x"
     remedy = f"{example}[end] is its last value, max({example}) its largest, {example}@2 the one at t = 2"
     raise body.wrong(f"'{text}' has many values in a run", remedy)

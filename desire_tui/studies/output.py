@@ -29,6 +29,9 @@ def check_ending(path: Path) -> None:
 
 def write(result: Any, path: Path) -> None:
     """Write a Dataset as the path's ending says. DesireError 106."""
+    if path.suffix == ".zarr" and path.exists():
+        facts = {"path": str(path), "reason": "it is there already"}
+        raise DesireError(Diagnostic("file-unwritable", None, facts))
     try:
         if path.suffix == ".nc":
             _write_netcdf(result, path)
@@ -81,17 +84,18 @@ def _tables(result: Any) -> Iterator[Any]:
 
 
 def summary(result: Any) -> list[str]:
-    """Return lines that say what came out: of each quantity the least, the mean, the largest number."""
+    """Return lines that say what came out: how many runs have a quantity, its least, mean, largest number."""
     import numpy as np
 
-    lines = [f"{'':24} {'min':>14} {'mean':>14} {'max':>14}"]
+    runs = result["error"].size
+    lines = [f"{'':24} {'runs':>9} {'min':>14} {'mean':>14} {'max':>14}"]
     for name, values in result.data_vars.items():
         if name == "error":
             continue
         numbers = np.asarray(values.values)
         good = numbers[np.isfinite(numbers)]
-        if good.size:
-            lines.append(f"{name!s:24} {good.min():14.7g} {good.mean():14.7g} {good.max():14.7g}")
-        else:
-            lines.append(f"{name!s:24} {'–':>14} {'–':>14} {'–':>14}")
+        having = np.isfinite(numbers.reshape(runs, -1)).any(axis=1).sum()
+        three = (good.min(), good.mean(), good.max()) if good.size else ()
+        told = " ".join(f"{number:14.7g}" for number in three) or " ".join([f"{'–':>14}"] * 3)
+        lines.append(f"{name!s:24} {having:9} {told}")
     return lines

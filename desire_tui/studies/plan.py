@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 
 _NUMBER, _ERROR = 8, 2
 """Bytes of a number kept, of an error's number."""
+_WRITTEN = 16
+"""Bytes of a number in a table, at least as a rule."""
+_HYPERCUBE = 3
+"""So many arrays of a whole design are in memory when scipy makes a Latin hypercube."""
 _ALLOWED = 0.8
 """Of what is free."""
 
@@ -59,19 +63,37 @@ class Plan:
             "desire-tui": __version__,
         }
 
-    def check_room(self, folder: Path | None) -> None:
-        """DesireError 512: the result fits neither into memory nor (`folder`) on the disk."""
-        where = "the machine's memory" if folder is None else f"the disk of {folder}"
-        free = _memory_free() if folder is None else shutil.disk_usage(_existing(folder)).free
-        if self.bytes > _ALLOWED * free:
-            facts = {
-                "runs": self.runs,
-                "numbers": self.kept.size,
-                "gigabytes": self.bytes / 1e9,
-                "where": where,
-                "free": free / 1e9,
-            }
+    def check_memory(self, *, keeps_results: bool) -> None:
+        """DesireError 512: what has to be in memory does not fit there."""
+        wanted = self.bytes if keeps_results else 0
+        if self.design.method == "latin":
+            wanted += _HYPERCUBE * self.design.draws * len(self.design.names) * _NUMBER
+        remedy = "keep less, make fewer runs, or write to a .zarr folder, which is filled piece by piece"
+        if not keeps_results:
+            remedy = "draw them with --design random or sobol, which are made piece by piece"
+        self._check(wanted, "the machine's memory", _memory_free(), remedy)
+
+    def check_disk(self, path: Path) -> None:
+        """DesireError 512: the result does not fit on a file's disk."""
+        wanted = self.bytes
+        if path.suffix == ".csv":
+            wanted = self.runs * (self.kept.size + len(self.design.names) + 1) * _WRITTEN
+        free = shutil.disk_usage(_existing(path)).free
+        self._check(wanted, f"the disk of {path}", free, "keep less, make fewer runs, or write elsewhere")
+
+    def _check(self, wanted: int, where: str, free: int, remedy: str) -> None:
+        if wanted > _ALLOWED * free:
+            facts = {"runs": self.runs, "numbers": self.kept.size, "where": where, "remedy": remedy}
+            facts |= {"size": _size(wanted), "free": _size(free)}
             raise DesireError(Diagnostic("study-too-large", None, facts))
+
+
+def _size(number: int) -> str:
+    """Return so many bytes with a unit that people know."""
+    for unit, factor in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
+        if number >= factor:
+            return f"{number / factor:.3g} {unit}"
+    return f"{number} B"
 
 
 def _existing(folder: Path) -> Path:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.thread_count import cores
 from desire_tui.studies.chunk import prepare
+from desire_tui.studies.dataset import check_names
 from desire_tui.studies.keep import kept
 from desire_tui.studies.local_threads import chunks_by_threads
 from desire_tui.studies.plan import Plan
@@ -40,9 +41,15 @@ class Study:
     ) -> None:
         _check_libraries(store)
         self.plan = Plan(task, design, kept(task.keep))
+        check_names(self.plan)
+        for name, _ in task.fixed:
+            if name in design.names:
+                raise DesireError(Diagnostic("study-twice", None, {"name": name}))
         self.way = prepare(task)
         """How its runs are made, in words."""
-        self.plan.check_room(store)
+        self.plan.check_memory(keeps_results=store is None)
+        if store is not None:
+            self.plan.check_disk(store)
         self.made = 0
         """Runs made so far, by earlier studies that went on too."""
         self.store: Store = (

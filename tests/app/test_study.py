@@ -35,6 +35,10 @@ async def test_a_study_from_its_line_to_its_file(program, tmp_path):
         await desk.line("study save out.csv")
         await desk.until((tmp_path / "out.csv").exists)
         assert len((tmp_path / "out.csv").read_text().splitlines()) == 61
+        for _ in range(2):
+            await desk.line("study save out.zarr")
+            await desk.until((tmp_path / "out.zarr" / "top").exists)
+        await desk.until(lambda: "out.zarr: it is there already" in desk.output)
 
 
 async def test_a_study_is_paused_goes_on_and_is_stopped(program):
@@ -47,8 +51,11 @@ async def test_a_study_is_paused_goes_on_and_is_stopped(program):
         assert "paused" in str(desk.app.graph.work_row.content)
         await desk.line("study --over a=1:2:2 --keep x[end]")
         assert "A study goes on" in desk.output
-        await desk.line("study go")
-        assert not studies.is_paused
+        await desk.line("study pause")
+        assert studies.is_paused
+        for _ in range(2):
+            await desk.line("study go")
+            assert not studies.is_paused
         await desk.line("study stop")
         await over(desk)
         assert 0 < studies.progress.made < 1_000_000

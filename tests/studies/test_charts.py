@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
+from desire_tui.engine.graph.cells import cell_ticks
 from desire_tui.engine.graph.pages import GraphPages
+from desire_tui.engine.outputs.matplotlib_figure import draw
+from desire_tui.engine.outputs.text_frame import text_frame
 from desire_tui.engine.source import Source
 from desire_tui.studies.chart_page import begin_page, update_page
 from desire_tui.studies.charts import CHART_KINDS, Chart, Results, chart, usual_kind
@@ -44,6 +49,15 @@ def test_curves_are_named_by_what_varied_and_go_along_the_ramp():
     assert drawn.lines[2].y == pytest.approx([0, 1.5, 3])
 
 
+def test_curves_of_drawn_runs_have_the_colours_of_a_quantity_that_varies():
+    study = results("--sample a=normal(0,1), b=uniform(0,1) --runs 5 --keep x@0:1:0.5")
+    for name, column in (("", 0), ("a", 0), ("b", 1)):
+        along = study.plan.design.rows(0, 5)[:, column]
+        drawn = chart(study, "curves", name)
+        assert [line.part for line in drawn.lines] == pytest.approx((along - along.min()) / np.ptp(along))
+        assert f" · {name or 'a'} = {along.min():.4g} … " in drawn.title
+
+
 def test_a_histogram_counts_every_run_once():
     drawn = chart(results("--over a=0:99:100 --keep x[end]"), "histogram")
     tops = drawn.lines[0].y[1::4]
@@ -69,7 +83,18 @@ def test_a_number_over_a_parameter_and_over_drawn_runs_its_quantiles():
 def test_a_map_has_a_row_for_each_value_of_the_first_quantity():
     drawn = chart(results("--over a=0:1:2 --over b=0:2:3 --keep x[end]"), "map")
     assert drawn.picture == pytest.approx(np.array([[0, 1, 2], [1, 2, 3]]) / 3)
-    assert "b = 0 … 2 across, a = 0 … 1 down; dark to bright 0 … 3" in drawn.title
+    assert drawn.title.endswith("of 6 runs · 0 … 3")
+    page = begin_page(GraphPages(), drawn, "line.src")
+    frame = "\n".join(text_frame(page, 40, 14).lines)
+    assert re.search(r"^ *0┤.*^ *1┤.*^ *0 +1 +2\b.*a vs\. b", frame, re.MULTILINE | re.DOTALL)
+    axes, bar = draw(page).axes
+    assert [label.get_text() for label in axes.get_xticklabels()] == ["0", "1", "2"]
+    assert (axes.get_ylabel(), bar.get_ylim()) == ("a", pytest.approx((0, 3)))
+
+
+def test_the_sides_of_a_large_map_have_as_many_labels_as_have_room():
+    assert cell_ticks(tuple(range(10)), 4) == ((0, "0"), (3, "3"), (6, "6"), (9, "9"))
+    assert cell_ticks((1.0, 100.0), 1) == ((0, "1"),)
 
 
 def test_a_scatter_has_a_point_for_each_run():
@@ -85,6 +110,7 @@ def test_a_scatter_has_a_point_for_each_run():
         ("--over a=1:3:3 --keep x[end]", "map", "", "a map needs a grid over two quantities"),
         ("--over a=1:3:3 --keep x[end]", "scatter", "c", "'c' does not vary; what does: a"),
         ("--over a=1:3:3 --over b=1:3:3 --keep x[end]", "over", "", "2 quantities vary over a grid"),
+        ("--over a=1:3:3 --keep x@0:1:0.5", "curves", "b", "'b' does not vary; what does: a"),
         ("--over a=1:3:3 --keep x@0:1:0.5", "histogram", "", "x@0:1:0.5 is a curve of each run"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import shutil
 
 import pytest
 from click.testing import CliRunner
@@ -66,9 +67,25 @@ def test_the_summary(study):
     result = study("--sample", "k=uniform(1,2)", "--runs", "50", "--seed", "7", "--keep", "x@0, t[x<-5]")
     assert "50 runs (50 run), 0 failed; made in lock step" in result.output
     assert [line.split() for line in result.output.splitlines()[1:]] == [
-        ["min", "mean", "max"], ["x@0", "1", "1", "1"], ["t[x<-5]", "–", "–", "–"],
+        ["runs", "min", "mean", "max"], ["x@0", "50", "1", "1", "1"], ["t[x<-5]", "0", "–", "–", "–"],
     ]  # fmt: skip
     assert study("--keep", "x[end]", "--quiet").output == ""
+
+
+@pytest.mark.parametrize(("name", "size"), [("F.zarr", "2 MB"), ("F.nc", "2 MB"), ("F.csv", "12.8 MB")])
+def test_a_study_too_large_for_the_disk_is_refused_before_its_first_run(
+    study, tmp_path, monkeypatch, name, size
+):
+    free = shutil.disk_usage(tmp_path)._replace(free=2_000_000)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: free)
+    options = ["--over", "k=1:2:1000", "--over", "r=0:1:200", "--keep", "x[end]", "-o", str(tmp_path / name)]
+    ended = study(*options)
+    assert ended.exit_code == 1
+    assert (
+        f"200000 runs of 1 number each take {size}; the disk of {tmp_path / name} has 2 MB left"
+        in ended.output
+    )
+    assert not (tmp_path / name).exists()
 
 
 def test_what_scripts_ask_for(study, tmp_path):

@@ -35,6 +35,10 @@ def test_what_can_be_kept():
         ("x", 1, "'x' has many values in a run", "x[end] is its last value"),
         ("y[end], mx(x)", 9, "'mx(x)' is no number of a run", "did you mean 'max(x)'?"),
         ("max(x, y)", 1, "'max(x, y)' has many values", "x[end]"),
+        ("abs(x)", 1, "'abs(x)' has many values", "x[end]"),
+        ("std(x)", 1, "'std' is neither kept nor computed", "max, min, mean, integral, first, last"),
+        ("max(x) - min(x)", 1, "is computed from what is kept", "max(x - y)"),
+        ("abs(x[end])", 1, "is computed from what is kept", "(x - y)[end]"),
         ("x@0:2", 3, "'0:2' names no times", "from, to, step"),
         ("x@0:2:-1", 7, "steps of -1 lead from 0 never to 2", "for instance"),
         ("x@0:1:1e-8", 3, "100000001 times are more than", "a larger step"),
@@ -75,6 +79,7 @@ def test_what_varies():
         ("UC=", 1, "has nothing behind ="),
         ("UC=1:2", 4, "'1:2' names no values"),
         ("UC=1:2:x", 8, "'x' is no number"),
+        ("UC=1:2:1000000000000", 8, "1e+12 values are more than 10,000,000"),
         ("UC=1:2:2.5", 8, "2.5 is no number of values"),
         ("1x=3", 1, "'1x' is no name of a quantity"),
         ("UC=-1:2:3:log", 4, "a logarithmic scale has no 0"),
@@ -161,8 +166,43 @@ def test_lists_from_files(tmp_path):
     path.write_text("k, a[2]\n1, 2\n\n3, 4e-1\n")
     found = points_of(str(path))
     assert {name: values.tolist() for name, values in found.items()} == {"k": [1, 3], "a[2]": [2, 0.4]}
-    for text, message in (("k,r\n1\n", "1 values stand in a line of 2"), ("k\nx\n", "'x' is no number")):
+    for text, message in (("k,r\n1\n", "1 value in a line of 2"), ("k\nx\n", "'x' is no number")):
         path.write_text(text)
         with pytest.raises(DesireError, match=message) as error:
             points_of(path)
-        assert error.value.diagnostics[0].file == f"{path}:2"
+        assert (error.value.diagnostics[0].file, error.value.diagnostics[0].line) == (str(path), 2)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "k;r\n1,5;2\n-3;4e-1\n",
+        "\ufeffk\tr\r\n# b\r\n1.5\t2\r\n\r\n-3\t.4\r\n",
+        '"k","r"\n1.5,"2"\n-3,0.4\n',
+    ],
+)
+def test_lists_as_spreadsheets_write_them(tmp_path, text):
+    path = tmp_path / "runs.csv"
+    path.write_text(text, "utf-8", newline="")
+    found = points_of(path)
+    assert {name: values.tolist() for name, values in found.items()} == {"k": [1.5, -3], "r": [2, 0.4]}
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "message"),
+    [
+        ("k,r\n1,2\n\n\n3,x4\n", (5, 3), "'x4' is no number"),
+        ("k,r\n1,\n", (2, 3), "a number is missing"),
+        ("k, k\n1,2\n", (1, 4), "'k' is given twice"),
+        ("k,,r\n1,2,3\n", (1, 3), "a name is missing here"),
+        ("k,2r\n1,2\n", (1, 3), "'2r' is no name"),
+        ("k,r\n1,2,3\n", (2, 1), "3 values in a line of 2"),
+    ],
+)
+def test_what_is_wrong_in_a_list_is_said_with_its_place(tmp_path, text, place, message):
+    path = tmp_path / "runs.csv"
+    path.write_text(text)
+    with pytest.raises(DesireError, match=message) as error:
+        points_of(path)
+    problem = error.value.diagnostics[0]
+    assert (problem.line, problem.column) == place

@@ -167,6 +167,10 @@ def test_mistakes_are_said_before_the_first_run():
         ({"over": {"k": []}}, "'k' has no values"),
         ({"sample": {"k": "normal(1,2)"}}, "nobody says how often"),
         ({"over": {"k": [1]}, "keep": ""}, "nothing is kept"),
+        ({"over": {"k": [1]}, "set": {"k": 2}}, "'k' is given twice"),
+        ({"over": {"k": [1]}, "keep": "k=max(x)"}, "'k' varies"),
+        ({"over": {"k": [1]}, "keep": "error=max(x)"}, "'error' is what the results call something else"),
+        ({"runs": 2, "keep": "run=max(x)"}, "'run' is what the results call something else"),
     ):
         with pytest.raises(DesireError, match=message):
             desire_tui.study(SPRING, **{"keep": "x[end]", "progress": calls.append} | settings)
@@ -187,8 +191,24 @@ def test_a_study_too_large_for_the_machine_is_refused_with_its_size(monkeypatch)
         desire_tui.study(SPRING, over={"k": "1:2:100000", "r": "1:2:10000"}, keep="x[end], max(x)")
     problem = error.value.diagnostics[0]
     assert problem.code == 512
-    assert "1000000000 runs of 2 numbers each take 18 GB; the machine's memory has 1 left" in problem.message
+    assert (
+        "1000000000 runs of 2 numbers each take 18 GB; the machine's memory has 1 GB left" in problem.message
+    )
     assert ".zarr" in problem.hint
+
+
+def test_a_hypercube_too_large_for_the_memory_is_refused(monkeypatch, tmp_path):
+    monkeypatch.setattr(plan_module, "_memory_free", lambda: 1_000_000)
+    drawn = {"sample": {"k": "uniform(1,2)"}, "runs": 200_000, "keep": "x[end]", "store": tmp_path / "F.zarr"}
+    with pytest.raises(DesireError, match=r"take 4\.8 MB; the machine's memory") as error:
+        desire_tui.study(SPRING, design="latin", **drawn)
+    assert "sobol" in error.value.diagnostics[0].hint
+
+
+def test_curves_get_another_dimension_where_t_is_the_name_of_what_is_kept():
+    found = desire_tui.study(SPRING, over={"k": [4]}, keep="t=max(x), x@0:1:0.5")
+    assert found["t"].dims == ("k",)
+    assert found["x@0:1:0.5"].dims == ("k", "t_2")
 
 
 def test_a_library_that_is_missing_is_said_first(monkeypatch):

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from desire_tui.engine.graph.cells import Cells
     from desire_tui.engine.graph.color_keys import Key
     from desire_tui.engine.graph.curve import Curve, Frame
     from desire_tui.engine.graph.study import Study
@@ -115,6 +116,8 @@ class Graph:
     curves: list[Curve] = field(default_factory=list)
     points: Points = field(default_factory=Points)
     shown: list[ShownArray] = field(default_factory=list)
+    cells: Cells | None = None
+    """What the sides of its picture stand for, if that is known."""
     program: str = ""
     """File name of the program that made it."""
     texts: dict[str, str] = field(default_factory=dict)

@@ -16,7 +16,7 @@ from desire_tui.engine.graph.model import FEW_POINTS
 from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, through
 from desire_tui.engine.graph.ticks import log_ticks, minor_log_ticks, minor_ticks, round_ticks, tick_labels
 from desire_tui.engine.outputs.picture_options import FOR_PAPER, PictureOptions
-from desire_tui.engine.outputs.shown_arrays import FONT, draw_arrays
+from desire_tui.engine.outputs.shown_arrays import FONT, draw_arrays, draw_cells
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -115,6 +115,9 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
     ink = _tint(BLACK if graph.white else 7, graph)
     figure = Figure(figsize=inches, facecolor=ground, layout="constrained")
     shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
+    if graph.cells is not None and shown:
+        draw_cells(figure, figure.add_subplot(), shown[0][1], graph, graph.cells, ink)
+        return figure
     if graph.frame.kind == "picture":
         draw_arrays(shown, [figure.add_subplot(1, len(shown), n + 1) for n in range(len(shown))], ink)
         return figure

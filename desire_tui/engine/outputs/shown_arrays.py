@@ -6,13 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.graph.cells import cell_ticks
 from desire_tui.engine.graph.model import SQUARE_MOST
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from desire_tui.engine.graph.model import ShownArray
+    from desire_tui.engine.graph.cells import Cells
+    from desire_tui.engine.graph.model import Graph, ShownArray
 
     Floats = NDArray[np.float64]
     Tint = tuple[float, float, float]
@@ -31,6 +34,24 @@ def draw_arrays(shown: list[tuple[ShownArray, Floats]], places: list[Axes], ink:
         axes.set_title(array.name, color=ink, fontsize=FONT)
         axes.set_xticks([])
         axes.set_yticks([])
+
+
+def draw_cells(figure: Figure, axes: Axes, picture: Floats, graph: Graph, cells: Cells, ink: Tint) -> None:
+    """Draw a picture whose sides have values, with a bar that says what its colours mean."""
+    drawn = axes.imshow(
+        cells.low + (cells.high - cells.low) * picture, cmap="viridis", vmin=cells.low, vmax=cells.high,
+        interpolation="nearest", aspect="auto",
+    )  # fmt: skip
+    for axis, values, most in ((axes.xaxis, cells.columns, 10), (axes.yaxis, cells.rows, 12)):
+        places, labels = zip(*cell_ticks(values, most), strict=True)
+        axis.set_ticks(places, labels)
+    across, down = graph.axis_names or ("", "")
+    axes.set_xlabel(across, color=ink, fontsize=FONT)
+    axes.set_ylabel(down, color=ink, fontsize=FONT)
+    axes.set_title(graph.heading, loc="left", color=ink, fontsize=FONT)
+    bar = figure.colorbar(drawn, ax=axes)
+    for side in (axes, bar.ax):
+        side.tick_params(colors=ink, labelsize=FONT)
 
 
 def _draw_squares(axes: Axes, array: ShownArray, values: Floats) -> None:

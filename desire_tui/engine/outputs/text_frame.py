@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.data_classes import dataclass, replace
 from desire_tui.engine.graph.axes import equalized
+from desire_tui.engine.graph.cells import cell_ticks
 from desire_tui.engine.graph.fit import WHOLE, limits
 from desire_tui.engine.graph.ticks import log_ticks, minor_log_ticks, minor_ticks, round_ticks, tick_labels
 from desire_tui.engine.visible_text import visible_line
 
 if TYPE_CHECKING:
+    from desire_tui.engine.graph.cells import Cells
     from desire_tui.engine.graph.model import Graph
 
     Window = tuple[float, float, float, float]
@@ -61,7 +63,8 @@ def text_frame(
     columns, rows = max(columns, COLUMNS_LEAST), max(rows, ROWS_LEAST)
     title = graph.title(fitted=fitted, room=columns - 2 * reserved)
     if graph.frame.kind == "picture":
-        return _frame(columns, rows, title, graph.label, _NO_TICKS, _NO_TICKS, graph.net is not None)
+        sides = (_NO_TICKS, _NO_TICKS) if graph.cells is None else _sides(graph.cells, columns, rows)
+        return _frame(columns, rows, title, graph.label, *sides, graph.net is not None)
     left, right, bottom, top = limits(graph, window)
     axes = graph.axes
     y_axis = _ticks(bottom, top, max(min((rows - 4) // 2, 7), 2), is_log=axes.log_y)
@@ -90,6 +93,16 @@ def _minor(ticks: Ticks, low: float, high: float, most: int, *, is_log: bool) ->
     else:
         places = minor_ticks(tuple(low + part * (high - low) for part, _ in ticks), low, high, most)
     return tuple((place - low) / ((high - low) or 1.0) for place in places)
+
+
+def _sides(cells: Cells, columns: int, rows: int) -> tuple[Ticks, Ticks]:
+    """Return labels at the middles of a picture's columns and rows, as many as have room."""
+    widest = max(len(label) for _, label in cell_ticks(cells.columns, len(cells.columns)))
+    most = (columns * 3 // 4) // (widest + _LABEL_GAP)
+    wide, high = len(cells.columns), len(cells.rows)
+    across = tuple(((place + 0.5) / wide, label) for place, label in cell_ticks(cells.columns, most))
+    down = cell_ticks(cells.rows, max((rows - 4) // 2, 1))
+    return across, tuple((1 - (place + 0.5) / high, label) for place, label in reversed(down))
 
 
 def _x_ticks(low: float, high: float, columns: int, *, is_log: bool) -> Ticks:

@@ -15,13 +15,13 @@ MESSAGES: dict[str, Wording] = {
     "study-empty": Wording(511, "a study of no runs: {what}", "{remedy}"),
     "study-too-large": Wording(
         512,
-        "{runs} run(s) of {numbers} number(s) each take {gigabytes:.3g} GB; {where} has {free:.3g} left",
-        "keep less, make fewer runs, or write to a .zarr folder, which is filled piece by piece",
+        "{runs} run(s) of {numbers} number(s) each take {size}; {where} has {free} left",
+        "{remedy}",
     ),
     "study-store": Wording(
         513,
         "{path} holds another study: {what}",
-        "write to another place, or leave --resume away to begin anew",
+        "write to another folder, or remove this one to begin anew",
     ),
     "study-store-there": Wording(
         513, "{path} is there already", "--resume goes on with it; another name keeps both; or remove it"
