@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _FAN_COLORS = (9, 11, 15, 11, 9)
 """Of the quantiles: alike on both sides of the median."""
+_FAN_BANDS = ((0, 4), (1, 3))
 
 
 @dataclass
@@ -60,18 +61,23 @@ def update_page(page: Graph, drawn: Chart) -> None:
     record = still_record([drawn.x, *(line.y for line in drawn.lines)], frame)
     page.curves = [
         Curve(
-            line.name, drawn.x_name, _color(line, number, len(drawn.lines)), record, 1 + number, 0, frame,
+            line.name, drawn.x_name, _color(drawn, line, number), record, 1 + number, 0, frame,
             joined=drawn.joined,
         )
         for number, line in enumerate(drawn.lines)
     ]  # fmt: skip
+    page.bands = _FAN_BANDS if _has_quantiles(drawn) else ()
     page.erased += 1
 
 
-def _color(line: Line, number: int, count: int) -> int:
+def _has_quantiles(drawn: Chart) -> bool:
+    return drawn.kind in ("fan", "over") and len(drawn.lines) == len(_FAN_COLORS)
+
+
+def _color(drawn: Chart, line: Line, number: int) -> int:
     if line.part is not None:
         return ramp_color(line.part)
-    return _FAN_COLORS[number] if count == len(_FAN_COLORS) else 14
+    return _FAN_COLORS[number] if _has_quantiles(drawn) else 14
 
 
 def _frame(drawn: Chart) -> Frame:

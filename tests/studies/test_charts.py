@@ -42,6 +42,22 @@ def test_a_fan_has_the_quantiles_of_the_runs():
         assert line.y == pytest.approx([0, part / 2, part])
 
 
+def test_the_bands_of_a_fan_are_filled_on_paper():
+    drawn = chart(results("--over a=0:100:101 --keep x@0:1:0.5"), "fan")
+    (axes,) = draw(begin_page(GraphPages(), drawn, "line.src")).axes
+    heights = sorted(np.ptp(band.get_paths()[0].vertices[:, 1]) for band in axes.collections)
+    assert heights[0] / heights[1] == pytest.approx(75 / 95)
+    drawn = chart(results("--over a=1:5:5 --keep x@0:1:0.5"), "curves")
+    assert not draw(begin_page(GraphPages(), drawn, "line.src")).axes[0].collections
+
+
+@pytest.mark.parametrize(("runs", "width"), [(10, 5), (400, 2.5), (20_000, 0.88)])
+def test_points_on_paper_are_the_smaller_the_more_there_are(runs, width):
+    drawn = chart(results(f"--over a=0:1:{runs} --keep x[end]"), "scatter")
+    (axes,) = draw(begin_page(GraphPages(), drawn, "line.src")).axes
+    assert axes.lines[0].get_markersize() == pytest.approx(width)
+
+
 def test_curves_are_named_by_what_varied_and_go_along_the_ramp():
     drawn = chart(results("--over a=1:3:3 --keep x@0:1:0.5"), "curves")
     assert [line.name for line in drawn.lines] == ["a = 1", "a = 2", "a = 3"]

@@ -116,6 +116,8 @@ class Graph:
     curves: list[Curve] = field(default_factory=list)
     points: Points = field(default_factory=Points)
     shown: list[ShownArray] = field(default_factory=list)
+    bands: tuple[tuple[int, int], ...] = ()
+    """Pairs of curves between which pictures for paper are filled."""
     cells: Cells | None = None
     """What the sides of its picture stand for, if that is known."""
     program: str = ""
@@ -238,12 +240,14 @@ class Graph:
         return color_keys(list(self.curves), self.study) if self.has_keys else ()
 
     @property
+    def point_count(self) -> int:
+        """How many points there are that no lines join."""
+        return self.points.count + sum(c.count for c in self.curves if not (c.joined or c.measured))
+
+    @property
     def has_few_points(self) -> bool:
         """Whether points that no lines join are so few that single dots would be overlooked."""
-        return (
-            self.points.count + sum(c.count for c in self.curves if not (c.joined or c.measured))
-            <= FEW_POINTS
-        )
+        return self.point_count <= FEW_POINTS
 
     @property
     def is_empty(self) -> bool:

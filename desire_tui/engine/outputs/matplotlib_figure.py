@@ -7,14 +7,20 @@ from io import BytesIO
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from desire_tui.engine.data_classes import replace
-from desire_tui.engine.graph.colors import BLACK, WHITE, Rgb, curve_rgb, rgb
+from desire_tui.engine.graph.colors import BLACK, WHITE
 from desire_tui.engine.graph.fit import WHOLE, Extent, limits, notice
-from desire_tui.engine.graph.model import FEW_POINTS
-from desire_tui.engine.graph.polylines import clip_polyline, thin_columns, through
 from desire_tui.engine.graph.ticks import log_ticks, minor_log_ticks, minor_ticks, round_ticks, tick_labels
+from desire_tui.engine.outputs.drawn_curves import (
+    DASHES,
+    MARKERS,
+    POINT_WIDTH,
+    curve_tint,
+    draw_curve,
+    draw_points,
+    fill_band,
+    tint,
+)
 from desire_tui.engine.outputs.picture_options import FOR_PAPER, PictureOptions
 from desire_tui.engine.outputs.shown_arrays import FONT, draw_arrays, draw_cells
 
@@ -23,27 +29,18 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
-    from desire_tui.engine.graph.curve import Curve
-    from desire_tui.engine.graph.fit import View
     from desire_tui.engine.graph.model import Graph
     from desire_tui.engine.outputs.picture_options import PictureStyle
 
-    Floats = NDArray[np.float64]
     Tint = tuple[float, float, float]
 
-_WIDTHS = {1: 1.1, 2: 2.2, 3: 3.6}  # points
-_DASHES: tuple[Any, ...] = ("solid", (0, (5, 2)), (0, (1, 1.2)), (0, (8, 1.5, 1, 1.5)))
-_MARKERS = "osD^"
 _CHARACTERS = 11
 """So many of the font have room on an inch."""
 _KEY_CHARACTERS = 6
 """Room that a key takes beside its name."""
 _NAME_MOST = 40  # characters; a longer name of the ordinate stands in the caption
-_FEW_WIDTH = 5.0  # points; of points that are few
 _SPINE = 2 * 72 / FOR_PAPER.dots_per_inch  # two dots: crisp
-_COLUMNS = 4000  # finer than any printer shows at this size
 _drawing = Lock()  # matplotlib's settings are global, and two threads may draw at once
 
 
@@ -111,8 +108,8 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
     """Return a graph as a figure: same window, colours, caption, keys and thickness as on the screen."""
     from matplotlib.figure import Figure
 
-    ground = _tint(WHITE if graph.white else BLACK, graph)
-    ink = _tint(BLACK if graph.white else 7, graph)
+    ground = tint(WHITE if graph.white else BLACK, graph)
+    ink = tint(BLACK if graph.white else 7, graph)
     figure = Figure(figsize=inches, facecolor=ground, layout="constrained")
     shown = [(array, values) for array in graph.shown if (values := array.latest()) is not None]
     if graph.cells is not None and shown:
@@ -131,9 +128,11 @@ def draw(graph: Graph, inches: tuple[float, float] = FOR_PAPER.inches) -> Figure
     extent.update()
     window = extent.view() if extent.is_fitted else WHOLE
     _style_axes(axes, graph, ink, limits(graph, window))
+    for low, high in graph.bands:
+        fill_band(axes, graph.curves[low], graph.curves[high], graph, window)
     for curve in graph.curves:
-        _draw_curve(axes, curve, graph, window)
-    _draw_points(axes, graph)
+        draw_curve(axes, curve, graph, window)
+    draw_points(axes, graph)
     room = round((inches[0] - 1) * _CHARACTERS)
     title = graph.heading or graph.title(fitted=extent.is_fitted, room=room)
     axes.set_title(title, loc="left", color=ink, fontsize=FONT)
@@ -156,7 +155,7 @@ def _say(axes: Axes, text: str, ink: Tint) -> None:
 
 
 def _style_axes(axes: Axes, graph: Graph, ink: Tint, reach: tuple[float, float, float, float]) -> None:
-    net = None if graph.net is None else _tint(graph.net, graph)
+    net = None if graph.net is None else tint(graph.net, graph)
     for spine in axes.spines.values():
         spine.set_visible(net is not None)
         if net is not None:
@@ -186,59 +185,6 @@ def _style_axes(axes: Axes, graph: Graph, ink: Tint, reach: tuple[float, float, 
     axes.grid(visible=True, which="major", color=net, linewidth=0.6, alpha=0.15 if net == ink else 0.75)
 
 
-def _draw_curve(axes: Axes, curve: Curve, graph: Graph, window: View) -> None:
-    """Draw in parts of the window: a curve of an earlier run keeps its own scale."""
-    x, y = through(window, *graph.axes.to_unit(curve.frame, *curve.samples()))
-    color, width = _curve_tint(curve.color, graph), _WIDTHS[curve.thickness]
-    if not curve.joined:
-        marker = _MARKERS[curve.dash % len(_MARKERS)]
-        few = _FEW_WIDTH if graph.has_few_points else 0.0
-        if curve.measured:
-            few = _FEW_WIDTH if curve.count <= FEW_POINTS else _FEW_WIDTH / 2
-        with np.errstate(invalid="ignore"):
-            inside = (x >= 0) & (x <= 1) & (y >= 0) & (y <= 1)
-        axes.plot(
-            x[inside], y[inside], linestyle="none", marker=marker, markersize=few or 0.8 * width,
-            markeredgewidth=0, color=color, transform=axes.transAxes,
-            zorder=4 if curve.measured else 2, clip_on=not curve.measured,
-        )  # fmt: skip
-        return
-    if curve.frame.kind == "dispt":
-        x, y = thin_columns(x, y, _COLUMNS)
-    x1, y1, x2, y2 = clip_polyline(x, y)
-    path_x, path_y = _connected(x1, y1, x2, y2)
-    axes.plot(
-        path_x, path_y, color=color, linewidth=width, linestyle=_DASHES[curve.dash % len(_DASHES)],
-        solid_joinstyle="round", transform=axes.transAxes, clip_on=False, zorder=3,
-    )  # fmt: skip
-
-
-def _connected(x1: Any, y1: Any, x2: Any, y2: Any) -> tuple[Any, Any]:
-    """Segments end to end as one path, broken by nan where they do not meet."""
-    if not len(x1):
-        return x1, y1
-    broken = np.flatnonzero((x1[1:] != x2[:-1]) | (y1[1:] != y2[:-1])) + 1
-    paths = []
-    for first, last in ((x1, x2), (y1, y2)):
-        points = np.append(first, last[-1])
-        # before each break: the end of the old piece, then a gap
-        values = np.column_stack((last[broken - 1], np.full(len(broken), np.nan))).ravel()
-        paths.append(np.insert(points, np.repeat(broken, 2), values))
-    return paths[0], paths[1]
-
-
-def _draw_points(axes: Axes, graph: Graph) -> None:
-    x, y, colors = graph.points.so_far()
-    if not len(x):
-        return
-    few = _FEW_WIDTH if graph.has_few_points else 0.0
-    x, y = graph.axes.values(x, y)
-    axes.scatter(
-        x, y, s=max(few, 2.0 * _WIDTHS[graph.thickness]) ** 2, c=[_curve_tint(int(c), graph) for c in colors],
-        linewidths=0, zorder=3,
-    )  # fmt: skip
-
-
 def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
     from matplotlib.legend_handler import HandlerTuple
     from matplotlib.lines import Line2D
@@ -251,11 +197,11 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
             Line2D(
                 [],
                 [],
-                color=_curve_tint(color, graph),
+                color=curve_tint(color, graph),
                 linewidth=2 if key.dash else 3,
-                linestyle="none" if key.measured else _DASHES[key.dash % len(_DASHES)],
-                marker=_MARKERS[0] if key.measured else None,
-                markersize=_FEW_WIDTH,
+                linestyle="none" if key.measured else DASHES[key.dash % len(DASHES)],
+                marker=MARKERS[0] if key.measured else None,
+                markersize=POINT_WIDTH,
                 markeredgewidth=0,
             )
             for color in key.colors
@@ -268,16 +214,3 @@ def _draw_keys(figure: Figure, graph: Graph, ink: Tint) -> None:
     )  # fmt: skip
     for text in legend.get_texts():
         text.set_color(ink)
-
-
-def _tint(color: int, graph: Graph) -> Tint:
-    return _parts(rgb(color, white=graph.white))
-
-
-def _curve_tint(color: int, graph: Graph) -> Tint:
-    return _parts(curve_rgb(color, white=graph.white))
-
-
-def _parts(color: Rgb) -> Tint:
-    red, green, blue = color
-    return red / 255, green / 255, blue / 255
