@@ -43,6 +43,7 @@ _OPEN = frozenset(OPENERS.values())
 _LOGICAL = frozenset({"and", "or", "not"})
 _OPERAND_STARTS = frozenset({NAME, NUMBER, OCTAL, "("})
 _SIGNS = frozenset("+-")
+_RELATIONS = frozenset({"<", ">", "=", "<=", ">=", "<>"})
 
 # \x1a, Ctrl-Z, is what DOS ended a file with: a blank.
 _TOKEN = re.compile(
@@ -164,6 +165,9 @@ def scan(text: str) -> LogicalLine:
         continues = open_string or "_"
     else:
         continues = kinds[-1] if chunk and _wants_more(chunk) else ""
+    if "not" in text:
+        for chunk in chunks:
+            _mark_negations(chunk)
     return LogicalLine(chunks, comments, continues=continues)
 
 
@@ -171,8 +175,8 @@ def mark_logical_words(chunk: StatementTokens) -> bool:
     """Take `and`, `or` and `not` for what they are in an expression, `(t > 1 and t < 2)*x`; False: none is.
 
     Asked where a statement cannot be read: in no other do these words stand where an operator could. A sign
-    may follow, `(t > 1 or -x > 0)`; behind `not` only where an `and` or `or` stands before it, since a
-    variable of that name can be subtracted from.
+    may follow, `(t > 1 or -x > 0)`; behind `not` where an `and` or `or` stands before it: else a variable of
+    that name may be subtracted from, but see `_mark_negations`.
     """
     kinds, found = chunk.kinds, False
     for at, text in enumerate(chunk.texts):
@@ -184,6 +188,23 @@ def mark_logical_words(chunk: StatementTokens) -> bool:
                 kinds[at] = text
                 found = True
     return found
+
+
+def _mark_negations(chunk: StatementTokens) -> None:
+    """Take `not` for the word where it begins a relation in parentheses with a sign, `(not -x > 0)`.
+
+    Programs that call a variable so have no such values: relations are conditions of `if` there.
+    """
+    kinds = chunk.kinds
+    for at in range(1, len(kinds) - 1):
+        if kinds[at] == NAME and chunk.texts[at] == "not" and kinds[at - 1] == "(" and kinds[at + 1] in _SIGNS:
+            depth = 1
+            for kind in kinds[at + 1 :]:
+                depth += (kind in _OPEN) - (kind in CLOSERS)
+                if depth == 1 and kind in _RELATIONS:
+                    kinds[at] = "not"
+                if depth == 0 or kinds[at] == "not":
+                    break
 
 
 def _is_soft(chunk: StatementTokens, lexeme: str, text: str, pos: int) -> bool:
