@@ -100,8 +100,9 @@ class Model:
         on_block: Callable[[Block], object] | None = None,
         **parameters: Number,
     ) -> Run:
-        """Make one run and return its samples.
+        """Make one run, that of the script's first `drun` (or of `load`'s segment), and return its samples.
 
+        What the script does behind it, other runs too, is left out; `desire_tui.run` and `study` do it.
         Keywords and `set` give parameters and starts of states other values for this run; what the script
         computes from them follows. `initial`: states by name or, in the order of `states`, as an array.
         `t`: from when to when. `record`: what is sampled besides the program's own requests: names, elements
@@ -136,6 +137,8 @@ class Model:
         **parameters: Number | Sequence[float],
     ) -> xr.Dataset:
         """Make a run for every combination of the values listed, and return all of them over the parameters.
+
+        Each is the run that `run` makes. Programs of several `drun` are for `desire_tui.study`.
 
         Parameters with a list are the dimensions, in the order given; those with a number hold for all runs.
         `keep`: `curves` (samples over `t`), `last`, `max`, `min` or `mean` of each curve, `state` (all states

@@ -197,7 +197,8 @@ def _mark_negations(chunk: StatementTokens) -> None:
     """
     kinds = chunk.kinds
     for at in range(1, len(kinds) - 1):
-        if kinds[at] == NAME and chunk.texts[at] == "not" and kinds[at - 1] == "(" and kinds[at + 1] in _SIGNS:
+        is_name = kinds[at] == NAME and chunk.texts[at] == "not"
+        if is_name and kinds[at - 1] == "(" and kinds[at + 1] in _SIGNS:
             depth = 1
             for kind in kinds[at + 1 :]:
                 depth += (kind in _OPEN) - (kind in CLOSERS)
