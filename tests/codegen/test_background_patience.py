@@ -94,6 +94,31 @@ def test_short_runs_add_up(improver, monkeypatch):
     assert work.begun.is_set()
 
 
+def test_the_second_thread_is_not_woken_for_each_short_run(improver, monkeypatch):
+    woken = []
+    monkeypatch.setattr(background, "_PATIENCE_SECONDS", ENOUGH)
+    monkeypatch.setattr(improver, "_wake", lambda: (woken.append(1), Improver._wake(improver)))
+    work = Work()
+    improver.add(work)
+    for _ in range(1000):
+        with improver.running(work):
+            pass
+    assert 1 <= len(woken) < 100  # again where it has looked in vain
+
+
+def test_the_next_run_begins_what_earlier_ones_were_enough_for(improver, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_SECONDS", 0.02)
+    improver.looks = True  # it does not: it is not there
+    work = Work()
+    improver.add(work)
+    for _ in range(2):
+        with improver.running(work):
+            busy(0.015)
+    assert improver._thread is None
+    with improver.running(work):
+        assert work.begun.wait(ENOUGH)
+
+
 def test_what_nobody_holds_is_dropped(improver):
     dropped, work = Work(), Work()
     begun = dropped.begun

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import weakref
 from contextlib import contextmanager, nullcontext
-from time import process_time
+from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Protocol
 
 from desire_tui.engine.codegen.jit.target_machine import LlvmNotLoadedError, loading_llvm
@@ -15,13 +15,15 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
 _BREATH_SECONDS = 0.0005
-"""Between two steps: LLVM's lock is not fair, and somebody may wait with quick code."""
+"""Between two steps, if one takes longer: LLVM's lock is not fair, and somebody may wait with quick code."""
 _PATIENCE_SECONDS = 0.002
 """Of a model's runs, before its fast code is begun: shorter ones gain nothing from 15 ms of work."""
 _PATIENCE_WITHOUT_LLVM_SECONDS = 0.015
 """If the code is not on disk and LLVM must be loaded first: 40 ms more, much of it in everybody's way."""
 _LOOK_SECONDS = 0.0005
-"""At least, before looking again whether they have lasted so long."""
+"""At least, before looking again whether a run has lasted so long."""
+_PAUSE_MOST_SECONDS = 0.016
+"""Before looking again while runs are short: a thread that waits for Python's lock delays all others."""
 _END_SECONDS = 30.0
 _BEGUN_MOST = 3
 _QUIET_SECONDS = 0.02
@@ -55,16 +57,19 @@ class Waiting:
         self.work = weakref.ref(work)
         self.may_load_llvm = False
         """Whether the work is worth that much; without it, it ends where it must."""
-        self._before = 0.0
-        self._began: float | None = None
+        self.has_run = False
+        """Since the last look at it."""
+        self._counted: tuple[float, float | None] = (0.0, None)
+        """Runs that are over, and when this one began: one reference, which the other thread reads."""
 
-    def begin(self) -> None:
+    def begin(self, now: float) -> None:
         """Count from now on."""
-        self._began = process_time()
+        self._counted, self.has_run = (self._counted[0], now), True
 
-    def end(self) -> None:
+    def end(self, now: float) -> None:
         """Count no further."""
-        self._before, self._began = self.seconds(), None
+        before, began = self._counted
+        self._counted = (before if began is None else before + now - began, None)
 
     @property
     def patience(self) -> float:
@@ -74,11 +79,37 @@ class Waiting:
     @property
     def is_running(self) -> bool:
         """Whether the model runs."""
-        return self._began is not None
+        return self._counted[1] is not None
 
-    def seconds(self) -> float:
-        """Return how long the model has run."""
-        return self._before + (process_time() - self._began if self._began is not None else 0.0)
+    @property
+    def was_long_enough(self) -> bool:
+        """Whether the runs before this one were."""
+        return self._counted[0] >= self.patience
+
+    def left(self) -> float:
+        """Return how much longer the model must run, in seconds."""
+        before, began = self._counted
+        return self.patience - before - (process_time() - began if began is not None else 0.0)
+
+
+class _Run:
+    """A run of models that wait for fast code. Entered for each block of samples: no lock, no generator."""
+
+    def __init__(self, improver: Improver, waiting: list[Waiting]) -> None:
+        self._improver, self._waiting = improver, waiting
+
+    def __enter__(self) -> None:
+        now, due = process_time(), False
+        for known in self._waiting:
+            known.begin(now)
+            due = due or known.was_long_enough
+        if due or not self._improver.looks:
+            self._improver.look(self._waiting)
+
+    def __exit__(self, *_: object) -> None:
+        now = process_time()
+        for known in self._waiting:
+            known.end(now)
 
 
 class Improver:
@@ -93,6 +124,9 @@ class Improver:
         self._urgent = 0
         self._faults: list[Exception] = []
         self._over = False
+        self.looks = False
+        """Whether the thread looks at what waits without being woken, which costs more than a short run."""
+        self._pause = _PATIENCE_SECONDS
 
     def add(self, work: Improvable) -> None:
         """Take up some work as soon as its model's runs have gone on for a moment (`running`)."""
@@ -110,30 +144,25 @@ class Improver:
 
     def running(self, *works: Improvable) -> AbstractContextManager[None]:
         """Tell that the model runs to which these belong."""
-        return self._counted(works) if self._waiting else _NOTHING_WAITS
+        if not self._waiting:
+            return _NOTHING_WAITS
+        waiting = [known for known in self._waiting if known.work() in works]
+        return _Run(self, waiting) if waiting else _NOTHING_WAITS
 
-    @contextmanager
-    def _counted(self, works: tuple[Improvable, ...]) -> Iterator[None]:
+    def look(self, running: list[Waiting]) -> None:
+        """Take up those that have run long enough before; look at the others when they may have."""
         with self._something:
-            begun = [known for known in self._waiting if known.work() in works]
-            for known in begun:
-                known.begin()
-            if begun:
-                self._wake()
-        try:
-            yield
-        finally:
-            if begun:
-                with self._something:
-                    for known in begun:
-                        known.end()
+            self._take([known for known in running if known.was_long_enough])
+            self._wake()
 
     def again(self, work: Remembering) -> None:
         """Take up work that may have been dropped for newer work."""
+        if work.improved:
+            return
         with self._something:
             begun = [known for known, _ in self._begun]
             under_way = any(known.work() is work for known in (*begun, *self._new, *self._waiting))
-        if not (work.improved or under_way):
+        if not (under_way or work.improved):
             self.add(work)
 
     def faults(self) -> list[Exception]:
@@ -166,23 +195,37 @@ class Improver:
         if self._thread is None or not (self._thread.is_alive() or self._over):
             self._thread = threading.Thread(target=self._run, name="desire fast code", daemon=True)
             self._thread.start()
+        self.looks = True
         self._something.notify()
 
     def _take_what_is_due(self) -> float | None:
-        """Take over what has waited long enough; return in how many seconds there may be more."""
-        left = {known: known.patience - known.seconds() for known in self._waiting if known.is_running}
-        due = {known for known, seconds in left.items() if seconds <= 0.0}
-        self._new += [known for known in self._waiting if known in due]
-        self._waiting = [known for known in self._waiting if known not in due]
-        return max(min(left.values()), _LOOK_SECONDS) if left else None
+        """Take over what has waited long enough; return in how many seconds to look again, None: when woken.
+
+        What has been enough together is taken when the next run begins.
+        """
+        ran = [known for known in self._waiting if known.has_run]
+        left = {known: known.left() for known in ran if known.is_running}
+        for known in ran:
+            known.has_run = known.is_running
+        self._take([known for known, seconds in left.items() if seconds <= 0.0])
+        later = [seconds for seconds in left.values() if seconds > 0.0]
+        self._pause = min(2.0 * self._pause, _PAUSE_MOST_SECONDS) if ran and not left else _PATIENCE_SECONDS
+        return max(min(later, default=self._pause), _LOOK_SECONDS) if ran else None
+
+    def _take(self, due: list[Waiting]) -> None:
+        if due:
+            self._new += [known for known in self._waiting if known in due]
+            self._waiting = [known for known in self._waiting if known not in due]
 
     def _run(self) -> None:
         while True:
             with self._something:
                 seconds = self._take_what_is_due()
                 while not (self._new or self._begun or self._over):
+                    self.looks = seconds is not None
                     self._something.wait(seconds)
                     seconds = self._take_what_is_due()
+                self.looks = True
                 if self._over:
                     return
                 while self._urgent:
@@ -196,7 +239,7 @@ class Improver:
                     del self._begun[:-_BEGUN_MOST]  # programs edited away
                     del work
                 known, steps = self._begun[-1]
-            put_off = False
+            put_off, began = False, perf_counter()
             try:
                 with loading_llvm(allowed=known.may_load_llvm):
                     over = next(steps, self) is self
@@ -213,4 +256,5 @@ class Improver:
                         known.may_load_llvm = True
                         self._waiting.append(known)
             del known, steps
-            threading.Event().wait(_BREATH_SECONDS)
+            if perf_counter() - began > _BREATH_SECONDS:
+                threading.Event().wait(_BREATH_SECONDS)
