@@ -111,6 +111,24 @@ def test_a_loop_that_runs_models_stays_as_it_is(fused):
     assert not fused
 
 
+@pytest.mark.parametrize(
+    ("body", "inner"),
+    [
+        ("write k", 0),
+        ("s = k | call p(k; s)", 0),
+        ("if k > 900 then | s = 1 | proceed | write k", 0),
+        ("if k > 900 then | s = 1 | else | s = 2 | proceed | write k", 0),
+        ("for h = 1 to 2 | s = h | next | repeat | s = s + 1 | until s > 3 | write k", 2),
+        ("label on | while s < 2 | s = 3 | end while | drun", 1),
+    ],
+)
+def test_what_every_pass_comes_to_is_seen_before_the_first(body, inner, monkeypatch):
+    made = []
+    monkeypatch.setattr(hot_loops, "_HotLoop", lambda *_: made.append(1))
+    run(f"{SETUP}for k = 1 to 1 | {body} | next".replace(" | ", "\n"))
+    assert len(made) == inner
+
+
 def test_a_function_that_is_left_at_once_is_given_up(monkeypatch):
     entered = []
     fuse = hot_loops.fuse

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.interpreter.loop_fusion import NotFusible, fuse
+from desire_tui.engine.interpreter.loop_fusion import NotFusible, fuse, may_be_fused
 
 if TYPE_CHECKING:
     from desire_tui.engine.interpreter.code_table import Operation
@@ -25,6 +25,9 @@ def warm(context: StatementContext, plain: Operation, again: int) -> Operation:
 
     `plain` is the operation as it stands; it returns the address `again` for one more pass.
     """
+    text = context.code.text
+    if not may_be_fused(text, text.structure.partner[context.place]):
+        return plain
     passes = 0
     loop = _HotLoop(context, plain, again)
 

@@ -25,7 +25,7 @@ from desire_tui.engine.nodes.control import For, If, Label, Until, While
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from desire_tui.engine.interpreter.code_table import ScriptCode
+    from desire_tui.engine.interpreter.code_table import ScriptCode, StatementList
     from desire_tui.engine.interpreter.machine import ScriptMachine
     from desire_tui.engine.nodes.statements import Statement
 
@@ -61,6 +61,28 @@ def fuse(machine: ScriptMachine, code: ScriptCode, opening: int, passes: list[in
         return _Fusion(machine, code, opening, closing).function(passes)
     except ScriptFault:
         raise NotFusible from None
+
+
+def may_be_fused(text: StatementList, opening: int) -> bool:
+    """Whether no statement stands in the way that every pass comes to: a short look, `fuse` knows."""
+    partner, place = text.structure.partner, opening + 1
+    while place < partner[opening]:
+        match text.placed[place].node:
+            case Simple("exit"):
+                return True
+            case If():
+                place = partner[place]
+                match text.placed[place].node:
+                    case Simple("else"):
+                        place = partner[place]
+            case For() | While() | Simple("repeat"):
+                place = partner[place]
+            case Assign() | Label() | Simple("proceed"):
+                pass
+            case _:
+                return False
+        place += 1
+    return True
 
 
 class _Fusion:
