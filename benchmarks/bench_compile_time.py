@@ -22,7 +22,7 @@ import numpy as np
 from benchmarks.bench_run_speed import ladder as ladder_work
 from desire_tui.engine.codegen.backend import NativeBackend
 from desire_tui.engine.codegen.compiler_state import CompilerState
-from desire_tui.engine.codegen.pieces import kept_pieces
+from desire_tui.engine.codegen.pieces import kept_pieces, rolled_pieces
 from desire_tui.engine.codegen.scalar import rerolling, templates
 from desire_tui.engine.lowering import lowering_cache
 from desire_tui.engine.lowering.lowering import lower
@@ -81,6 +81,7 @@ def forget_everything() -> None:
     shapes.forget()
     lowering_cache.forget()
     kept_pieces.forget()
+    rolled_pieces.forget()
     for store in (rerolling._shapes, templates._templates):  # nobody else wants them empty
         store.clear()
 

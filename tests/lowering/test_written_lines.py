@@ -74,7 +74,7 @@ def test_no_node_is_made_until_somebody_asks():
         by_columns = value.outline.key, [*value.leaves]
         templates.shape(value, key, leaves)
         assert (tuple(key), repr(leaves)) == (by_columns[0], repr(by_columns[1]))
-        assert rerolling._plain(segment.body[0]) is not None
+        assert rerolling.plain_shape(segment.body[0]) is not None
     assert last.target.name == "x36"
     assert _parts_made(last) == ["target"]
     assert last.value.left.name == "a"

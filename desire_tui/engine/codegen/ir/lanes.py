@@ -35,28 +35,31 @@ class Lanes:
         """Return a 64-bit integer in every lane."""
         return str(value) if self.width == 1 else f"splat (i64 {value})"
 
-    def load_first(self, address: str, active: int) -> str:
-        """Return `active` numbers from an address on, by one instruction; lanes behind them hold 0.
+    def load_some(self, address: str, flags: str) -> str:
+        """Return the numbers from an address on whose flags are set, by one instruction; others are 0.
 
         It takes longer than an ordinary one where what it reads was stored just now.
         """
         function = f"@llvm.masked.load.{self.suffix}.p0"
         self.text.declarations.add(f"declare {self.kind} {function}(ptr, i32, {self.flags}, {self.kind})")
-        mask = f"{self.flags} {self._first(active)}"
-        return self.text.op(
-            f"call {self.kind} {function}(ptr {address}, i32 8, {mask}, {self.kind} zeroinitializer)"
-        )
+        listed = f"ptr {address}, i32 8, {self.flags} {flags}, {self.kind} zeroinitializer"
+        return self.text.op(f"call {self.kind} {function}({listed})")
 
-    def store_first(self, value: str, address: str, active: int) -> None:
-        """Write the first `active` lanes from an address on, by one instruction."""
+    def store_some(self, value: str, address: str, flags: str) -> None:
+        """Write the lanes whose flags are set from an address on, by one instruction."""
         function = f"@llvm.masked.store.{self.suffix}.p0"
         self.text.declarations.add(f"declare void {function}({self.kind}, ptr, i32, {self.flags})")
-        mask = f"{self.flags} {self._first(active)}"
-        self.text.do(f"call void {function}({self.kind} {value}, ptr {address}, i32 8, {mask})")
+        self.text.do(f"call void {function}({self.kind} {value}, ptr {address}, i32 8, {self.flags} {flags})")
 
-    def _first(self, active: int) -> str:
-        """Return flags that are set for the first lanes."""
-        return f"<{', '.join(f'i1 {lane < active:d}' for lane in range(self.width))}>"
+    def first_lanes(self, active: int | str) -> str:
+        """Return flags that are set for the first lanes, `active` of them: a number, or a value."""
+        if isinstance(active, int):
+            return f"<{', '.join(f'i1 {lane < active:d}' for lane in range(self.width))}>"
+        numbers = f"<{', '.join(f'i64 {lane}' for lane in range(self.width))}>"
+        one = self.text.op(f"insertelement {self.integers} poison, i64 {active}, i64 0")
+        zeros = f"<{self.width} x i32> zeroinitializer"
+        every = self.text.op(f"shufflevector {self.integers} {one}, {self.integers} poison, {zeros}")
+        return self.text.op(f"icmp ult {self.integers} {numbers}, {every}")
 
     def add(self, a: str, b: str) -> str:
         """Return a + b."""

@@ -8,9 +8,15 @@ from __future__ import annotations
 import struct
 
 
+def bits(value: float) -> int:
+    """Return the bits of a double."""
+    found: int = struct.unpack("<Q", struct.pack("<d", value))[0]
+    return found
+
+
 def literal(value: float) -> str:
     """Return a double as LLVM writes it exactly: its bits in hexadecimal."""
-    return f"0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X}"
+    return f"0x{bits(value):016X}"
 
 
 class IrText:

@@ -10,7 +10,7 @@ import numpy as np
 from desire_tui.engine.codegen.ir.text import IrText
 from desire_tui.engine.codegen.ir.work_memory import WorkMemory, context_fields
 from desire_tui.engine.codegen.jit.piece import Piece
-from desire_tui.engine.codegen.pieces.piece_tables import PieceTables
+from desire_tui.engine.codegen.pieces.piece_tables import ENTRY_BYTES, PieceTables
 from desire_tui.engine.digest import blake2b
 
 if TYPE_CHECKING:
@@ -90,7 +90,8 @@ def call_table(text: IrText, table: str, derivatives: str) -> None:
     text.do(f"%{stem}.piece = load volatile ptr, ptr %{stem}.at")
     text.branch(text.op(f"icmp eq ptr %{stem}.piece, null"), f"{stem}.done", f"{stem}.call")
     text.begin(f"{stem}.call")
-    text.do(f"call void %{stem}.piece(ptr %v, ptr {derivatives}, ptr %c)")
-    text.do(f"%{stem}.next = getelementptr i8, ptr %{stem}.at, i64 8")
+    data = text.op(f"load ptr, ptr {text.op(f'getelementptr i8, ptr %{stem}.at, i64 8')}")
+    text.do(f"call void %{stem}.piece(ptr %v, ptr {derivatives}, ptr %c, ptr {data})")
+    text.do(f"%{stem}.next = getelementptr i8, ptr %{stem}.at, i64 {ENTRY_BYTES}")
     text.jump(f"{stem}.head")
     text.begin(f"{stem}.done")

@@ -18,7 +18,7 @@ from desire_tui.engine.digest import blake2b
 from desire_tui.engine.lowered.walk import walk_actions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from desire_tui.engine.lowered.statements import Action
 
@@ -26,12 +26,17 @@ STATEMENTS_MOST = 64
 _ROLLED_WEIGHT = 8  # a loop and its rest cost about as much to compile
 
 
-def cut(actions: Iterable[Action | Rolled]) -> Iterator[list[Action | Rolled]]:
-    """Group statements that stand one after the other; an `if` with its body is never cut."""
+def cut(
+    actions: Iterable[Action | Rolled], alone: Callable[[Rolled], bool] = lambda _: False
+) -> Iterator[list[Action | Rolled]]:
+    """Group statements that stand one after the other; an `if` with its body is never cut.
+
+    `alone` says which rolled-up ones are a group of their own.
+    """
     group: list[Action | Rolled] = []
     size = 0
     for action in actions:
-        weight = _weight(action)
+        weight = STATEMENTS_MOST if isinstance(action, Rolled) and alone(action) else _weight(action)
         if group and size + weight > STATEMENTS_MOST:
             yield group
             group, size = [], 0
@@ -48,10 +53,18 @@ def _weight(action: Action | Rolled) -> int:
 
 
 def write(actions: Sequence[Action | Rolled]) -> Piece:
-    """Write one piece: a function `void NAME(ptr values, ptr derivatives, ptr context)`."""
+    """Write one piece."""
     text = IrText()
     statements = ArrayStatements(text, MemoryCells(text), machine().width, _share)
     statements.write(actions)
+    return finished(text, statements.temps)
+
+
+def finished(text: IrText, temps: int = 0) -> Piece:
+    """Return a piece with this text: a function `void NAME(ptr values, ptr derivatives, ptr context, ptr data)`.
+
+    The text may use `%m` and `%random`; `temps` as in `Piece`.
+    """
     body = "\n".join(text.lines)
     start = ["entry:", *text.allocas]
     if "ptr %m," in body or "ptr %random" in body:
@@ -61,8 +74,9 @@ def write(actions: Sequence[Action | Rolled]) -> Piece:
         start.append("%random = load ptr, ptr %random.at")
     whole = "\n".join((*start, body, "ret void"))
     name = "p" + blake2b(whole.encode(), digest_size=10).hexdigest()
-    function = f"define void @{name}(ptr noalias %v, ptr noalias %dx, ptr noalias %c) #0 {{\n{whole}\n}}"
-    return Piece(name, function, frozenset(text.declarations), statements.temps)
+    arguments = "ptr noalias %v, ptr noalias %dx, ptr noalias %c, ptr noalias %d"
+    function = f"define void @{name}({arguments}) #0 {{\n{whole}\n}}"
+    return Piece(name, function, frozenset(text.declarations), temps)
 
 
 def _share() -> int:

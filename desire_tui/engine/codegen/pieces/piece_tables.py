@@ -9,19 +9,27 @@ from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.pieces.kept_pieces import piece_of
 from desire_tui.engine.codegen.pieces.pass_pieces import cut
-from desire_tui.engine.codegen.scalar.rerolling import roll
+from desire_tui.engine.codegen.pieces.rolled_pieces import (
+    PieceCall,
+    is_function_of_data,
+    lone_call,
+    rolled_call,
+)
+from desire_tui.engine.codegen.scalar.rerolling import Rolled, roll
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
     from desire_tui.engine.codegen.jit.cache import CodeCache
     from desire_tui.engine.codegen.jit.piece import Piece
-    from desire_tui.engine.codegen.scalar.rerolling import Rolled
     from desire_tui.engine.lowered.statements import Action
 
 
+ENTRY_BYTES = 16
+
+
 class PieceTables:
-    """Tables of function addresses, each ended by 0, by the pass they belong to.
+    """Tables of the addresses of pieces and of their data, each ended by 0, by the pass they belong to.
 
     `temps` is the scratch memory, in doubles, that the pieces want at `Context.temps`.
     """
@@ -29,35 +37,38 @@ class PieceTables:
     def __init__(self, store: CodeCache, passes: Mapping[str, tuple[Action, ...]]) -> None:
         self._store = store
         self._pieces: dict[str, Piece] = {}
-        names: dict[str, list[str]] = {}
-        written: dict[tuple[int, ...], Piece] = {}  # passes share most statements
+        calls: dict[str, list[PieceCall]] = {}
+        written: dict[tuple[int, ...], PieceCall] = {}  # passes share most statements
         rolled: dict[tuple[int, ...], list[list[Action | Rolled]]] = {}
         for kind, actions in passes.items():
-            names[kind] = []
+            calls[kind] = []
             whole = tuple(map(id, actions))
             if whole not in rolled:
-                rolled[whole] = list(cut(roll(actions, machine().width)))
+                rolled[whole] = list(cut(roll(actions, machine().width), is_function_of_data))
             for group in rolled[whole]:
                 key = tuple(map(id, group))
-                piece = written.get(key)
-                if piece is None:
+                call = written.get(key)
+                if call is None:
                     cancellation_point()
-                    piece = written[key] = piece_of(group)
-                    self._pieces[piece.name] = piece
-                names[kind].append(piece.name)
+                    call = written[key] = _call_of(group, len(rolled[whole]) > 1)
+                    self._pieces[call.piece.name] = call.piece
+                calls[kind].append(call)
         self.temps = max((piece.temps for piece in self._pieces.values()), default=0)
         found = store.quick(self._pieces.values())
         self._kept: list[object] = list(found.values())
         self._entries: dict[str, list[ctypes.c_uint64]] = {}
         self.addresses: dict[str, int] = {}
-        for kind, listed_names in names.items():
-            table = (ctypes.c_uint64 * (len(listed_names) + 1))()
+        for kind, listed in calls.items():
+            table = (ctypes.c_uint64 * (2 * len(listed) + 1))()
             self.addresses[kind] = ctypes.addressof(table)
             self._kept.append(table)
-            for place, name in enumerate(listed_names):
-                table[place] = found[name].address
-                entry = ctypes.c_uint64.from_buffer(table, 8 * place)
-                self._entries.setdefault(name, []).append(entry)
+            for place, (piece, data) in enumerate(listed):
+                table[2 * place] = found[piece.name].address
+                if data is not None:
+                    table[2 * place + 1] = ctypes.addressof(data)
+                    self._kept.append(data)
+                entry = ctypes.c_uint64.from_buffer(table, ENTRY_BYTES * place)
+                self._entries.setdefault(piece.name, []).append(entry)
 
     def improve(self) -> Iterator[None]:
         """Compile the pieces well, one at each step, and put them in use."""
@@ -67,3 +78,15 @@ class PieceTables:
             for entry in self._entries[name]:
                 entry.value = better.address  # one aligned store: who calls sees the old or the new
             yield
+
+
+def _call_of(group: Sequence[Action | Rolled], is_one_of_many: bool) -> PieceCall:
+    """Return a group of a pass as a call of its piece."""
+    call = None
+    if len(group) == 1:
+        (action,) = group
+        if not isinstance(action, Rolled):
+            call = lone_call(action) if is_one_of_many else None
+        elif is_function_of_data(action):
+            call = rolled_call(action)
+    return call or PieceCall(piece_of(group))

@@ -182,7 +182,7 @@ def _reads_its_targets(operands: Iterable[int | tuple[int | float, ...]], first:
 def roll(actions: Sequence[Action], width: int) -> list[Action | Rolled]:
     """Return the statements with long runs of one shape rolled up; order and meaning stay."""
     done: list[Action | Rolled] = []
-    shapes = [*map(_plain, actions)]
+    shapes = [*map(plain_shape, actions)]
     at, end = 0, len(actions)
     while at < end:
         cancellation_point()
@@ -212,7 +212,7 @@ def age() -> None:
     _shapes.age()
 
 
-def _plain(action: Action) -> _Shape | None:
+def plain_shape(action: Action) -> _Shape | None:
     """Return shape and leaves of the value of a statement that may be rolled up."""
     if type(action) is not Deriv and type(action) is not Set:
         return None

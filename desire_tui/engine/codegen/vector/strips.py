@@ -37,7 +37,7 @@ class Strip:
         if self.active == lanes.width:
             return text.op(f"load {lanes.kind}, ptr {at}, align 8")
         if self.masked:
-            return lanes.load_first(at, self.active)
+            return lanes.load_some(at, lanes.first_lanes(self.active))
         result = "zeroinitializer"
         for lane in range(self.active):
             one = at if lane == 0 else text.op(f"getelementptr double, ptr {at}, i64 {lane}")
@@ -66,7 +66,7 @@ class Strip:
             text.do(f"store {lanes.kind} {value}, ptr {at}, align 8")
             return
         if self.masked:
-            lanes.store_first(value, at, self.active)
+            lanes.store_some(value, at, lanes.first_lanes(self.active))
             return
         for lane in range(self.active):
             one = at if lane == 0 else text.op(f"getelementptr double, ptr {at}, i64 {lane}")
