@@ -11,7 +11,8 @@ and the threads that compile it, is one `compiler_state`. The rooms, from text t
               without LLVM (`object_file`, `placed_code`)
     `threads` loops of large models on all cores
     `exact_functions` sin, exp and the like for many numbers at a time, with the C library's bits
-    `pieces`  a pass (`passes.slices`) as functions of some dozen statements in tables of addresses
+    `pieces`  a pass (`passes.slices`) as functions of some dozen statements in tables of addresses; loops
+              that an edit changes keep their code and are called with other data
     `loop`    the run loop of language.md 8.2, written once over a `storage`, its steps fixed or variable:
               `register_storage` small models of scalars: states, parameters and passes in one function
               `array_storage`    all others: tables of pieces, one loop for all models of a rule

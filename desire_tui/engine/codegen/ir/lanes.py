@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.text import literal
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from desire_tui.engine.codegen.ir.text import IrText
 
 
@@ -114,6 +116,18 @@ class Lanes:
         self.text.declarations.add(f"declare {self.kind} @{function}({kinds}) #1")
         listed = ", ".join(f"{self.kind} {a}" for a in args)
         return self.text.op(f"call {self.kind} @{function}({listed})")
+
+    def around(self, scalars: Sequence[str]) -> str:
+        """Return scalar values that come round in the lanes; their number divides the width."""
+        value = "poison"
+        for lane, scalar in enumerate(scalars):
+            value = self.text.op(f"insertelement {self.kind} {value}, double {scalar}, i64 {lane}")
+        if len(scalars) == self.width:
+            return value
+        lanes = ", ".join(f"i32 {lane % len(scalars)}" for lane in range(self.width))
+        return self.text.op(
+            f"shufflevector {self.kind} {value}, {self.kind} poison, <{self.width} x i32> <{lanes}>"
+        )
 
     def splat(self, scalar: str) -> str:
         """Return a scalar value in every lane."""

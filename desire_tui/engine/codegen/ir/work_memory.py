@@ -17,8 +17,7 @@ what tells whether something may have switched in a step (`passes.watch_passes`)
 
 
 class WorkMemory(ctypes.Structure):
-    """One model's tables. A table of pieces is an array of function addresses, each with that of
-    the function's data, that ends with 0.
+    """One model's tables. One of pieces holds the addresses of functions and their data, and ends with 0.
 
     The addresses in a table may be replaced at any moment by those of faster code that computes the same
     bits.

@@ -61,9 +61,9 @@ def write(actions: Sequence[Action | Rolled]) -> Piece:
 
 
 def finished(text: IrText, temps: int = 0) -> Piece:
-    """Return a piece with this text: a function `void NAME(ptr values, ptr derivatives, ptr context, ptr data)`.
+    """Return a piece with this text, `void NAME(ptr %v, ptr %dx, ptr %c, ptr %d)`; `temps` as in `Piece`.
 
-    The text may use `%m` and `%random`; `temps` as in `Piece`.
+    These are the values, the derivatives, the context, the piece's data. The text may use `%m` and `%random`.
     """
     body = "\n".join(text.lines)
     start = ["entry:", *text.allocas]

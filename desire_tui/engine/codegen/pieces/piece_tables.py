@@ -9,12 +9,7 @@ from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.pieces.kept_pieces import piece_of
 from desire_tui.engine.codegen.pieces.pass_pieces import cut
-from desire_tui.engine.codegen.pieces.rolled_pieces import (
-    PieceCall,
-    is_function_of_data,
-    lone_call,
-    rolled_call,
-)
+from desire_tui.engine.codegen.pieces.rolled_pieces import FunctionsOfData, PieceCall
 from desire_tui.engine.codegen.scalar.rerolling import Rolled, roll
 
 if TYPE_CHECKING:
@@ -40,19 +35,21 @@ class PieceTables:
         calls: dict[str, list[PieceCall]] = {}
         written: dict[tuple[int, ...], PieceCall] = {}  # passes share most statements
         rolled: dict[tuple[int, ...], list[list[Action | Rolled]]] = {}
+        functions = FunctionsOfData()
         for kind, actions in passes.items():
             calls[kind] = []
             whole = tuple(map(id, actions))
             if whole not in rolled:
-                rolled[whole] = list(cut(roll(actions, machine().width), is_function_of_data))
+                rolled[whole] = list(cut(roll(actions, machine().width), functions.is_one))
             for group in rolled[whole]:
                 key = tuple(map(id, group))
                 call = written.get(key)
                 if call is None:
                     cancellation_point()
-                    call = written[key] = _call_of(group, len(rolled[whole]) > 1)
+                    call = written[key] = _call_of(group, functions)
                     self._pieces[call.piece.name] = call.piece
                 calls[kind].append(call)
+        functions.remember()
         self.temps = max((piece.temps for piece in self._pieces.values()), default=0)
         found = store.quick(self._pieces.values())
         self._kept: list[object] = list(found.values())
@@ -80,13 +77,8 @@ class PieceTables:
             yield
 
 
-def _call_of(group: Sequence[Action | Rolled], is_one_of_many: bool) -> PieceCall:
+def _call_of(group: Sequence[Action | Rolled], functions: FunctionsOfData) -> PieceCall:
     """Return a group of a pass as a call of its piece."""
-    call = None
-    if len(group) == 1:
-        (action,) = group
-        if not isinstance(action, Rolled):
-            call = lone_call(action) if is_one_of_many else None
-        elif is_function_of_data(action):
-            call = rolled_call(action)
-    return call or PieceCall(piece_of(group))
+    if len(group) == 1 and functions.is_one(group[0]):
+        return functions.call(group[0])
+    return PieceCall(piece_of(group))
