@@ -15,6 +15,7 @@ import os
 import resource
 from enum import Enum
 from math import prod
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -77,6 +78,10 @@ class Quantity:
     def slots(self) -> int:
         """Number of doubles."""
         return self.size * (2 if self.kind is Kind.COMPLEX else 1)
+
+
+_PLACE = attrgetter("name", "slot", "shape", "kind", "is_state", "of_file")
+"""What a layout holds of a quantity: its fields in their order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,10 +272,12 @@ class Values:
 
     def layout(self) -> Layout:
         """Return all names with their places, in the order in which they were made."""
-        quantities = tuple(
-            (q.name, q.slot, q.shape, q.kind, q.is_state, q.of_file) for q in self.names.values()
+        return Layout(
+            tuple(map(_PLACE, self.names.values())),
+            self._scalars,
+            self._arrays,
+            bytes(self.defined[: self._scalars]),
         )
-        return Layout(quantities, self._scalars, self._arrays, bytes(self.defined[: self._scalars]))
 
     def lay_out(self, layout: Layout) -> None:
         """Make the names that a layout has besides those there are, which must be the first of its own."""

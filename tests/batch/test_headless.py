@@ -571,7 +571,7 @@ def test_headless_runs_load_neither_textual_nor_matplotlib(decay):
     code = (
         "import sys\nfrom desire_tui.__main__ import main\n"
         f"try: main(['run', {str(decay)!r}])\nexcept SystemExit: pass\n"
-        "unwanted = 'textual', 'rich', 'matplotlib', 'plotext', 'scipy', 'dataclasses'\n"
+        "unwanted = 'textual', 'rich', 'matplotlib', 'plotext', 'scipy', 'dataclasses', 'desire_tui.engine.warm_start'\n"
         "bad = [m for m in unwanted if m in sys.modules]\n"
         "sys.exit(repr(bad) if bad else 0)"
     )

@@ -22,13 +22,14 @@ from desire_tui.engine.runtime.run_faults import first_not_finite
 from desire_tui.engine.runtime.run_memory import Ended, Phase, RunMemory
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping, Sequence
 
     from desire_tui.engine.codegen.jit.background import Improver
     from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
     from desire_tui.engine.codegen.loop.looks import Looks
     from desire_tui.engine.integration.switching.setup import Watcher
     from desire_tui.engine.lowered.segment import Segment
+    from desire_tui.engine.lowered.statements import Action
     from desire_tui.engine.lowered.switching import Switching
     from desire_tui.engine.values import Values
 
@@ -54,15 +55,26 @@ class NativeModel:
     def __init__(
         self, code: CodeCache, improver: Improver, segment: Segment, rule: int, values: Values
     ) -> None:
-        vital = vital_columns(segment)
-        variable = rule_numbered(rule).kind == "variable"
-        segment, self._numbers = stepped_segment(segment, values.room, variable=variable)
-        switching = None
-        if variable:
-            from desire_tui.engine.passes.switching import switching as switches  # 2 ms
-
-            segment, switching = switches(segment, values.room)
         self._store = code
+        given = segment
+        known = _found_again(code, segment, rule) if segment.noted is not None else None
+        switching = None
+        if known is not None:
+            vital, self._passes, self._tables = known
+            self._numbers: Sequence[int] = range(segment.order)
+        else:
+            vital = vital_columns(segment)
+            variable = rule_numbered(rule).kind == "variable"
+            segment, self._numbers = stepped_segment(segment, values.room, variable=variable)
+            if variable:
+                from desire_tui.engine.passes.switching import switching as switches  # 2 ms
+
+                segment, switching = switches(segment, values.room)
+            self._passes = passes_of(segment, variable=variable)
+            if switching is not None:
+                self._passes |= {"watch_stage": switching.stage_pass, "watch_end": switching.end_pass}
+            self._tables = PieceTables(self._store, self._passes)
+        self._is_as_given = segment is given and switching is None
         self._segment = segment
         self._rule = rule
         self._values = values
@@ -70,10 +82,6 @@ class NativeModel:
         self._columns = np.array([column.slot for column in segment.columns], dtype=np.int64)
         self._vital = np.array(vital, dtype=np.int64)
         self._vital_slots = self._columns[self._vital]
-        self._passes = passes_of(segment, variable=variable)
-        if switching is not None:
-            self._passes |= {"watch_stage": switching.stage_pass, "watch_end": switching.end_pass}
-        self._tables = PieceTables(self._store, self._passes)
         self._temps = np.zeros(self._tables.temps)
         self.context = WorkMemory(values=values.address, temps=self._temps.ctypes.data)
         for kind in PASSES:
@@ -205,6 +213,14 @@ class NativeModel:
         usage = survey(self._passes.values())
         return usage.only_scalars and usage.statements <= SMALL
 
+    def noted(self) -> tuple[object, ...] | None:
+        """Return what makes this model quickly in another process, as plain data; None: nothing does."""
+        if not self._is_as_given or len(self._segment.states) <= SMALL:  # small ones need the statements soon
+            return None
+        from desire_tui.engine.codegen.pieces.noted_code import noted_code
+
+        return noted_code(self._store, self._rule, self._vital.tolist(), self._tables)
+
     # ------------------------------------------------------------------ running
 
     def advance(self, memory: RunMemory) -> Ended:
@@ -236,6 +252,14 @@ class NativeModel:
         if ended in {Ended.NOT_FINITE, Ended.DEADLOCK, Ended.STALLED} and memory.which >= 0:
             memory.which = self._numbers[memory.which]
         return ended
+
+
+def _found_again(
+    store: CodeCache, segment: Segment, rule: int
+) -> tuple[Sequence[int], Mapping[str, tuple[Action, ...]], PieceTables] | None:
+    from desire_tui.engine.codegen.pieces.noted_code import found_again  # few models are so large
+
+    return found_again(store, segment, rule)
 
 
 def _state_slots(segment: Segment) -> np.ndarray[tuple[int], np.dtype[np.int64]]:

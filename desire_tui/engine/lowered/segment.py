@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from desire_tui.engine.data_classes import dataclass, field
 from desire_tui.engine.nodes.record import node
@@ -164,6 +164,8 @@ class Segment:
     warnings: tuple[Diagnostic, ...] = ()
     may_rearrange: bool = False
     names: dict[int, str] = field(default_factory=dict)
+    noted: ClassVar[object] = None
+    """Of a segment known from an earlier process (`deferred_segment`): what a back end noted of its code."""
 
     @property
     def columns(self) -> tuple[SampleColumn, ...]:

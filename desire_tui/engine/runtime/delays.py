@@ -58,6 +58,9 @@ class Delays:
 
     def lags(self, segment: Segment, plan: RunPlan, values: Values) -> dict[int, int]:
         """Return each delay line's lag by its counter. DesireError 105: buffer too short; 122: DT varies."""
+        self.cut = []
+        if not segment.counters:  # of which each line has one: the statements need not be looked through
+            return {}
         known = self._found.get(id(segment))
         if known is None or known[0]() is not segment:
             changes_dt = any(isinstance(a, Set) and a.slot == DT for a in simple_actions(segment.body))
@@ -65,7 +68,6 @@ class Delays:
             gone = weakref.ref(segment, lambda _: found.pop(number, None))
             known = found[number] = (gone, tuple(_lines(segment.body, [])), changes_dt)
         _, lines, changes_dt = known
-        self.cut = []
         return _lags(segment, lines, changes_dt, plan, values, self.cut) if lines else {}
 
 

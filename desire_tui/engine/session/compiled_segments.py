@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.kept_expressions import KeptExpressions
     from desire_tui.engine.structure.structure import Structure
     from desire_tui.engine.values import Values
+    from desire_tui.engine.warm_start.program_start import ProgramStart
 
 BACKENDS = ("native", "reference")
 
@@ -47,6 +48,8 @@ class CompiledSegments:
         self._values = values
         self._compiler = compiler
         self._backend_name = backend
+        self.start: ProgramStart | None = None
+        """The active program's, if it is large and the first of its kind in this process."""
         self._backend: Backend | None = None
         self._kept: dict[tuple[str | None, int], Segment] = {}
         self._backward: dict[int, tuple[Segment, Segment]] = {}
@@ -112,6 +115,8 @@ class CompiledSegments:
         def made() -> Segment:
             if self._expressions is not None:
                 return self._expressions.lower(program, label, self._values, structure, rule)
+            if self.start is not None:
+                return self.start.lowered(program, label, self._values, structure, rule)
             from desire_tui.engine.lowering.lowering import lower
 
             return lower(program, label, self._values, structure, rule)

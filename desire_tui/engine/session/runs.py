@@ -158,6 +158,8 @@ class Runs:
             self._listener.problems(problems)
         if not finished:
             raise Interrupted
+        if workspace.segments.start is not None:
+            workspace.segments.start.keep(segment, model)
         if segment.stash:
             self._not_stashed = star
         if stash is not None:

@@ -121,9 +121,13 @@ class ScriptRunner:
     def _states(self, program: Program) -> tuple[str, ...]:
         """Return a program's scalar states in their order; overrides change nothing about it."""
         if self._states_of is None or self._states_of[0] is not program:
-            from desire_tui.engine.check.state_order import state_order
+            start = self._workspace.segments.start
+            if start is not None and start.own[0] is program:
+                self._states_of = program, start.states()
+            else:
+                from desire_tui.engine.check.state_order import state_order
 
-            self._states_of = program, state_order(program)
+                self._states_of = program, state_order(program)
         return self._states_of[1]
 
     def _drop(self) -> None:

@@ -39,8 +39,11 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.prepared_run import PreparedRun
     from desire_tui.engine.session.quantity_plots import PlotOutcome
     from desire_tui.engine.values import Values
+    from desire_tui.engine.warm_start.program_start import ProgramStart
 
 BackendName = Literal["native", "reference"]
+STORED_LEAST = 10_000
+"""Characters of programs for which later processes find what this one knows."""
 CHECK_SECONDS = 3.0
 """For checking a text while somebody waits or types; 20,000 equations take half of it."""
 
@@ -174,11 +177,16 @@ class Session:
 
         began = perf_counter()
         own = self._workspace.own if self._workspace.segments.are_remembered else None
-        program = own[0] if own is not None and own[0].source is source else parse(source)
+        if own is not None and own[0].source is not source:
+            own = None
+        if own is None:
+            start = self._workspace.segments.start = self._start(source)
+            own = start.own if start is not None else None
+        program = own[0] if own is not None else parse(source)
         self._workspace.parse_seconds = perf_counter() - began
         if self._script.stopped is not None and source.text != self._workspace.source.text:
             self._script.edited = True
-        if own is None or own[0] is not program:
+        if own is None:
             own = program, structure(program)
         self._workspace.own = active, script = own
         if self._workspace.overrides:
@@ -194,6 +202,14 @@ class Session:
             problems = tuple(p.within(source) for p in program.problems)
         self._listener.program_accepted(program, problems)
         return problems
+
+    def _start(self, source: Source) -> ProgramStart | None:
+        """Return the start of a program that is large enough to be stored, where nothing reads all of it."""
+        if len(source.text) < STORED_LEAST or self._listener.wants_check:
+            return None
+        from desire_tui.engine.warm_start.program_start import program_start
+
+        return program_start(source)
 
     def check(
         self, source: Source, *, quick: bool = False, seconds: float | None = None

@@ -55,6 +55,13 @@ def plain_line(line: str) -> Item | tuple[()] | None:
     return _plain[line]
 
 
+def knows(text: str) -> bool:
+    """Whether lines in the middle of a text were parsed before: so were most others, too."""
+    middle = len(text) // 2
+    rows = text[middle : middle + 1000].split("\n")[1:4]
+    return any(row.strip() and (_plain[row] or _lines[row]) for row in rows)
+
+
 def has_fault(entry: Entry) -> bool:
     """Whether a statement of a line cannot be read."""
     return any(isinstance(item, TokenFault) for item, _ in entry[0])

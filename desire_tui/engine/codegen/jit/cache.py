@@ -6,10 +6,10 @@ import threading
 from collections import OrderedDict
 from typing import TYPE_CHECKING, NamedTuple
 
-from desire_tui.engine.codegen.jit.compiler import compile_text, module_text
+from desire_tui.engine.codegen.jit.compiler import compile_text, kept_code, module_text, name_on_disk
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from desire_tui.engine.codegen.jit.machine_code import MachineCode
     from desire_tui.engine.codegen.jit.piece import Piece
@@ -27,6 +27,10 @@ class Compiled(NamedTuple):
     code: MachineCode
     size: int
     """Its share of the code's bytes."""
+
+
+Files = tuple[tuple[str, tuple[str, ...]], ...]
+"""Names of code on disk, with the functions that each holds."""
 
 
 class CodeCache:
@@ -79,6 +83,41 @@ class CodeCache:
             return known
         code = compile_text(_module([piece]), level=2, slp=slp, passes=passes, keep=self._keep_on_disk)
         return self._keep(piece.name, Compiled(code.address(piece.name), code, code.size), fast=True)
+
+    def files(self, pieces: Sequence[Piece]) -> tuple[Files, Files] | None:
+        """Return where later processes find what `quick` and `fast` make of pieces; None: not all of it."""
+        if not self._keep_on_disk:
+            return None
+        groups = ((list(_modules(pieces)), 0), ([[piece] for piece in pieces], 2))
+        quick, fast = (
+            [
+                (name_on_disk(_module(group), level=level, slp=level > 0), tuple(p.name for p in group))
+                for group in made
+            ]
+            for made, level in groups
+        )
+        found = [tuple((name, held) for name, held in some if name is not None) for some in (quick, fast)]
+        return (found[0], found[1]) if [*map(len, found)] == [len(quick), len(fast)] else None
+
+    def load(self, files: Files, *, fast: bool) -> dict[str, Compiled] | None:
+        """Return functions by their files' names (`files`), without their texts; None: some are not there."""
+        found: dict[str, Compiled] = {}
+        for file, names in files:
+            known = {name: self.find(name, fast=True) or self.find(name, fast=fast) for name in names}
+            if None in known.values():
+                code = kept_code(file)
+                if code is None:
+                    return None
+                share = code.size // len(names)
+                try:
+                    known = {name: Compiled(code.address(name), code, share) for name in names}
+                except KeyError:
+                    return None
+                for name, compiled in known.items():
+                    assert compiled is not None
+                    self._keep(name, compiled, fast=fast)
+            found |= {name: compiled for name, compiled in known.items() if compiled is not None}
+        return found
 
     def _keep(self, name: str, compiled: Compiled, *, fast: bool) -> Compiled:
         with self._lock:

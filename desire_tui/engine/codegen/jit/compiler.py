@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.codegen.jit.machine_code import MachineCode
     from desire_tui.engine.codegen.jit.stored_code import ObjectFile
 
-__all__ = ["compile_and_keep", "compile_text", "kept_code", "machine", "module_text"]
+__all__ = ["compile_and_keep", "compile_text", "kept_code", "machine", "module_text", "name_on_disk"]
 
 _ATTRIBUTES = """
 attributes #0 = { nounwind }
@@ -133,6 +133,11 @@ def kept_code(name: str) -> MachineCode | None:
         return _placed(found) if isinstance(found, Image) else in_turn(lambda: _placed(found), 0)
     except (NotPlacedError, KeyError):
         return None
+
+
+def name_on_disk(text: str, *, level: int, slp: bool = False) -> str | None:
+    """Return the name by which `kept_code` finds a text that `compile_text` kept; None: it has addresses."""
+    return None if has_addresses(text) else _name_of(text, level, slp=slp, vectorize=False, passes=True)
 
 
 def compile_and_keep(

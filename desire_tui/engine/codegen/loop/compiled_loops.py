@@ -15,6 +15,8 @@ from desire_tui.engine.digest import blake2b
 from desire_tui.engine.integration.tableaus import TABLEAUS
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from desire_tui.engine.codegen.loop.looks import Looks
     from desire_tui.engine.lowered.statements import Action
 
@@ -39,7 +41,7 @@ def array_loop(rule: int, *, contiguous: bool, watched: Watched = NOTHING, share
 
 
 def register_loop(
-    passes: dict[str, tuple[Action, ...]],
+    passes: Mapping[str, tuple[Action, ...]],
     rule: int,
     states: list[int],
     columns: list[int],

@@ -13,7 +13,7 @@ from desire_tui.engine.codegen.scalar.statements import ScalarStatements
 from desire_tui.engine.values import DT, ERRMAX, T
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.codegen.loop.looks import Glance, Looks
@@ -27,7 +27,7 @@ class RegisterStorage:
     def __init__(
         self,
         text: IrText,
-        passes: dict[str, tuple[Action, ...]],
+        passes: Mapping[str, tuple[Action, ...]],
         states: list[int],
         columns: list[int],
         vital: list[int],

@@ -15,10 +15,12 @@ from desire_tui.engine.codegen.scalar.rerolling import Rolled, roll
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from desire_tui.engine.codegen.jit.cache import CodeCache
+    from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
     from desire_tui.engine.codegen.jit.piece import Piece
     from desire_tui.engine.lowered.statements import Action
 
+    NamedCall = tuple[str, ctypes.Array[ctypes.c_uint64] | None]
+    """A `PieceCall` by the piece's name."""
 
 ENTRY_BYTES = 16
 
@@ -50,8 +52,17 @@ class PieceTables:
                     self._pieces[call.piece.name] = call.piece
                 calls[kind].append(call)
         functions.remember()
-        self.temps = max((piece.temps for piece in self._pieces.values()), default=0)
-        found = store.quick(self._pieces.values())
+        temps = max((piece.temps for piece in self._pieces.values()), default=0)
+        named = {
+            kind: [(piece.name, data) for piece, data in listed] for kind, listed in calls.items()
+        }
+        self._lay_out(named, temps, store.quick(self._pieces.values()))
+
+    def _lay_out(
+        self, calls: Mapping[str, Sequence[NamedCall]], temps: int, found: Mapping[str, Compiled]
+    ) -> None:
+        """Write the tables of the passes' calls; `found` are the pieces by their names."""
+        self.calls, self.temps = calls, temps
         self._kept: list[object] = list(found.values())
         self._entries: dict[str, list[ctypes.c_uint64]] = {}
         self.addresses: dict[str, int] = {}
@@ -59,22 +70,30 @@ class PieceTables:
             table = (ctypes.c_uint64 * (2 * len(listed) + 1))()
             self.addresses[kind] = ctypes.addressof(table)
             self._kept.append(table)
-            for place, (piece, data) in enumerate(listed):
-                table[2 * place] = found[piece.name].address
+            for place, (name, data) in enumerate(listed):
+                table[2 * place] = found[name].address
                 if data is not None:
                     table[2 * place + 1] = ctypes.addressof(data)
                     self._kept.append(data)
                 entry = ctypes.c_uint64.from_buffer(table, ENTRY_BYTES * place)
-                self._entries.setdefault(piece.name, []).append(entry)
+                self._entries.setdefault(name, []).append(entry)
+
+    @property
+    def pieces(self) -> Mapping[str, Piece]:
+        """The pieces by name."""
+        return self._pieces
 
     def improve(self) -> Iterator[None]:
         """Compile the pieces well, one at each step, and put them in use."""
-        for name, piece in self._pieces.items():
-            better = self._store.fast(piece)
+        for name, entries in self._entries.items():
+            better = self._fast(name)
             self._kept.append(better)
-            for entry in self._entries[name]:
+            for entry in entries:
                 entry.value = better.address  # one aligned store: who calls sees the old or the new
             yield
+
+    def _fast(self, name: str) -> Compiled:
+        return self._store.fast(self.pieces[name])
 
 
 def _call_of(group: Sequence[Action | Rolled], functions: FunctionsOfData) -> PieceCall:
