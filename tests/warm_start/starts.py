@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
 from desire_tui.engine.codegen.compiler_state import CompilerState
-from desire_tui.engine.codegen.pieces import kept_pieces
+from desire_tui.engine.codegen.pieces import kept_pieces, rolled_pieces
 from desire_tui.engine.diagnostics import DesireError, render_all
 from desire_tui.engine.lowered.segment import Segment
 from desire_tui.engine.lowering import lowering_cache
@@ -75,6 +75,7 @@ def new_session(*answers: str) -> Iterator[Session]:
     shapes.forget()
     lowering_cache.forget()
     kept_pieces.forget()
+    rolled_pieces.forget()
     compiler = CompilerState(keep=True)
     compiler.improver.add = lambda work: None  # type: ignore[method-assign]  # what runs is the same in each run
     try:

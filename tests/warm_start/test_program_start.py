@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import marshal
 
 import pytest
@@ -194,6 +195,26 @@ def test_fast_code_needs_no_equations_either(first, monkeypatch):
             session.execute("reset | x = 1 | y = 1 | z = 20 | t = 0 | drun")
             run = session.runs[-1]
             assert run.rows[: run.count].tobytes() == first.samples[0]
+
+
+def test_code_whose_form_depends_on_earlier_programs(code):
+    with new_session() as session:
+        session.erun(Source(LORENZ))
+        model = model_of(session)
+        assert model.noted() is not None
+        model._tables.calls = {"step": [("p", (ctypes.c_uint64 * 1)(3))]}
+        assert model.noted() is None
+    with new_session() as session:
+        session.erun(Source(LORENZ))
+        assert is_restored(session)
+        tables = model_of(session)._tables
+        tables._written = {}  # as if all pieces were called with data now
+        before = [entry.value for entries in tables._entries.values() for entry in entries]
+        for file in files(code, "code-"):
+            file.unlink()
+        for _ in tables.improve():
+            pass
+        assert before == [entry.value for entries in tables._entries.values() for entry in entries]
 
 
 def test_code_for_another_rule_is_written_for_it(first):

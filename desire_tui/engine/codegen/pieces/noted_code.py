@@ -110,4 +110,6 @@ class _NotedTables(PieceTables):
         found = self._store.load(self._files[name], fast=True)
         if found is not None:
             return found[name]
-        return super()._fast(name) if name in self.pieces else self._code[name]  # it would be called with data
+        return (
+            super()._fast(name) if name in self.pieces else self._code[name]
+        )  # it would be called with data

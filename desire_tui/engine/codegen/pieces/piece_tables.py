@@ -53,9 +53,7 @@ class PieceTables:
                 calls[kind].append(call)
         functions.remember()
         temps = max((piece.temps for piece in self._pieces.values()), default=0)
-        named = {
-            kind: [(piece.name, data) for piece, data in listed] for kind, listed in calls.items()
-        }
+        named = {kind: [(piece.name, data) for piece, data in listed] for kind, listed in calls.items()}
         self._lay_out(named, temps, store.quick(self._pieces.values()))
 
     def _lay_out(
