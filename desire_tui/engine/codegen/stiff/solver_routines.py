@@ -42,10 +42,10 @@ from desire_tui.engine.integration.sundials.signatures import CVODE, address
 from desire_tui.engine.integration.switching import located
 from desire_tui.engine.integration.switching import memory as switching
 from desire_tui.engine.integration.switching.memory import Compute, Place, Watch
-from desire_tui.engine.integration.taylor import isolation, roots, square_roots
+from desire_tui.engine.integration.taylor import isolation, roots, shared_steps, square_roots
 from desire_tui.engine.integration.taylor import memory as taylor_memory
 from desire_tui.engine.integration.taylor import step as taylor_step
-from desire_tui.engine.integration.taylor.memory import Expand, Taylor
+from desire_tui.engine.integration.taylor.memory import Expand, Share, Taylor
 from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.runtime import run_memory
 from desire_tui.engine.runtime.moments import inside as moments_inside
@@ -67,7 +67,7 @@ _CALLED = (
 _MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, progress, interval)
 _CVODE = (*_MODEL, look_back, cvode_callbacks, cvode_steps)
 _OWN = (*_MODEL, look_back, own_steps, choice, coefficients, newton, start, step)
-_TAYLOR = (*_MODEL, taylor_steps, taylor_step, square_roots, isolation, roots, located)
+_TAYLOR = (*_MODEL, taylor_steps, taylor_step, shared_steps, square_roots, isolation, roots, located)
 _EXPLICIT = (*_MODEL, look_back, explicit_steps, explicit_step, hermite)
 _CONSTANTS = (
     memory, explicit_memory, taylor_memory, problem, run_memory, signatures, switching, moments_inside,
@@ -251,9 +251,9 @@ def _series_text() -> str:
         "SolverProblem": SolverProblem, "RunMemory": RunMemory, "Taylor": Taylor, "Watch": Watch,
         "Moments": Moments,
     }  # fmt: skip
-    kinds = {"expand": Expand, "modes": Compute, "place": Place}
+    kinds = {"expand": Expand, "modes": Compute, "place": Place, "share": Share}
     pointers = _of_the_problem() | {name: of_function(kind, "") for name, kind in kinds.items()}
-    public = frozenset(("interval", "state_at"))
+    public = frozenset(("interval", "state_at", "scan_block", "move_block"))
     return write_program(
         _modules(_TAYLOR), Outside(structures, pointers, {"expand": "expand"}), "solver_", public
     )

@@ -17,7 +17,7 @@ from desire_tui.engine.codegen.stiff.dense_factors import factorise_address
 from desire_tui.engine.codegen.stiff.stiff_loop import stiff_loop
 from desire_tui.engine.codegen.stiff.stiff_moments import StiffMoments
 from desire_tui.engine.codegen.switching.watch_routines import watch_functions
-from desire_tui.engine.codegen.taylor.series_code import SeriesCode
+from desire_tui.engine.codegen.taylor.series_code import SeriesCode, share_steps
 from desire_tui.engine.integration.advice import Probe, advice
 from desire_tui.engine.integration.explicit.solver import ExplicitSolver
 from desire_tui.engine.integration.pattern import Pattern
@@ -174,6 +174,7 @@ class StiffModel:
         if self._series is not None and isinstance(self.system.solver, TaylorSolver):
             self.system.solver.taylor.at_start = self._at_start
             self._series.give(self.system.solver.taylor)
+            share_steps(self.system.solver.taylor, natives.keep)
         problem.inputs, problem.input_count = self._inputs.ctypes.data, self._inputs.size
         problem.inputs_kept = self._inputs_kept.ctypes.data
         problem.inputs_before = self._inputs_before.ctypes.data

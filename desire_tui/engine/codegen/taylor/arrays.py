@@ -40,7 +40,7 @@ class Arrays:
         target = self._frame.row(node)
         if abs(by) < n:
             source = text.op(f"getelementptr double, ptr {self._frame.row(given)}, i64 {by}")
-            loop(text, str(max(-by, 0) // lanes.width * lanes.width), str(apart(node)), lanes.width,
+            loop(text, str(max(-by, 0) // lanes.width * lanes.width), self._end(node), lanes.width,
                  lambda i: put(lanes, target, i, fetch(lanes, source, i)))  # fmt: skip
         gone = min(abs(by), n)
         start = n - gone if by > 0 else 0
@@ -56,7 +56,7 @@ class Arrays:
             if isinstance(operand, Series) and operand.count is not None:
                 to = self._frame.text.op(f"getelementptr double, ptr {target}, i64 {place}")
                 row = self._frame.row(operand)
-                self._copy(to, self._frame.text.op(f"getelementptr double, ptr {row}, i64 {at}"), count)
+                self._copy(to, self._frame.text.op(f"getelementptr double, ptr {row}, i64 {at}"), str(count))
             else:
                 put(one, target, str(place), self._frame.coefficient(operand))
             place += count
@@ -109,7 +109,7 @@ class Arrays:
 
             loop(text, "0", str(rows), 1, dot)
             return
-        loop(text, "0", str(apart(node)), lanes.width, lambda i: put(lanes, target, i, lanes.const(0.0)))
+        loop(text, "0", self._end(node), lanes.width, lambda i: put(lanes, target, i, lanes.const(0.0)))
 
         def add_row(r: str) -> None:
             row, factor = matrix_row(r), fetch(one, source, r)
@@ -151,7 +151,7 @@ class Arrays:
     def _constant(self, constant: Constant, i: str) -> str:
         if constant.count is None:
             return self._lanes.splat(self._frame.first(constant))
-        return fetch(self._lanes, self._frame.slot(constant.slot), i)
+        return fetch(self._lanes, self._values(constant.slot), i)
 
     def _sum(self, count: int, element: Callable[[Lanes, str], str]) -> str:
         """Return the sum of some elements: as many partial sums as there are lanes, added in order."""
@@ -173,10 +173,19 @@ class Arrays:
         loop(text, str(main), str(count), 1, lambda i: add(one, single, i))
         return text.op(f"load double, ptr {single}")
 
-    def _copy(self, to: str, source: str, count: int) -> None:
+    def _end(self, node: Series) -> str:
+        """Return behind which element an array's loops end: whole strips."""
+        return str(apart(node))
+
+    def _values(self, slot: int) -> str:
+        """Return the address of an array's values at the step's start."""
+        return self._frame.slot(slot)
+
+    def _copy(self, to: str, source: str, count: str) -> None:
         text = self._frame.text
         text.declarations.add("declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
-        text.do(f"call void @llvm.memcpy.p0.p0.i64(ptr {to}, ptr {source}, i64 {8 * count}, i1 false)")
+        size = text.op(f"mul i64 8, {count}")
+        text.do(f"call void @llvm.memcpy.p0.p0.i64(ptr {to}, ptr {source}, i64 {size}, i1 false)")
 
 
 def runs(node: Series) -> list[tuple[Series | Constant, int, int]]:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.codegen.ir.text import literal
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.taylor.fused import Fused
-from desire_tui.engine.codegen.taylor.layout import apart
 from desire_tui.engine.lowered.expressions import Const
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.codegen.taylor.layout import Layout
+    from desire_tui.engine.codegen.taylor.tile_layout import TileLayout
 
 
 class Frame:
@@ -25,8 +25,8 @@ class Frame:
     series.
     """
 
-    def __init__(self, text: IrText, layout: Layout) -> None:
-        self.text, self.layout = text, layout
+    def __init__(self, text: IrText, layout: Layout | TileLayout, base: str = "%c") -> None:
+        self.text, self.layout, self._base = text, layout, base
         self.order: int | None = None
         self.lanes = Fused(text)
         self.now: dict[int, str] = {}
@@ -120,7 +120,7 @@ class Frame:
 
     def at(self, place: int, index: str = "") -> str:
         """Return the address of `place` (+ `index`) among the coefficients."""
-        base = self.text.op(f"getelementptr double, ptr %c, i64 {place}")
+        base = self.text.op(f"getelementptr double, ptr {self._base}, i64 {place}")
         return self.text.op(f"getelementptr double, ptr {base}, i64 {index}") if index else base
 
     def get(self, place: int, index: str = "") -> str:
@@ -133,5 +133,5 @@ class Frame:
 
     def row(self, node: Series, order: str = "%k") -> str:
         """Return the address of an array's coefficients of an order."""
-        offset = self.text.op(f"mul i64 {order}, {apart(node)}")
+        offset = self.text.op(f"mul i64 {order}, {self.layout.apart(node)}")
         return self.at(self.layout.place(node), offset)

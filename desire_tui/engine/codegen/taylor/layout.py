@@ -40,6 +40,8 @@ class Layout:
         assert ORDER_MOST < ROW
         self.is_short = are_short(program)
         """Whether arrays' coefficients are in registers: rows are those that others read, side by side."""
+        self.in_tiles = False
+        """Whether arrays' coefficients but for the states' stand elsewhere (`tile_layout`)."""
         self._places: dict[int, int] = {}
         self._cells: dict[tuple[str, int], int] = {}
         self._squares: dict[tuple[int, int], int] = {}
@@ -71,8 +73,9 @@ class Layout:
             place += -(-node.size // 8) * 8
         self._stride = place - start
         place += ORDER_MOST * self._stride
+        states = {piece.series.number for piece in self._program.states}
         for node in self._program.nodes:
-            if self.is_short and node.count is not None:
+            if node.count is not None and (self.is_short or (self.in_tiles and node.number not in states)):
                 continue
             self._places[node.number] = place
             place += ROW if node.count is None else apart(node) * (ORDER_MOST + 1)

@@ -13,13 +13,16 @@ from desire_tui.engine.codegen.taylor.frame import Frame
 from desire_tui.engine.codegen.taylor.scalar import WITH_SUMS, ScalarRecurrences
 from desire_tui.engine.codegen.taylor.short_arrays import ShortArrays
 from desire_tui.engine.codegen.taylor.sums import Sums
+from desire_tui.engine.codegen.taylor.tile_layout import elements_in_tiles
+from desire_tui.engine.codegen.taylor.tiles import Tile
 from desire_tui.engine.codegen.taylor.vector import VectorRecurrences
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.digest import blake2b
 from desire_tui.engine.passes.dead_code import needed_for
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
     from desire_tui.engine.codegen.taylor.layout import Layout
     from desire_tui.engine.codegen.taylor.straight_sums import StraightSums
@@ -43,46 +46,85 @@ def recurrences(program: SeriesProgram, layout: Layout) -> Written:
 
     Coefficients 0 are taken from the values where they are not computed here. `layout` is finished here.
     """
+    if count := elements_in_tiles(program):
+        return _in_tiles(program, layout, count)
     frame = Frame(IrText(), layout)
-    many = sum(node.kind in WITH_SUMS for node in program.nodes if node.count is None)
-    sums = Sums(frame, in_memory=many > REGISTERS_MOST)
-    function = _Loop(program, frame, sums)
-    sums.finish_layout()
-    piece = function.piece()
+    vector = ShortArrays(frame, program) if layout.is_short else VectorRecurrences(frame, machine().width)
+    piece = _looped(program, frame, vector).piece()
     values = program.values_pass
     if layout.is_short or all(node.count is None for node in program.nodes):
         values = needed_for(values, frame.loaded)
     return Written(piece, values)
 
 
+def _in_tiles(program: SeriesProgram, layout: Layout, count: int) -> Written:
+    """Write numbers' recurrences, and behind them those of arrays, tile by tile."""
+    layout.in_tiles = True
+    frame, tile = Frame(IrText(), layout), Tile(program, layout)
+    numbers, arrays = (_part(program, of_arrays=of_arrays) for of_arrays in (False, True))
+    function = _looped(numbers, frame, VectorRecurrences(frame, machine().width), tile.numbers)
+    tile.begin(count)
+    _looped(arrays, tile.frame, tile).write()
+    tile.finish()
+    piece = function.piece(tile.share)
+    return Written(piece, needed_for(program.values_pass, frame.loaded + tile.frame.loaded))
+
+
+def _part(program: SeriesProgram, *, of_arrays: bool) -> SeriesProgram:
+    nodes = tuple(node for node in program.nodes if (node.count is not None) is of_arrays)
+    states = tuple(piece for piece in program.states if (piece.series.count is not None) is of_arrays)
+    return replace(program, nodes=nodes, states=states)
+
+
+def _looped(
+    program: SeriesProgram, frame: Frame, vector: VectorRecurrences, kept: Iterable[int] = ()
+) -> _Loop:
+    many = sum(node.kind in WITH_SUMS for node in program.nodes if node.count is None)
+    sums = Sums(frame, in_memory=many > REGISTERS_MOST)
+    function = _Loop(program, frame, sums, vector, kept)
+    sums.finish_layout()
+    return function
+
+
 class Recurrences:
     """The function but for how one order follows another: `orders` writes that."""
 
-    def __init__(self, program: SeriesProgram, frame: Frame, sums: Sums | StraightSums) -> None:
+    def __init__(
+        self,
+        program: SeriesProgram,
+        frame: Frame,
+        sums: Sums | StraightSums,
+        vector: VectorRecurrences,
+        kept: Iterable[int] = (),
+    ) -> None:
+        """`kept`: numbers whose coefficients others read, besides those that the program tells."""
         self.program, self.frame, self.text = program, frame, frame.text
         self.scalar = ScalarRecurrences(frame, sums)
         numbers = [node for node in program.nodes if node.count is None]
         self.has_sums = [self.scalar.announce(node) for node in numbers].count(True) > 0
-        self.vector = (
-            ShortArrays(frame, program)
-            if frame.layout.is_short
-            else VectorRecurrences(frame, machine().width)
-        )
-        self._kept = _kept(program)
+        self.vector = vector
+        self._kept = _kept(program) | set(kept)
         self._read = self._kept | _read_first(program)
         self.derivatives = {piece.series.number: piece.derivative for piece in program.states}
 
-    def piece(self, name: str | None = None) -> Piece:
-        """Write everything; without a name it is the text's digest."""
-        self._begin()
-        self.orders()
+    def piece(self, finish: Callable[[IrText], None] | None = None, name: str | None = None) -> Piece:
+        """Write everything, at last what `finish` writes; without a name it is the text's digest."""
+        self.write()
+        if finish is not None:
+            finish(self.text)
+        self.text.do("ret void")
         body = self.text.body()
         name = name or "t" + blake2b(body.encode(), digest_size=10).hexdigest()
         function = f"define void @{name}(ptr %v, ptr %c, i64 %p) #0 {{\n{body}\n}}"
         return Piece(name, function, frozenset(self.text.declarations))
 
+    def write(self) -> None:
+        """Write everything but the function's end."""
+        self._begin()
+        self.orders()
+
     def orders(self) -> None:
-        """Write all orders from 1 on, and the function's end."""
+        """Write all orders from 1 on, up to a block where they are there."""
         raise NotImplementedError
 
     def prepare(self) -> None:
@@ -150,8 +192,15 @@ class Recurrences:
 
 
 class _Loop(Recurrences):
-    def __init__(self, program: SeriesProgram, frame: Frame, sums: Sums) -> None:
-        super().__init__(program, frame, sums)
+    def __init__(
+        self,
+        program: SeriesProgram,
+        frame: Frame,
+        sums: Sums,
+        vector: VectorRecurrences,
+        kept: Iterable[int],
+    ) -> None:
+        super().__init__(program, frame, sums, vector, kept)
         self._sums = sums
 
     def prepare(self) -> None:
@@ -187,7 +236,6 @@ class _Loop(Recurrences):
         text.do("%k.next = add i64 %k, 1")
         text.jump("orders")
         text.begin("last")
-        text.do("ret void")
 
     def _derivative_cells(self) -> dict[int, str]:
         """Make cells for numbers' derivatives, which are one order behind."""

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.taylor.layout import Layout
 from desire_tui.engine.codegen.taylor.recurrences import recurrences
 from desire_tui.engine.codegen.taylor.straight_line import is_small, straight_line
+from desire_tui.engine.codegen.threads.pool import thread_pool
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from desire_tui.engine.codegen.jit.cache import CodeCache
+    from desire_tui.engine.codegen.jit.machine_code import MachineCode
     from desire_tui.engine.integration.taylor.memory import Taylor
     from desire_tui.engine.passes.series.nodes import SeriesProgram
 
+_PIECES_MOST = 64
+"""Pieces that states may consist of where they are shared: each block looks through all."""
 _TEXT_MOST = 400_000
 """Characters of a function that LLVM is asked to compile well: its time grows with their square."""
 
@@ -52,3 +57,11 @@ class SeriesCode:
         for taylor in self._users:
             taylor.recurrences = better.address  # one aligned store: who calls sees the old or the new
         yield
+
+
+def share_steps(taylor: Taylor, solver: MachineCode) -> None:
+    """Let threads share what a solver does with each of many states; `solver`: the code of `shared_steps`."""
+    if is_large(taylor.n) and taylor.piece_count <= _PIECES_MOST:
+        taylor.share = thread_pool().share
+        taylor.scan_block = solver.address("solver_scan_block")
+        taylor.move_block = solver.address("solver_move_block")

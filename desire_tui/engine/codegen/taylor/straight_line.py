@@ -8,10 +8,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.text import IrText
+from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.taylor.frame import Frame
 from desire_tui.engine.codegen.taylor.recurrences import Recurrences
 from desire_tui.engine.codegen.taylor.scalar import WITH_SUMS
 from desire_tui.engine.codegen.taylor.straight_sums import StraightSums
+from desire_tui.engine.codegen.taylor.vector import VectorRecurrences
 from desire_tui.engine.integration.taylor.memory import ORDER_MOST
 
 if TYPE_CHECKING:
@@ -32,12 +34,12 @@ def is_small(program: SeriesProgram) -> bool:
 def straight_line(program: SeriesProgram, layout: Layout, name: str) -> Piece:
     """Write what `recurrences` writes, with the same bits, for a small model; `layout` is finished."""
     frame = Frame(IrText(), layout)
-    return _StraightLine(program, frame, StraightSums(frame)).piece(name)
+    return _StraightLine(program, frame, StraightSums(frame)).piece(name=name)
 
 
 class _StraightLine(Recurrences):
     def __init__(self, program: SeriesProgram, frame: Frame, sums: StraightSums) -> None:
-        super().__init__(program, frame, sums)
+        super().__init__(program, frame, sums, VectorRecurrences(frame, machine().width))
         self._sums = sums
 
     def prepare(self) -> None:
@@ -59,4 +61,3 @@ class _StraightLine(Recurrences):
                 slopes = {number: frame.coefficient(d) for number, d in self.derivatives.items()}
         text.jump("last")
         text.begin("last")
-        text.do("ret void")

@@ -9,7 +9,7 @@ from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import literal
 from desire_tui.engine.codegen.taylor.arrays import Arrays
 from desire_tui.engine.codegen.taylor.fused import Fused
-from desire_tui.engine.codegen.taylor.layout import apart, strip
+from desire_tui.engine.codegen.taylor.layout import strip
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ class VectorRecurrences(Arrays):
             loop(text, "0", str(node.size), 1,
                  lambda i: put(one, target, i, fetch(one, "%v", self._entry(table, i))))  # fmt: skip
             return
-        self._copy(self._frame.at(self._frame.layout.place(node)), self._frame.slot(node.slot), node.size)
+        self._copy(self._frame.at(self._frame.layout.place(node)), self._values(node.slot), str(node.size))
 
     def load_constant(self, constant: Constant) -> None:
         """Nothing is read ahead."""
@@ -56,7 +56,7 @@ class VectorRecurrences(Arrays):
             return
         element: Callable[[Series, str], str] = getattr(self, f"_element_{node.kind}")
         target = self._frame.row(node)
-        loop(self._frame.text, "0", str(apart(node)), self._lanes.width,
+        loop(self._frame.text, "0", self._end(node), self._lanes.width,
              lambda i: put(self._lanes, target, i, element(node, i)))  # fmt: skip
 
     def state(self, node: Series, derivative: Series | Constant) -> None:
@@ -72,10 +72,10 @@ class VectorRecurrences(Arrays):
             def constant(i: str) -> None:
                 put(lanes, target, i, lanes.mul(self._constant(derivative, i), lanes.splat(once)))
 
-            loop(text, "0", str(apart(node)), lanes.width, constant)
+            loop(text, "0", self._end(node), lanes.width, constant)
             return
         source = self._frame.row(derivative, before)
-        loop(text, "0", str(apart(node)), lanes.width,
+        loop(text, "0", self._end(node), lanes.width,
              lambda i: put(lanes, target, i, self._over_order(fetch(lanes, source, i))))  # fmt: skip
 
     def number(self, node: Series) -> str:

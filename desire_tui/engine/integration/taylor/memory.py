@@ -18,11 +18,20 @@ GAVE_UP = -8
 HALVES_MOST = 30
 """Roots are looked for in parts of a step down to 2^-30 of it."""
 
+STATES_OF_A_BLOCK = 1 << 12
+"""Where threads share the loops over the states (`shared_steps`)."""
+FOUND = 8
+"""Numbers that each block leaves, in a cache line of its own."""
+
 _ADDRESS, _INT, _REAL = ctypes.c_uint64, ctypes.c_int64, ctypes.c_double
 _REALS, _INTS = ctypes.POINTER(_REAL), ctypes.POINTER(_INT)
 
 Expand = ctypes.CFUNCTYPE(ctypes.c_int32, _ADDRESS, _REAL, _REALS)
 """f(problem, t, y): compute all coefficients at t from the states y. 0 done, < 0 give up."""
+
+
+Share = ctypes.CFUNCTYPE(None, _ADDRESS, _ADDRESS, _ADDRESS, _ADDRESS, _INT, _INT)
+"""f(body, values, derivatives, context, count, block): `body` for all blocks, by all threads."""
 
 
 class Taylor(ctypes.Structure):
@@ -62,6 +71,11 @@ class Taylor(ctypes.Structure):
         ("left", _REAL), ("right", _REAL),
         # square roots: triples (place of coefficient 0 of the first, distance, count) (`square_roots`)
         ("root_count", _INT), ("roots", _INTS),
+        # loops over many states (`shared_steps`); `share` 0: there are few
+        ("itself", _ADDRESS), ("share", _ADDRESS), ("scan_block", _ADDRESS), ("move_block", _ADDRESS),
+        ("block_count", _INT), ("found", _REALS), ("found_states", _INTS),
+        ("floor", _REAL),  # what a state's magnitude counts as at least
+        ("h_now", _REAL),
         # a walk along a step (`isolation`)
         ("walk_h", _REAL), ("walk_low", _REAL), ("walk_width", _REAL), ("walk_level", _INT),
     )  # fmt: skip
@@ -74,6 +88,9 @@ class Arrays:
         self.reals = np.zeros((4, max(n, 1)))
         self.polynomials = np.zeros((3, ORDER_MOST + 1))
         self.halves = np.zeros(HALVES_MOST + 1, dtype=np.int64)
+        self.block_count = max(-(-n // STATES_OF_A_BLOCK), 1)
+        places = FOUND * self.block_count
+        self.found, self.found_states = np.zeros(places), np.zeros(places, dtype=np.int64)
         flat = np.zeros(room + 8)
         self.coefficients = flat[-(flat.ctypes.data // 8) % 8 :]
         """From the start of a cache line."""

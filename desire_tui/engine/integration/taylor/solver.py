@@ -81,7 +81,10 @@ class TaylorSolver:
         for name, row in zip(("work", "part", "turned"), arrays.polynomials, strict=True):
             setattr(taylor, name, ctypes.cast(row.ctypes.data, _REALS))
         taylor.halves = ctypes.cast(arrays.halves.ctypes.data, _INTS)
-        self.memory = ctypes.addressof(taylor)
+        taylor.block_count = arrays.block_count
+        taylor.found = ctypes.cast(arrays.found.ctypes.data, _REALS)
+        taylor.found_states = ctypes.cast(arrays.found_states.ctypes.data, _INTS)
+        self.memory = taylor.itself = ctypes.addressof(taylor)
 
     @property
     def coefficients(self) -> NDArray[np.float64]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.integration.problem import FLOOR
 from desire_tui.engine.integration.switching.mathematics import exp, fused, log
 from desire_tui.engine.integration.taylor.memory import GAVE_UP, NO_COEFFICIENTS
+from desire_tui.engine.integration.taylor.shared_steps import move, scan
 from desire_tui.engine.integration.taylor.square_roots import before_zero
 
 if TYPE_CHECKING:
@@ -32,11 +33,11 @@ def restart(s: Taylor, t: float) -> None:
 
 def advance(s: Taylor, t_stop: float) -> int:
     """Take one step, never beyond `t_stop`; `y` and `t` are then the solution. Return a flag."""
-    n = s.n
     t0 = s.t
-    for i in range(n):
-        s.base[i] = s.y[i]
-        s.base_rest[i] = s.rest[i]
+    if s.share == 0:  # else `scan` does it
+        for i in range(s.n):
+            s.base[i] = s.y[i]
+            s.base_rest[i] = s.rest[i]
     if s.expand(s.problem, t0, s.y) != 0:
         return GAVE_UP
     s.t_base = t0
@@ -76,7 +77,14 @@ def reach(s: Taylor) -> float:
     floor = max(most * FLOOR, s.absolute)
     before = 0.0
     last = 0.0
-    for k in range(s.piece_count):
+    if s.share != 0:
+        s.floor = floor
+        total = scan(s)
+        most = max(most, s.found[0])
+        before = s.found[1]
+        last = s.found[2]
+        s.worst = s.found_states[0]
+    for k in range(s.piece_count if s.share == 0 else 0):
         first = s.pieces[4 * k]
         place = s.pieces[4 * k + 2] + order * s.pieces[4 * k + 3]
         down = place - s.pieces[4 * k + 3]
@@ -155,6 +163,9 @@ def add_up(s: Taylor, h: float) -> None:
 
     So errors of rounding grow with the square root of the number of steps and not faster (Brouwer's law).
     """
+    if s.share != 0:
+        move(s, h)
+        return
     sum_up(s, h, s.y)
     for i in range(s.n):
         x: float = s.base[i]
