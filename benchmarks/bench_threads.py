@@ -35,6 +35,17 @@ PROGRAMS = {
         _RUN.format(steps=10) +
         "Vectr d/dt u = u{1} - 2*u + u{-1}\nm = u[n/2]\ndispt m\n"
     ),
+    "heat equation, 1,000,000 states, rule 17": (
+        "n = 1000000 | irule 17 | DT = 1 | ERMAX = 1E-8\nSTATE u[n]\nu[n/2] = 1\n" + _RUN.format(steps=10) +
+        "Vectr d/dt u = u{1} - 2*u + u{-1}\nm = u[n/2]\ndispt m\n"
+    ),
+    "Gray-Scott, 1,000,000 states, rule 17": (
+        "n = 500000 | irule 17 | DT = 1 | ERMAX = 1E-8\nSTATE u[n], v[n]\nARRAY r[n]\n"
+        "for i = 1 to n | u[i] = 1 | next | for i = n/2 to n/2 + 40 | v[i] = 0.5 | next\n" +
+        _RUN.format(steps=10) +
+        "Vector r = u*v*v\nVectr d/dt u = 0.16*(u{1} - 2*u + u{-1}) - r + 0.035*(1 - u)\n"
+        "Vectr d/dt v = 0.08*(v{1} - 2*v + v{-1}) + r - 0.1*v\nm = v[n/2]\ndispt m\n"
+    ),
     "1,500 x 1,500 layer tanh(W*x), rule 3": (
         "n = 1500 | irule 3 | DT = 0.01\nSTATE x[n] | ARRAY W[n,n]\n"
         "for i = 1 to n | x[i] = 0.001*i - 1 | W[i,i] = 1 | next\n" + _RUN.format(steps=20) +

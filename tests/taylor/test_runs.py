@@ -230,6 +230,14 @@ def test_many_numbers_that_are_alike_become_arrays(backend):
 
 
 @both
+def test_states_next_to_nothing_at_the_start(backend):
+    """A wave leaves such numbers far away; one over 1e-320 is none, and a run may begin with them."""
+    text = "x = 1 | y = 1E-320\nTMAX = 1 | DT = 1 | NN = 2\ndrun\nDYNAMIC\nd/dt x = -x | d/dt y = -y\ndispt x, y\n"
+    found = made(text, 1e-9, backend).rows[-1]
+    assert found[1:] == pytest.approx([exp(-1), 0.0], rel=1e-8, abs=1e-300)
+
+
+@both
 def test_bodies_attract_each_other(backend):
     """Five of equal mass on a ring turn as a rigid body: products for each pair are made as arrays."""
     n = 5

@@ -13,7 +13,6 @@ from desire_tui.engine.passes.series.nodes import Constant, Series
 if TYPE_CHECKING:
     from desire_tui.engine.codegen.ir.text import IrText
     from desire_tui.engine.codegen.taylor.layout import Layout
-    from desire_tui.engine.codegen.taylor.tile_layout import TileLayout
 
 
 class Frame:
@@ -25,7 +24,7 @@ class Frame:
     series.
     """
 
-    def __init__(self, text: IrText, layout: Layout | TileLayout, base: str = "%c") -> None:
+    def __init__(self, text: IrText, layout: Layout, base: str = "%c") -> None:
         self.text, self.layout, self._base = text, layout, base
         self.order: int | None = None
         self.lanes = Fused(text)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.jit.compiler import machine
-from desire_tui.engine.codegen.taylor.layout import VECTORS, rows_read
+from desire_tui.engine.codegen.taylor.layout import VECTORS, Layout, rows_read
 from desire_tui.engine.integration.taylor.memory import ORDER_MOST
 from desire_tui.engine.passes.series.nodes import Series
 
@@ -51,10 +51,11 @@ def elements_in_tiles(program: SeriesProgram) -> int:
 
 def reach(program: SeriesProgram) -> int:
     """Return how many elements away neighbours are that a state's next coefficient is made of."""
-    found: dict[int, int] = {}
-    for node in program.nodes:
-        below = [found.get(o.number, 0) for o in node.operands if isinstance(o, Series)]
-        found[node.number] = max(below, default=0) + (abs(node.by) if node.kind == "shift" else 0)
+    found: dict[int, int] = {node.number: 0 for node in program.nodes}
+    for _ in range(2):  # an integral's factor may come later
+        for node in program.nodes:
+            below = [found[o.number] for o in node.operands if isinstance(o, Series)]
+            found[node.number] = max(below, default=0) + (abs(node.by) if node.kind == "shift" else 0)
     return max(
         (found[p.derivative.number] for p in program.states if isinstance(p.derivative, Series)), default=0
     )
@@ -68,11 +69,11 @@ def _is_array(operand: object) -> bool:
     return isinstance(operand, Series) and operand.count is not None
 
 
-class TileLayout:
+class TileLayout(Layout):
     """Places in a tile's memory: rows of all orders for what others read, one row for everything else."""
 
     def __init__(self, program: SeriesProgram) -> None:
-        self._program = program
+        super().__init__(program)
         width = VECTORS * machine().width
         self.kept = {node.number for node in rows_read(program)}
         arrays = [node for node in program.nodes if node.count is not None]
@@ -83,18 +84,11 @@ class TileLayout:
         self.elements = elements // width * width
         """Of a tile, without its margins."""
         self.stride = -(-(self.elements + margins) // width) * width + width
-        self.cleared = 0
-        self.is_short = False
-        self._places: dict[int, int] = {}
         place = _BEFORE
         for node in arrays:
             self._places[node.number] = place
             place += self.stride * (ORDER_MOST + 1 if node.number in self.kept else 1)
         self.room = place + _BEFORE
-
-    def place(self, node: Series) -> int:
-        """Return where an array's first row stands."""
-        return self._places[node.number]
 
     def apart(self, node: Series) -> int:
         """Return the distance of rows; 0: there is one for all orders."""
@@ -102,9 +96,3 @@ class TileLayout:
 
     def finish(self, cells: Iterable[tuple[str, int]], sums: Iterable[tuple[int, int]]) -> None:
         """Do nothing: there are no numbers' sums here."""
-
-    def squares(self, which: tuple[int, int]) -> int:
-        """Refuse: numbers' sums are not computed in tiles."""
-        raise NotImplementedError
-
-    cell = squares

@@ -5,6 +5,7 @@ methods", Experimental Mathematics 14 (2005): order from the tolerance, step fro
 
     `memory`  what the solver knows between two steps
     `step`    a step: coefficients, size, sum; the solution inside it
+    `shared_steps`  the same for many states, by blocks that threads share
     `roots`   the first root of a polynomial in a step
     `solver`  the memory as an object, for both back ends
 """

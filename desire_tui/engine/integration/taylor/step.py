@@ -24,8 +24,11 @@ _LEAST_PART, _TRIES, _MARGIN = 1.0 / 64.0, 20, 0.9
 
 def restart(s: Taylor, t: float) -> None:
     """Begin anew from the states in `y`."""
+    most: float = s.most
     for i in range(s.n):
         s.rest[i] = 0.0
+        most = max(most, abs(s.y[i]))
+    s.most = most
     s.t = t
     s.t_base = t
     s.h_last = 0.0
