@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from desire_tui.engine.integration.tableaus import Row
     from desire_tui.engine.lowered.statements import Action
 
+_BOX = ("box_low", "box_high", "box_wait")
+"""Where the sides of the box are in which no mode switches, and the steps until it may be made again."""
+
 
 class RegisterStorage:
     """Implements `storage.Storage`; passes are written in line."""
@@ -64,6 +67,8 @@ class RegisterStorage:
         text = self.text
         text.do(f"%v = load ptr, ptr {self.memory.at('values')}")
         text.do(f"%random = load ptr, ptr {self.memory.at('random')}")
+        for name in _BOX if self.has_box else ():
+            self.context.name(f"%{name}", name)
         self.cells.fetch()
 
     def refresh(self) -> None:
@@ -184,16 +189,18 @@ class RegisterStorage:
             found = self.text.op(f"or i1 {found}, {self._look(*look)}")
         return found
 
-    def is_in_box(self, *, at_end: bool) -> str | None:
+    @property
+    def has_box(self) -> bool:
+        """Whether modes depend on t or states."""
+        return bool(self._sides)
+
+    def is_in_box(self, *, at_end: bool) -> str:
         """Whether t and states are inside; at a stage, t is between the step's ends."""
-        if not self._sides:
-            return None
         lanes, text, inside = self.lanes, self.text, "1"
         for name, compare in (("box_low", "oge"), ("box_high", "ole")):
-            base = self.context.load(name)
             for number, slot in enumerate(self._sides):
                 if slot != T or at_end:
-                    at = text.op(f"getelementptr double, ptr {base}, i64 {number}")
+                    at = text.op(f"getelementptr double, ptr %{name}, i64 {number}")
                     held = lanes.compare(compare, self.cells.load(slot), text.op(f"load double, ptr {at}"))
                     inside = text.op(f"and i1 {inside}, {held}")
         return inside

@@ -80,11 +80,13 @@ class Storage(Protocol):
         """Return an i1: by what `watch_stage` or `watch_end` has found, some mode may have switched."""
         ...
 
-    def is_in_box(self, *, at_end: bool) -> str | None:
-        """Return an i1: t (only where it is `at_end`) and states are in the box where no mode switches.
+    @property
+    def has_box(self) -> bool:
+        """Whether there is a box where no mode switches."""
+        ...
 
-        None: there is no such box.
-        """
+    def is_in_box(self, *, at_end: bool) -> str:
+        """Return an i1: t (only where it is `at_end`) and states are in that box."""
         ...
 
     def keep_first_stage(self) -> None:

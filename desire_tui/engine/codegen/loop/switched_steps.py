@@ -71,15 +71,15 @@ class SwitchedStep(VariableStep):
         if stage != 1 or not self.watched.modes:
             return
         text, driver = self.text, self.driver
-        inside = self.storage.is_in_box(at_end=False)
-        if inside is not None:
-            driver.put("clear", inside)
-            driver.put("looks", "0")
-            text.branch(driver.get("boxed"), "stage.seen", "stage.look")
+        if self.storage.has_box:
+            text.branch(driver.get("boxed"), "stage.boxed", "stage.look")
+            text.begin("stage.boxed")
+            driver.put("clear", self.storage.is_in_box(at_end=False))
+            text.jump("stage.seen")
             text.begin("stage.look")
         self.storage.run_pass("watch_stage", stage + 1)
         driver.put("looks", self.storage.switched("watch_stage"))
-        if inside is not None:
+        if self.storage.has_box:
             text.jump("stage.seen")
             text.begin("stage.seen")
 
@@ -118,10 +118,10 @@ class SwitchedStep(VariableStep):
         outside are looked at by their modes, and once in a while with care, for a new box.
         """
         text, driver, storage = self.text, self.driver, self.storage
-        inside = storage.is_in_box(at_end=True)
-        if inside is None:
+        if not storage.has_box:
             storage.run_pass("watch_end", 2)
             return text.op(f"or i1 {driver.get('looks')}, {storage.switched('watch_end')}")
+        inside = storage.is_in_box(at_end=True)
         text.branch(driver.get("boxed"), "end.boxed", "end.look")
         text.begin("end.boxed")
         stays = text.op(f"and i1 {driver.get('clear')}, {inside}")
@@ -130,9 +130,8 @@ class SwitchedStep(VariableStep):
         text.begin("end.look")
         storage.run_pass("watch_end", 2)
         found = text.op(f"or i1 {driver.get('looks')}, {storage.switched('watch_end')}")
-        at = driver.context.load("box_wait")
-        wait = text.op(f"load i64, ptr {at}")
-        text.do(f"store i64 {text.op(f'add i64 {wait}, -1')}, ptr {at}")
+        wait = text.op("load i64, ptr %box_wait")
+        text.do(f"store i64 {text.op(f'add i64 {wait}, -1')}, ptr %box_wait")
         due = text.op(f"icmp sle i64 {wait}, 1")
         outside = text.op(f"xor i1 {inside}, 1")
         found = text.op(f"or i1 {found}, {text.op(f'and i1 {due}, {outside}')}")
