@@ -8,11 +8,11 @@ import marshal
 import pytest
 
 from desire_tui.engine import disk_cache
+from desire_tui.engine.codegen import native_model
 from desire_tui.engine.codegen.jit import compiler
 from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment
-from desire_tui.engine.passes import replicas
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
@@ -184,8 +184,7 @@ def test_another_machine_compiles_for_itself(code, compiled, monkeypatch):
     assert len(compiled) == 2 * pieces
 
 
-def test_fast_code_needs_no_equations_either(first, monkeypatch):
-    monkeypatch.setattr(replicas, "_STATEMENTS_MOST", 0)
+def test_fast_code_needs_no_equations_either(first):
     for compiled_before in (False, True):
         with new_session() as session:
             session.erun(Source(LORENZ))
@@ -215,6 +214,14 @@ def test_code_whose_form_depends_on_earlier_programs(code):
         for _ in tables.improve():
             pass
         assert before == [entry.value for entries in tables._entries.values() for entry in entries]
+
+
+def test_models_of_few_states_and_many_lines_are_stored_too(stored, monkeypatch):
+    few = LORENZ.replace("DYNAMIC\n", "DYNAMIC\n" + "".join(f"v{k} = x + {k}\n" for k in range(20)))
+    monkeypatch.setattr(native_model, "SMALL", 20)
+    for text, is_stored in ((few, True), (LORENZ, False)):
+        first, _ = started(text)
+        assert started(text) == (first, is_stored)
 
 
 def test_code_for_another_rule_is_written_for_it(first):

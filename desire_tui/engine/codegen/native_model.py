@@ -59,6 +59,7 @@ class NativeModel:
         given = segment
         known = _found_again(code, segment, rule) if segment.noted is not None else None
         switching = None
+        self._is_found = known is not None
         if known is not None:
             vital, self._passes, self._tables = known
             self._numbers: Sequence[int] = range(segment.order)
@@ -206,7 +207,7 @@ class NativeModel:
         yield
 
     def _is_small(self) -> bool:
-        if self._segment.order > SMALL or len(self._segment.body) > SMALL:
+        if self._is_found or self._segment.order > SMALL or len(self._segment.body) > SMALL:
             return False
         from desire_tui.engine.codegen.scalar.slot_usage import survey  # short runs are over before that
 
@@ -215,7 +216,7 @@ class NativeModel:
 
     def noted(self) -> tuple[object, ...] | None:
         """Return what makes this model quickly in another process, as plain data; None: nothing does."""
-        if not self._is_as_given or len(self._segment.states) <= SMALL:  # small ones need the statements soon
+        if not self._is_as_given or self._is_small():  # then fast code is one function made of the statements
             return None
         from desire_tui.engine.codegen.pieces.noted_code import noted_code
 

@@ -46,11 +46,11 @@ def replicated(
     passes: Mapping[str, tuple[Action, ...]], states: Sequence[StateRange]
 ) -> ReplicatedModel | None:
     """Return the model of one replica; None: there is none, or steps do more than compute derivatives."""
-    if len(states) > _STATEMENTS_MOST:  # each has a statement: the passes need not be made
+    counts = {states.count for states in states}
+    if len(counts) != 1 or 1 in counts:  # nothing to replicate: the passes need not be made
         return None
     actions = passes["derivative"]
-    counts = {states.count for states in states}
-    if len(counts) != 1 or not 0 < len(actions) <= _STATEMENTS_MOST:
+    if not 0 < len(actions) <= _STATEMENTS_MOST:
         return None
     if tuple(map(id, passes["step"])) != tuple(map(id, actions)) or passes["tail"]:
         return None
