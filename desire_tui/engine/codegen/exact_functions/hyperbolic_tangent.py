@@ -35,38 +35,45 @@ _Q = tuple(
     )
 )
 """Of (eʳ + 1)/(eʳ - 1)·r, in powers of r²/2."""
-_HALF_LN2, _THREE_HALVES_LN2 = _number(0x3FD62E4300000000), _number(0x3FF0A2B200000000)
-"""Where the number of ln 2 taken away becomes 1 and is counted: by the upper half of the bits."""
+_HALF_LN2 = _number(0x3FD62E4300000000)
+"""From here on a multiple of ln 2 is taken away: by the upper half of the bits."""
 _ONE_FROM = 22.0
 
 
 def hyperbolic_tangent(lanes: Lanes, *, fused: bool) -> str:
     """Return tanh of `%x`; `fused`: a·b + c is rounded once."""
     const = lanes.const
-    size = lanes.intrinsic("fabs", "%x")
+    size, most = lanes.intrinsic("fabs", "%x"), const(_ONE_FROM)
     large = lanes.compare("oge", size, const(1.0))
-    doubled = lanes.mul(size, const(2.0))
-    e = _expm1(lanes, lanes.choose(large, doubled, lanes.neg(doubled)), fused=fused)
+    size = lanes.choose(lanes.compare("ogt", size, most), most, size)  # not a number: it stays so
+    e = _expm1(lanes, lanes.add(size, size), large, fused=fused)
     ratio = lanes.div(lanes.choose(large, const(2.0), lanes.neg(e)), lanes.add(e, const(2.0)))
     result = lanes.choose(large, lanes.sub(const(1.0), ratio), ratio)
-    result = lanes.choose(lanes.compare("oge", size, const(_ONE_FROM)), const(1.0), result)
     name = f"llvm.copysign.{lanes.suffix}"
     lanes.text.declarations.add(f"declare {lanes.kind} @{name}({lanes.kind}, {lanes.kind})")
     return lanes.text.op(f"call {lanes.kind} @{name}({lanes.kind} {result}, {lanes.kind} %x)")
 
 
-def _expm1(lanes: Lanes, x: str, *, fused: bool) -> str:
-    """Return eˣ - 1 for x in [-2, 0] and [2, 44]."""
+def _expm1(lanes: Lanes, size: str, large: str, *, fused: bool) -> str:
+    """Return eˣ - 1 for x = `size` in [2, 44] where the flag is set, else for x = -`size` in [-2, 0].
+
+    What FDLIBM takes away from x is k ln 2, with the sign of x, so that what is left has the sign, too. It
+    computes in a way of its own for k above 56, where tanh x is 1 whatever the last digits are.
+    """
 
     def plus(a: str, b: str, c: str) -> str:
         return Pairs(lanes).fma(a, b, c) if fused else lanes.add(lanes.mul(a, b), c)
 
+    def signed(value: str) -> str:
+        return lanes.choose(large, value, lanes.neg(value))
+
     add, sub, mul, const, choose = lanes.add, lanes.sub, lanes.mul, lanes.const, lanes.choose
     one, half = const(1.0), const(0.5)
-    k = _multiple(lanes, x)
-    high, low = sub(x, mul(k, const(_LN2_HIGH))), mul(k, const(_LN2_LOW))
-    r = sub(high, low)
-    c = sub(sub(high, r), low)
+    k = lanes.intrinsic("trunc", plus(const(_PER_LN2), size, half))
+    k = choose(lanes.compare("olt", size, const(_HALF_LN2)), const(0.0), k)
+    high, low = Pairs(lanes).fma(k, const(-_LN2_HIGH), size), mul(k, const(_LN2_LOW))  # the first is exact
+    left = sub(high, low)
+    r, c = signed(left), signed(sub(sub(high, left), low))
     r_half = mul(half, r)
     z = mul(r, r_half)
     z2 = mul(z, z)
@@ -78,31 +85,20 @@ def _expm1(lanes: Lanes, x: str, *, fused: bool) -> str:
     e = mul(z, lanes.div(sub(rational, t), plus(lanes.neg(r), t, const(6.0))))
     none = sub(r, plus(r, e, lanes.neg(z)))
     e = sub(plus(r, sub(e, c), lanes.neg(c)), z)
-    minus_one = sub(mul(half, sub(r, e)), half)
     change = sub(e, r)
-    far = lanes.compare("ogt", k, const(56.0))
-    below = lanes.compare("olt", k, const(0.0))
-    small = lanes.compare("olt", k, const(20.0))
+    minus_one = sub(mul(const(-0.5), change), half)
     part = _power(lanes, lanes.neg(k))
-    # times 2ᵏ are: 1 - 2⁻ᵏ - (e - r) up to 20, (r - (e + 2⁻ᵏ)) + 1 beyond, 1 - (e - r) below 0 and above 56
-    grown = choose(small, sub(sub(one, part), change), add(sub(r, add(e, part)), one))
-    plain = lanes.text.op(f"or {lanes.flags} {far}, {below}")
-    scaled = mul(choose(plain, sub(one, change), grown), _power(lanes, k))
-    scaled = choose(plain, sub(scaled, one), scaled)
-    scaled = choose(lanes.compare("oeq", k, const(-1.0)), minus_one, scaled)
-    return choose(lanes.compare("oeq", k, const(0.0)), none, scaled)
-
-
-def _multiple(lanes: Lanes, x: str) -> str:
-    """Return how many ln 2 are taken away from x."""
-    const, choose = lanes.const, lanes.choose
-    size = lanes.intrinsic("fabs", x)
-    above = lanes.compare("ogt", x, const(0.0))
-    counted = lanes.add(lanes.mul(const(_PER_LN2), x), choose(above, const(0.5), const(-0.5)))
-    counted = lanes.intrinsic("trunc", counted)
-    once = lanes.compare("olt", size, const(_THREE_HALVES_LN2))
-    counted = choose(once, choose(above, const(1.0), const(-1.0)), counted)
-    return choose(lanes.compare("olt", size, const(_HALF_LN2)), const(0.0), counted)
+    # times 2ᵏ are: 1 - 2⁻ᵏ - (e - r) up to 20, (r - (e + 2⁻ᵏ)) + 1 beyond, 1 - (e - r) below 0
+    few = lanes.compare("olt", k, const(20.0))
+    grown = choose(few, sub(sub(one, part), change), add(sub(r, add(e, part)), one))
+    grown = mul(choose(large, grown, sub(one, change)), choose(large, _power(lanes, k), part))
+    grown = choose(large, grown, sub(grown, one))
+    is_one = lanes.text.op(
+        f"select {lanes.flags} {large}, {lanes.flags} zeroinitializer, "
+        f"{lanes.flags} {lanes.compare('oeq', k, one)}"
+    )
+    grown = choose(is_one, minus_one, grown)
+    return choose(lanes.compare("oeq", k, const(0.0)), none, grown)
 
 
 def _power(lanes: Lanes, k: str) -> str:

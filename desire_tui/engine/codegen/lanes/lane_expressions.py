@@ -12,12 +12,16 @@ from desire_tui.engine.codegen.ir.work_memory import Fields
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.lanes.lane_cells import Number
 from desire_tui.engine.codegen.lanes.replicas import Replicas
+from desire_tui.engine.codegen.lanes.shared_values import SharedLanes
 from desire_tui.engine.lowered.expressions import Const, Load, Op, Table1, Table2
 from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.runtime.moments.memory import SideBySide
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from desire_tui.engine.codegen.lanes.lane_cells import LaneCells
+    from desire_tui.engine.codegen.lanes.shared_values import SharedValues
     from desire_tui.engine.lowered.expressions import ElementOperand, Value
 
 
@@ -27,10 +31,16 @@ class LaneExpressions:
     `mask`: flags of the runs that draw random numbers; None: all do.
     """
 
-    def __init__(self, runs: Replicas, cells: LaneCells, over_elements: frozenset[int] = frozenset()) -> None:
+    def __init__(
+        self,
+        runs: Replicas,
+        cells: LaneCells,
+        over_elements: frozenset[int] = frozenset(),
+        shared: SharedValues | None = None,
+    ) -> None:
         """`over_elements`: identities of operations of vectors' elements; see `passes.scalar_elements`."""
-        self.text = runs.text
-        self.one, self.runs = Lanes(runs.text), runs
+        self.text, self.runs, self._shared = runs.text, runs, shared
+        self.one = Lanes(runs.text) if shared is None else SharedLanes(shared, runs.text)
         self.cells = cells
         self._over_elements = over_elements
         self._library = Replicas(runs.text, runs.width, machine().width)
@@ -59,13 +69,19 @@ class LaneExpressions:
             case Op():
                 return self._operation(node)
             case Table1():
-                lanes, (x,) = self._alike(self.value(node.x))
-                return Number(table1(lanes, node, x), lanes.width > 1)
+                lanes, names = self._alike(self.value(node.x))
+                return self._looked_up(lanes, names, lambda: table1(lanes, node, *names))
             case Table2():
-                lanes, (x, y) = self._alike(self.value(node.x), self.value(node.y))
-                return Number(table2(lanes, node, x, y), lanes.width > 1)
+                lanes, names = self._alike(self.value(node.x), self.value(node.y))
+                return self._looked_up(lanes, names, lambda: table2(lanes, node, *names))
             case _:
                 raise TypeError(f"{type(node).__name__} in runs in lock step")
+
+    def _looked_up(self, lanes: Lanes, arguments: list[str], look: Callable[[], str]) -> Number:
+        """Return what a table gives."""
+        if lanes.width > 1 or self._shared is None:
+            return Number(look(), lanes.width > 1)
+        return Number(self._shared.value(arguments, look), wide=False)
 
     def _operation(self, node: Op) -> Number:
         if node.name in DRAWS:

@@ -17,6 +17,8 @@ class LaneMemory(ctypes.Structure):
         ("arrays", ctypes.c_uint64),  # (groups, elements of all histories, width)
         ("side", ctypes.c_uint64),  # times of clocks, or a `runtime.moments.memory.SideBySide`
         ("group", ctypes.c_int64),  # that is under way
+        ("shared", ctypes.c_uint64),  # what groups have in common (`shared_values`)
+        ("kept", ctypes.c_int64),  # steps of which it holds something
         ("lags", ctypes.c_uint64),  # int64 lag of each delay line, by counter
         ("counts", ctypes.c_uint64),  # int64 (groups, width): samples
         ("flagged", ctypes.c_uint64),  # int64 (groups, width): not 0: to be made again alone
@@ -57,7 +59,7 @@ def _offset(field: str) -> int:
 
 _LOADED = (
     ("values", "ptr"), ("starts", "ptr"), ("random", "ptr"), ("rows", "ptr"), ("arrays", "ptr"),
-    ("counts", "ptr"), ("flagged", "ptr"), ("groups", "i64"),
+    ("counts", "ptr"), ("flagged", "ptr"), ("shared", "ptr"), ("kept", "i64"), ("groups", "i64"),
 )  # fmt: skip
 _FRAME = """
 define i32 @{name}(ptr %a) alignstack(64) #0 {{
@@ -85,7 +87,7 @@ work:
   %gflags = getelementptr i64, ptr %flagged, i64 %olane
   store i64 %g, ptr %pgroup
   %unused = call i32 @{name}.group(ptr %a, ptr %values, ptr %gin, ptr %gseeds, ptr %grows, ptr %garrays,
-                                   ptr %gcounts, ptr %gflags)
+                                   ptr %gcounts, ptr %gflags, ptr %shared, i64 %kept)
   %g1 = add i64 %g, 1
   br label %next
 done:

@@ -22,6 +22,7 @@ from desire_tui.engine.codegen.lanes.event_steps import EventSteps
 from desire_tui.engine.codegen.lanes.lane_cells import LaneCells, Number
 from desire_tui.engine.codegen.lanes.lane_clocks import ClockedSteps, ClockSlots, LaneClocks
 from desire_tui.engine.codegen.lanes.lane_events import EventSlots, LaneEvents
+from desire_tui.engine.codegen.lanes.lane_expressions import LaneExpressions
 from desire_tui.engine.codegen.lanes.lane_folds import LaneFolds
 from desire_tui.engine.codegen.lanes.lane_frame import LaneMemory, lane_frame
 from desire_tui.engine.codegen.lanes.lane_histories import LaneHistories
@@ -30,6 +31,7 @@ from desire_tui.engine.codegen.lanes.lane_statements import LaneStatements
 from desire_tui.engine.codegen.lanes.lane_steps import LaneSteps
 from desire_tui.engine.codegen.lanes.lane_variables import LaneVariables
 from desire_tui.engine.codegen.lanes.replicas import Replicas
+from desire_tui.engine.codegen.lanes.shared_values import SharedValues
 from desire_tui.engine.codegen.scalar.slot_usage import survey
 from desire_tui.engine.digest import blake2b
 from desire_tui.engine.lowered.effects import expressions
@@ -86,9 +88,9 @@ class LaneLoop:
         self.cells = LaneCells(self.text, self.runs, slots, parts.differing, states, stages)
         self.memory = Fields(self.text, LaneMemory, "%a")
         self.histories = LaneHistories(self.runs, self.cells, self.memory, parts.arrays, parts.counters)
-        self.statements = LaneStatements(
-            self.runs, self.cells, parts.faults, self.histories, parts.over_elements
-        )
+        self.shared = SharedValues(self.text, "point" if tableau is None else "k")
+        values = LaneExpressions(self.runs, self.cells, parts.over_elements, self.shared)
+        self.statements = LaneStatements(self.runs, self.cells, parts.faults, self.histories, values)
         may_end = holds_term(passes["step"]) or holds_term(passes["full"])
         self.loop = LaneVariables(
             self.runs, self.cells, self.memory, self.statements, passes, may_end=may_end
@@ -130,7 +132,8 @@ class LaneLoop:
         )
         group = (
             f"define internal i32 @{name}.group(ptr %a, ptr noalias %v, ptr noalias %in, ptr noalias %seeds,"
-            f" ptr noalias %rows, ptr noalias %arrays, ptr noalias %counts, ptr noalias %flags) #0"
+            f" ptr noalias %rows, ptr noalias %arrays, ptr noalias %counts, ptr noalias %flags,"
+            f" ptr noalias %shared, i64 %kept) #0"
             f" {{\n{body}\n}}"
         )
         return Piece(name, f"{group}\n{frame}", frozenset(self.text.declarations))

@@ -12,6 +12,7 @@ from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.engine.codegen.lanes.lane_frame import LaneMemory
 from desire_tui.engine.codegen.lanes.lane_loop import LaneLoop, LaneParts
 from desire_tui.engine.codegen.lanes.lane_moments import moments_of
+from desire_tui.engine.codegen.lanes.shared_values import SharedMemory
 from desire_tui.engine.codegen.pieces.segment_passes import passes_of
 from desire_tui.engine.integration.rules import rule_numbered
 from desire_tui.engine.integration.tableaus import TABLEAUS
@@ -133,6 +134,7 @@ class LaneModel:
         self._slots = np.array(loop.cells.slots, dtype=np.intp)
         self._moments.connect(code, improver, passes["derivative"], loop.own, varies)
         self._compiled = code.fast(loop.piece(), slp=False)
+        self._shared = SharedMemory(loop.shared.words)
         self._run = _RUN(self._compiled.address)
         self.memory = LaneMemory(values=values.address, side=self._moments.address)
         self._samples = np.empty(0)
@@ -158,6 +160,8 @@ class LaneModel:
         lags = np.zeros(max(self._segment.counters, 1), dtype=np.int64)
         for counter, records in self._delays.lags(self._segment, plan, self._values).items():
             lags[counter] = records
+        shared = self._shared.cleared(math.ceil(plan.t_max / plan.dt) if self._segment.order else plan.nn)
+        memory.shared, memory.kept = shared.ctypes.data, self._shared.kept
         base = self._values.data[self._slots]
         memory.base = base.ctypes.data
         failed = self._moments.prepare(plan, starts[lanes], self._given)[:runs]

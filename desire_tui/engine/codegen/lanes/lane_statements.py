@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.lanes.lane_cells import Number
-from desire_tui.engine.codegen.lanes.lane_expressions import LaneExpressions
 from desire_tui.engine.lowered.statements import (
     DelayLine,
     Deriv,
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from desire_tui.engine.codegen.lanes.lane_cells import LaneCells
+    from desire_tui.engine.codegen.lanes.lane_expressions import LaneExpressions
     from desire_tui.engine.codegen.lanes.lane_histories import LaneHistories
     from desire_tui.engine.codegen.lanes.replicas import Replicas
     from desire_tui.engine.lowered.statements import Action
@@ -38,10 +38,10 @@ class LaneStatements:
         cells: LaneCells,
         faults: frozenset[int],
         histories: LaneHistories,
-        over_elements: frozenset[int],
+        values: LaneExpressions,
     ) -> None:
         self.text, self.runs, self.cells = runs.text, runs, cells
-        self.values = LaneExpressions(runs, cells, over_elements)
+        self.values = values
         self._faults = faults
         self.histories = histories
 
