@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from desire_tui.engine.codegen.lanes import shared_values
 from desire_tui.engine.codegen.lanes.lane_cells import Number
 from desire_tui.studies import chunk as chunks
 from desire_tui.studies.chunk import run_chunk
@@ -15,6 +16,8 @@ from desire_tui.studies.streams import streams
 from desire_tui.studies.task import Task
 
 HEAD = "k = 3 | r = 0.1 | DT = 0.01 | TMAX = 2 | NN = 21 | x = 1 | v = 0 | SEED 3\n"
+RUNS = 37
+"""More than go side by side."""
 SPRING = "d/dt x = v\nd/dt v = -k*x - r*v\n"
 FUNCTIONS = [
     "sin",
@@ -144,6 +147,10 @@ MODELS = {
     + "Vectr d/dt y = s - k*y + 0.1*ran()\n"
     + SPRING
     + "a = y[1]\nb = y[5]\nOUT\nVector s = gauss(0) + ran()\nn = ran()\n",
+    "functions of what all share": "ARRAY f[8] | data 0, 0.5, 1, 2.5, 1, 3, -2, 0 | read f | u = 0 | z = 0\n"
+    "drun\nDYNAMIC\nd/dt x = v\nd/dt v = u*cos(3*t) - k*x + func1(t; f)\n"
+    "every 0.137, 0.05\nu = x + sin(t)\nend event\ny = sinc(t) + exp(-t) + t^1.5 + atan2(t, 2)\n"
+    "if t > 1 | z = tanh(t - 1) + x | end if\nterm t - 0.3*k - 0.2345\n",
     "nothing random differs but noise": "k = 1 | n = 0\ndrun\nDYNAMIC\nd/dt x = n\nOUT\nn = gauss(0)\n",
 }
 
@@ -154,6 +161,11 @@ def names_of(text: str) -> list[str]:
         line.partition("=")[0].strip().removeprefix("d/dt ") for line in body.split("\n") if "=" in line
     ]
     return [name for name in dict.fromkeys(assigned) if name.isidentifier()]
+
+
+def kept_of(names: list[str]) -> str:
+    each = ", ".join(f"{name}[end], mean({name})" for name in names)
+    return each + ", t[end], max(x), x@0:2:0.25, t[x<0.5], integral(x)"
 
 
 def both(text: str, rows: np.ndarray, keep: str, **settings) -> tuple[chunks.Chunk, chunks.Chunk]:
@@ -176,16 +188,22 @@ def test_the_bits_of_runs_made_alone(name):
     if "n = n + 1" in text:
         text = text.replace("drun\n", "n = 0\ndrun\n", 1)
     names = names_of(text)
-    keep = (
-        ", ".join(f"{each}[end], mean({each})" for each in names)
-        + ", t[end], max(x), x@0:2:0.25, t[x<0.5], integral(x)"
-    )
-    rows = np.linspace(0.5, 4, 21)[:, None]
-    found, alone = both(text + f"dispt {names[0]}\n", rows, keep)
+    rows = np.linspace(0.5, 4, RUNS)[:, None]
+    found, alone = both(text + f"dispt {names[0]}\n", rows, kept_of(names))
     assert np.array_equal(found.numbers, alone.numbers, equal_nan=True)
     assert np.array_equal(found.errors, alone.errors)
     assert found.failures.by_code == alone.failures.by_code
     assert found.errors.any() == (name in {"runs that fail", "events that pile up"})
+
+
+def test_what_all_share_is_the_same_where_memory_for_it_ends(monkeypatch):
+    text = HEAD + MODELS["functions of what all share"]
+    keep, rows = kept_of(names_of(text)), np.linspace(0.5, 4, RUNS)[:, None]
+    found, alone = both(text + "dispt x\n", rows, keep)
+    for size in (0, 4000):
+        monkeypatch.setattr(shared_values, "_BYTES_MOST", size)
+        found, _ = both(text + "dispt x\n", rows, keep)
+        assert np.array_equal(found.numbers, alone.numbers, equal_nan=True)
 
 
 @pytest.mark.parametrize(

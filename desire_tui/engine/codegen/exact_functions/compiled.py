@@ -75,6 +75,11 @@ class ExactFunction:
         machine().add_symbol(self.symbol, self._code.address(self.symbol))
 
 
+def widest(name: str) -> int:
+    """Return how many doubles at a time give most: in tanh's long chain each waits for the one before."""
+    return (4 if name == "tanh" else 2) * machine().width
+
+
 def exact_function(name: str, width: int) -> ExactFunction | None:
     """Return a function of `width` doubles; None: there is none with the library's bits."""
     with _lock:

@@ -46,6 +46,8 @@ if TYPE_CHECKING:
     Integers = NDArray[np.int64]
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
+_REGISTERS = 4
+"""That a number of all runs of a group takes: as many operations as are under way at a time."""
 _STATES_MOST = 200
 """Larger models leave the registers anyway."""
 _OPERATIONS_MOST = 600
@@ -106,7 +108,7 @@ class LaneModel:
             raise LockStepError(reason)
         tableau = TABLEAUS[rule] if segment.order else None
         states = [slot for s in segment.states for slot in range(s.slot, s.slot + s.count)]
-        self.width = 2 * machine().width
+        self.width = _REGISTERS * machine().width
         self._values, self._given, self._columns = values, list(given), list(columns)
         self.folds = bool(folds)
         self._moments = moments_of(segment, tableau, values, given, self.width)

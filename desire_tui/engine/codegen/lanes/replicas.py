@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from desire_tui.engine.codegen.exact_functions.compiled import exact_function
+from desire_tui.engine.codegen.exact_functions.compiled import exact_function, widest
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.symbols import TWO_ARGUMENTS, lane_by_lane
 
@@ -49,15 +49,32 @@ class Replicas(Lanes):
         return self.text.op(f"call {self.kind} @{function}({listed})")
 
     def _exact(self, name: str, args: tuple[str, ...]) -> str | None:
-        """Call a function of vectors with the library's bits; None: there is none."""
+        """Call a function of vectors with the library's bits, as often as it takes; None: there is none."""
         both = self.together and name in ("sin", "cos")
-        function = exact_function("sincos" if both else name, self.width)
+        size = min(self.width, widest(name))
+        function = exact_function("sincos" if both else name, size)
         if function is None:
             return None
-        kind = f"{{ {self.kind}, {self.kind} }}" if both else self.kind
-        self.text.declarations.add(f"declare {kind} @{function.symbol}({self.kind}) #1")
-        found = self.text.op(f"call {kind} @{function.symbol}({self.kind} {args[0]})")
-        return self.text.op(f"extractvalue {kind} {found}, {int(name == 'cos')}") if both else found
+        part = f"<{size} x double>"
+        kind = f"{{ {part}, {part} }}" if both else part
+        self.text.declarations.add(f"declare {kind} @{function.symbol}({part}) #1")
+        found = []
+        for first in range(0, self.width, size):
+            x = self._places(self.kind, args[0], "poison", range(first, first + size))
+            value = self.text.op(f"call {kind} @{function.symbol}({part} {x})")
+            if both:
+                value = self.text.op(f"extractvalue {kind} {value}, {int(name == 'cos')}")
+            found.append(value)
+        while len(found) > 1:
+            part, places = f"<{size} x double>", range(2 * size)
+            found = [self._places(part, a, b, places) for a, b in zip(found[::2], found[1::2], strict=True)]
+            size *= 2
+        return found[0]
+
+    def _places(self, kind: str, a: str, b: str, places: range) -> str:
+        """Return a vector of elements of two."""
+        listed = ", ".join(f"i32 {place}" for place in places)
+        return self.text.op(f"shufflevector {kind} {a}, {kind} {b}, <{len(places)} x i32> <{listed}>")
 
     def _sine_or_cosine(self, name: str, x: str) -> str:
         """Ask for both: LLVM leaves one of two calls with the same argument away."""
