@@ -44,6 +44,18 @@ d/dt x = -x*x + y
 d/dt y = x - y*y
 dispt x, y
 """
+ORBIT = """
+TMAX = 1 | NN = 5 | DT = 1e-4 | ERMAX = {ermax} | irule {rule}
+x = 0.1 | vy = sqrt(19)
+drun
+DYNAMIC
+w = (x^2 + y^2)^(-1.5)
+d/dt x = vx
+d/dt y = vy
+d/dt vx = -x*w
+d/dt vy = -y*w
+dispt x
+"""
 COUNTED = ("steps", "rejected", "derivative_calls", "jacobian_calls", "order")
 
 
@@ -104,3 +116,11 @@ def test_a_run_made_again_calls_as_often(rule):
         for record in execute("c = 0\n" + SMOOTH.format(rule=rule), backend, Path.cwd()).runs
     }
     assert len(counts) == 1
+
+
+@pytest.mark.parametrize("backend", ["native", "reference"])
+@pytest.mark.parametrize("rule", [9, 10, 13])
+def test_a_corrector_that_converges_is_trusted(rule, backend):
+    """An orbit is not stiff: most steps need no second iteration. Held to what stiff models need, all would."""
+    record = run(ORBIT.format(rule=rule, ermax=1e-7), backend)[0].runs[-1]
+    assert record.derivative_calls < 1.5 * record.steps

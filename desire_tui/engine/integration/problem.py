@@ -29,10 +29,13 @@ JACOBIAN_SERVES_STEPS = 51
 
 Where it changes from step to step, and an old one is far larger than it should be, corrections come out as
 next to nothing, which passes for convergence: `d/dt y = -1/(2*y)` went through its singularity on a straight
-line, to 1e9, under rules 10, 11, 14 and 15, and no flag said so."""
+line, to 1e9, under rules 10, 11, 14 and 15, and no flag said so. CVODE's corrector is also held to a stricter
+test in doubt (`sundials.solver.Convergence`)."""
 DOUBT_FAILURE, DOUBT_FROM, DOUBT_MOST = 20, 40, 100
 """A failure of the corrector raises doubt by the first number, up to the last, each step lowers it by 1; from
 the second on it counts: three failures in a row, then one in twenty steps."""
+ITERATION_DOUBT_FROM = 0
+"""The same of functional iteration: any failure counts, for twenty steps, as it tells of a stiff model."""
 
 
 ERROR_SHARE = 0.02
@@ -204,6 +207,9 @@ class SolverProblem(ctypes.Structure):
         ("restarts", _INT),
         ("diverged", _INT),  # how often the corrector has failed since the last restart …
         ("doubt", _INT),  # … and how much is thought of that
+        ("doubt_from", _INT),  # from where it counts
+        ("convergence", _REAL),  # share of the error test left to CVODE's corrector …
+        ("convergence_in_doubt", _REAL),  # … and in doubt
         ("fresh", _INT),  # steps since the last restart
         ("stuck", _INT),  # steps in a row that were too small to change t
         ("watch_steps", _INT),  # steps since chattering was last looked for, and t and failures then

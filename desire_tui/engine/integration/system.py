@@ -134,6 +134,9 @@ class StiffSystem:
         else:
             callbacks = Callbacks(natives.rhs, natives.weights, ctypes.addressof(problem))
             self.solver = Solver(rule, n, problem.states, callbacks, linear, problem.between)
+            test = self.solver.convergence
+            problem.convergence, problem.convergence_in_doubt = test.trusted, test.in_doubt
+            problem.doubt_from = test.doubt_from
         problem.solver, problem.vector = self.solver.memory, self.solver.vector
         problem.between_vector = self.solver.between
 

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.integration.problem import (
     DOUBT_FAILURE,
-    DOUBT_FROM,
     DOUBT_MOST,
     JACOBIAN_SERVES_STEPS,
     Matrix,
@@ -23,8 +22,8 @@ def begin(problem: SolverProblem, t: float, first_step: float) -> None:
     cvode.CVodeReInit(problem.solver, t, problem.vector)
     cvode.CVodeSetInitStep(problem.solver, first_step)
     problem.diverged = 0
-    if problem.doubt > DOUBT_FROM:
-        cvode.CVodeSetJacEvalFrequency(problem.solver, JACOBIAN_SERVES_STEPS)
+    if problem.doubt > problem.doubt_from:
+        trust(problem, 1)
     problem.doubt = 0
 
 
@@ -32,23 +31,31 @@ def take_step(problem: SolverProblem, t_next: float) -> int:
     """Take a step to `t_next` at most; `reached[0]` and the states are then the solution. Return the flag."""
     cvode.CVodeSetStopTime(problem.solver, t_next)
     flag: int = cvode.CVode(problem.solver, t_next, problem.vector, problem.reached, ONE_STEP)
-    if problem.method != Matrix.NONE:
-        doubt(problem)
+    doubt(problem)
     return flag
 
 
 def doubt(problem: SolverProblem) -> None:
-    """Let a Jacobian serve for one step only while the corrector is in doubt (`integration.problem`)."""
+    """Hold the corrector to more while it is in doubt (`integration.problem`)."""
     cvode.CVodeGetNumStepSolveFails(problem.solver, problem.count)
     diverged: int = problem.count[0]
     before: int = problem.doubt
+    least: int = problem.doubt_from
     doubt = min(before + DOUBT_FAILURE * (diverged - problem.diverged), DOUBT_MOST)
     problem.diverged = diverged
-    if doubt > DOUBT_FROM and before <= DOUBT_FROM:
-        cvode.CVodeSetJacEvalFrequency(problem.solver, 1)
+    if doubt > least and before <= least:
+        trust(problem, 0)
     problem.doubt = max(doubt - 1, 0)
-    if problem.doubt <= DOUBT_FROM and doubt > DOUBT_FROM:
-        cvode.CVodeSetJacEvalFrequency(problem.solver, JACOBIAN_SERVES_STEPS)
+    if doubt > least and problem.doubt <= least:
+        trust(problem, 1)
+
+
+def trust(problem: SolverProblem, is_trusted: int) -> None:
+    """Let a Jacobian serve long and the corrector converge to its usual share of the error test, or not."""
+    share: float = problem.convergence if is_trusted != 0 else problem.convergence_in_doubt
+    cvode.CVodeSetNonlinConvCoef(problem.solver, share)
+    if problem.method != Matrix.NONE:
+        cvode.CVodeSetJacEvalFrequency(problem.solver, JACOBIAN_SERVES_STEPS if is_trusted != 0 else 1)
 
 
 def last_size(problem: SolverProblem) -> float:

@@ -63,6 +63,7 @@ if TYPE_CHECKING:
 _CALLED = (
     "CVode", "CVodeGetDky", "CVodeReInit", "CVodeSetInitStep", "CVodeSetStopTime", "CVodeGetLastStep",
     "CVodeGetNumErrTestFails", "CVodeGetNumStepSolveFails", "CVodeSetJacEvalFrequency",
+    "CVodeSetNonlinConvCoef",
 )  # fmt: skip
 _MODEL = (model_calls, jacobian_fill, rounding, sliding, moment_steps, progress, interval)
 _CVODE = (*_MODEL, look_back, cvode_callbacks, cvode_steps)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import weakref
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from desire_tui.engine.integration.problem import (
     DOUBT_FAILURE,
     DOUBT_FROM,
     DOUBT_MOST,
+    ITERATION_DOUBT_FROM,
     JACOBIAN_SERVES_STEPS,
 )
 from desire_tui.engine.integration.rules import rule_numbered
@@ -26,24 +27,34 @@ if TYPE_CHECKING:
 _FAILURES_ALLOWED = 40
 """Failed tests in one step. CVODE's own 7 to 10 are too few where the program's DT is a wild guess."""
 
-_DIAGONAL_CONVERGENCE = 1e-4
-"""Share of the error test left to the corrector with CVDiag.
-
-CVODE's 0.1 trusts an estimate of the rate of convergence that a diagonal matrix makes far too good:
-Robertson's problem then comes out wrong by many times ERMAX, and no flag says so.
-"""
-
 MATRIX_CONVERGENCE = 1e-3
-"""The same with a matrix. With 0.1 what the corrector leaves lets a state that decays toward 0 fall below
-it: Robertson's problem at ERMAX = 1e-6 then ran away to -5e7 by t = 1e11, and no flag said so. With 1e-3 the
-iterations cost little and the runs take as long or, the steps being longer, half as long. Under Adams there
-are up to 20 % fewer steps (four times fewer for Robertson's problem at 1e-4), up to 45 % more evaluations;
-with 0.1 solutions went through the singularity of `d/dt y = -1/(2*y)` unseen."""
+"""Share of the error test left to the corrector of BDF with a matrix.
 
-_ITERATION_CONVERGENCE = 2e-2
-"""The same with functional iteration, whose estimate of its own convergence is coarse: with 0.03 and more the
-ring modulator comes out wrong by more than 10 ERMAX, with this by 0.012 (Adams) and 0.001 (BDF). With less,
-BDF takes longer steps on an oscillator and is less exact (rules_side_by_side.src)."""
+With CVODE's 0.1 what the corrector leaves lets a state that decays toward 0 fall below it: Robertson's
+problem at ERMAX = 1e-6 then ran away to -5e7 by t = 1e11, and no flag said so. With 1e-3 the iterations cost
+little and the runs take as long or, the steps being longer, half as long."""
+
+
+class Convergence(NamedTuple):
+    """Shares of the error test left to the corrector: as a rule, and from how much doubt on another one."""
+
+    trusted: float
+    in_doubt: float
+    doubt_from: int = DOUBT_FROM
+
+
+_CVODES = 0.1
+_DIAGONAL = Convergence(1e-4, 1e-4)
+"""CVODE's 0.1 trusts an estimate of the rate of convergence that a diagonal matrix makes far too good:
+Robertson's problem then comes out wrong by many times ERMAX, and no flag says so."""
+_BDF_MATRIX = Convergence(MATRIX_CONVERGENCE, MATRIX_CONVERGENCE)
+_ADAMS_MATRIX = Convergence(_CVODES, MATRIX_CONVERGENCE)
+"""With 0.1 throughout solutions went through the singularity of `d/dt y = -1/(2*y)` unseen; with 1e-3
+throughout HIRES and Robertson's problem take twice the evaluations for the same accuracy."""
+_ITERATION = Convergence(_CVODES, 2e-2, ITERATION_DOUBT_FROM)
+"""Functional iteration's estimate of its own convergence is coarse where it is slow, in stiff models: with
+0.03 and more the ring modulator comes out wrong by more than 10 ERMAX, with this by 0.09 (Adams) and 0.01
+(BDF). Where nothing is stiff it hardly fails, and 0.1 takes up to a third fewer evaluations (an orbit)."""
 
 
 @dataclass(frozen=True)
@@ -96,12 +107,8 @@ class Solver:
         self._set("CVodeSetMaxErrTestFails", _FAILURES_ALLOWED)
         self._set("CVodeSetMaxConvFails", _FAILURES_ALLOWED)
         self._set("CVodeSetMaxHnilWarns", -1)
-        if linear.kind == "diagonal":
-            self._set("CVodeSetNonlinConvCoef", _DIAGONAL_CONVERGENCE)
-        elif linear.kind == "fixed-point":
-            self._set("CVodeSetNonlinConvCoef", _ITERATION_CONVERGENCE)
-        else:
-            self._set("CVodeSetNonlinConvCoef", MATRIX_CONVERGENCE)
+        self.convergence = _convergence(linear, is_adams=is_adams)
+        self._set("CVodeSetNonlinConvCoef", self.convergence.trusted)
         parts.attached = Attached(libraries(), context, self.memory, self.vector, n, linear)
         self._reached = ctypes.c_double()
         self._has_matrix = linear.kind not in {"diagonal", "fixed-point"}
@@ -122,27 +129,30 @@ class Solver:
         self._set("CVodeReInit", t, self.vector)
         self._set("CVodeSetInitStep", first_step)
         self._diverged = self._doubt = 0
-        if self._has_matrix:
-            self._set("CVodeSetJacEvalFrequency", JACOBIAN_SERVES_STEPS)
+        self._trust(is_trusted=True)
 
     def step(self, t_stop: float) -> tuple[int, float]:
         """Take one step, never beyond `t_stop`; return CVODE's flag (< 0: failed) and the time reached."""
         self._set("CVodeSetStopTime", t_stop)
         reached = self._reached
         flag = self._library.CVode(self.memory, t_stop, self.vector, ctypes.byref(reached), ONE_STEP)
-        if self._has_matrix:
-            self._be_in_doubt(self._count("CVodeGetNumStepSolveFails"))
+        self._be_in_doubt(self._count("CVodeGetNumStepSolveFails"))
         return flag, reached.value
 
     def _be_in_doubt(self, failures: int) -> None:
-        """Let a Jacobian serve for one step only while the corrector is in doubt (`integration.problem`)."""
+        """Hold the corrector to more while it is in doubt (`integration.problem`)."""
         before, self._diverged = self._diverged, failures
         self._doubt = min(self._doubt + DOUBT_FAILURE * (failures - before), DOUBT_MOST)
-        is_large = self._doubt > DOUBT_FROM
+        is_large = self._doubt > self.convergence.doubt_from
         self._doubt = max(self._doubt - 1, 0)
         if is_large:
-            still = self._doubt > DOUBT_FROM
-            self._set("CVodeSetJacEvalFrequency", 1 if still else JACOBIAN_SERVES_STEPS)
+            self._trust(is_trusted=self._doubt <= self.convergence.doubt_from)
+
+    def _trust(self, *, is_trusted: bool) -> None:
+        convergence = self.convergence
+        self._set("CVodeSetNonlinConvCoef", convergence.trusted if is_trusted else convergence.in_doubt)
+        if self._has_matrix:
+            self._set("CVodeSetJacEvalFrequency", JACOBIAN_SERVES_STEPS if is_trusted else 1)
 
     def interpolate(self, t: float) -> None:
         """Write the states at a time inside the last step to `between`."""
@@ -189,6 +199,14 @@ class Solver:
         vector = self._library.N_VMake_Serial(self.n, out.ctypes.data, context)
         self._set(name, vector)
         self._library.N_VDestroy_Serial(vector)
+
+
+def _convergence(linear: Linear, *, is_adams: bool) -> Convergence:
+    if linear.kind == "diagonal":
+        return _DIAGONAL
+    if linear.kind == "fixed-point":
+        return _ITERATION
+    return _ADAMS_MATRIX if is_adams else _BDF_MATRIX
 
 
 class _Parts:
