@@ -52,6 +52,8 @@ RUNS = (
     _solver("_FACTORS_SERVE_STEPS = 20", "_FACTORS_SERVE_STEPS = 21", "tests/integration/test_solver_counts.py"),
     _solver("serve = 1 if s.doubt > DOUBT_FROM else JACOBIAN_SERVES_STEPS", "serve = 1 if s.doubt > DOUBT_FROM else JACOBIAN_SERVES_STEPS - 1", "tests/integration/test_bdf.py"),
     _solver("s.doubt = min(s.doubt + DOUBT_FAILURE, DOUBT_MOST)", "s.doubt = 0", "tests/integration/test_singularities.py"),
+    _solver("_ADAMS_MATRIX = Convergence(_CVODES, MATRIX_CONVERGENCE)", "_ADAMS_MATRIX = Convergence(_CVODES, _CVODES)", "tests/integration/test_singularities.py"),
+    _solver("_ITERATION = Convergence(_CVODES, 2e-2, ITERATION_DOUBT_FROM)", "_ITERATION = Convergence(_CVODES, _CVODES, ITERATION_DOUBT_FROM)", "tests/integration/test_pulsed_models.py"),
     _solver("s.rate = max(_RATE_FORGETS * s.rate, now / before)", "s.rate = now / before", "tests/integration/test_bdf.py"),
     _solver("scale = 2.0 / (1.0 + ratio)", "scale = 1.0", "tests/integration/test_bdf.py"),
     _solver("if tests >= 2: s.ratio", "if tests > 2:\n            s.ratio", "tests/integration/test_solver_counts.py"),
