@@ -30,14 +30,21 @@ WAITING_EACH = 3
 REPEATS_MOST = 8
 """So often a chunk runs again whose worker died."""
 CONNECT_SECONDS = 10.0
+_WORKER_PROCESS = "desire_tui.studies.worker_process"
 
 
 @contextmanager
 def cluster_of(given: Any, workers: int | None = None) -> Iterator[Any]:
     """Lend a `distributed.Client`: the one given, one at an address, or one with local worker processes.
 
-    DesireError 514: there is no scheduler at the address; 516: the library is not there.
+    DesireError 510: both are given; 514: there is no scheduler at the address; 516: the library is not there.
     """
+    if given is not None and workers is not None:
+        facts = {
+            "what": "workers are for a local cluster, beside another one",
+            "remedy": "leave --workers (workers=) away, or --cluster (cluster=)",
+        }
+        raise DesireError(Diagnostic("study-form", None, facts))
     try:
         from distributed import Client, LocalCluster
     except ImportError:
@@ -50,7 +57,11 @@ def cluster_of(given: Any, workers: int | None = None) -> Iterator[Any]:
     if given is None:
         with (  # its types are not written down
             LocalCluster(
-                n_workers=workers, threads_per_worker=1, dashboard_address=None, silence_logs=50
+                n_workers=workers,
+                threads_per_worker=1,
+                dashboard_address=None,
+                silence_logs=50,
+                preload=[_WORKER_PROCESS],
             ) as cluster,
             Client(cluster) as client,
         ):

@@ -26,6 +26,8 @@ OPTIONS = (
     "output",
     "threads",
 )
+_WHOLE = {"runs": 1000, "seed": 7, "threads": 2}
+"""Options that take a whole number, with an example of each."""
 _SHORT = {"-o": "output"}
 _OPTION = re.compile(r"(?:^|\s)(--[A-Za-z-]+|-o)(?=[\s=]|$)")
 _QUOTES = "\"'"
@@ -48,7 +50,7 @@ def typed_options(text: str) -> dict[str, Any]:
         found["settings"] = from_texts(sets)
     except ValueError as wrong:
         raise _wrong(f"'{wrong}' sets nothing", "--set TMAX=2") from None
-    for name in ("runs", "seed", "threads"):
+    for name in _WHOLE:
         found[name] = _whole(name, single[name]) if name in single else None
     method = single.get("design", METHODS[0])
     if method not in METHODS:
@@ -86,7 +88,7 @@ def _whole(name: str, text: str) -> int:
     except ValueError:
         value = -1
     if value < (0 if name == "seed" else 1):
-        raise _wrong(f"--{name} {text}: no whole number that can be meant", f"--{name} 1000")
+        raise _wrong(f"--{name} {text}: no whole number that can be meant", f"--{name} {_WHOLE[name]}")
     return value
 
 

@@ -24,18 +24,16 @@ SETTINGS = {"sample": {"k": "uniform(-0.6, 1)"}, "runs": 500, "seed": 7, "keep":
 
 
 def test_a_worker_that_dies_costs_its_chunk_only_and_what_is_stored_outlives_a_scheduler(tmp_path):
-    from distributed import Client, LocalCluster
-
     alone = desire_tui.study(NOISY, **SETTINGS)
-    with (
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as two,
-        Client(two) as client,
-    ):
+    with cluster.cluster_of(None, 2) as client:
         told = []
+        workers = client.run(os.getpid)
+        handlers = client.run(signal.getsignal, signal.SIGINT)
+        assert set(handlers.values()) == {signal.SIG_IGN}, "Ctrl-C is the study's"
 
         def kill_one(progress):
             if not told:
-                os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+                os.kill(next(iter(workers.values())), signal.SIGKILL)
             told.append(progress)
 
         found = desire_tui.study(NOISY, **SETTINGS, cluster=client, progress=kill_one)
@@ -43,7 +41,9 @@ def test_a_worker_that_dies_costs_its_chunk_only_and_what_is_stored_outlives_a_s
         with pytest.raises(
             DesireError, match=r"scheduler .* cannot be reached"
         ):  # in the middle of another study
-            desire_tui.study(NOISY, **SETTINGS, cluster=client, store=path, progress=lambda _: two.close())
+            desire_tui.study(
+                NOISY, **SETTINGS, cluster=client, store=path, progress=lambda _: client.cluster.close()
+            )
     assert desire_tui.study(NOISY, **SETTINGS, store=path, resume=True)["x[end]"].equals(alone["x[end]"])
     assert len(told) > 1, "it died in the middle"
     assert found.identical(alone)
@@ -57,6 +57,11 @@ def test_a_scheduler_that_is_not_there(monkeypatch):
     problem = error.value.diagnostics[0]
     assert problem.code == 514
     assert "tcp://127.0.0.1:9 cannot be reached" in problem.message
+
+
+def test_workers_are_for_a_local_cluster():
+    with pytest.raises(DesireError, match="workers are for a local cluster"):
+        desire_tui.study(NOISY, **SETTINGS, cluster="tcp://127.0.0.1:9", workers=2)
 
 
 def test_a_chunk_takes_one_thread(monkeypatch):
