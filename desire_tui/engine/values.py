@@ -9,18 +9,14 @@ need to know whether they are defined, so an array costs nothing but its own num
 
 from __future__ import annotations
 
-import gc
-import mmap
-import os
-import resource
 from enum import Enum
 from math import prod
 from operator import attrgetter
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from desire_tui.engine.address_space import AddressSpace
 from desire_tui.engine.data_classes import dataclass
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 
@@ -41,12 +37,7 @@ SYSTEM_SLOTS = len(SYSTEM_VARIABLES)
 
 SCALAR_SLOTS = 1 << 22
 """Slots below this one hold scalars: 32 MiB of address space, touched as needed."""
-ROOM_PARTS = 8
-"""Where address space is limited, a session takes such a part of what is left: there will be others."""
 _ALIGN = 8  # arrays start on a cache line
-
-_DROPPED_PAGES_ARE_ZERO = os.uname().sysname == "Linux"  # elsewhere MADV_DONTNEED is only a hint
-_NO_RESERVE = 0x4000 if os.uname().sysname == "Linux" else 0  # MAP_NORESERVE, not named before 3.13
 
 
 class Kind(Enum):
@@ -115,9 +106,9 @@ class Values:
     """
 
     def __init__(self, elements_most: int | None = None) -> None:
-        allowed = _allowed_bytes() if elements_most is None else 8 * (SCALAR_SLOTS + elements_most)
-        self._memory, self.capacity = _reserve(allowed)
-        view = memoryview(self._memory)
+        self._space = AddressSpace(None if elements_most is None else 8 * (SCALAR_SLOTS + elements_most))
+        view = self._space.view
+        self.capacity = len(view) // 8
         self.cells: memoryview[float] = view.cast("d")
         self.data: NDArray[np.float64] = np.frombuffer(view, dtype=np.float64)
         self.defined = bytearray(1024)
@@ -148,8 +139,8 @@ class Values:
 
     def clear(self) -> None:
         """Forget all names (`clear`, `erun`); system variables remain, undefined but for PI and scale."""
-        self._zero(0, self._scalars)
-        self._zero(SCALAR_SLOTS, self._arrays - SCALAR_SLOTS)
+        self._space.zero(0, 8 * self._scalars)
+        self._space.zero(8 * SCALAR_SLOTS, 8 * (self._arrays - SCALAR_SLOTS))
         self.generation += 1
         self._begin()
 
@@ -220,7 +211,7 @@ class Values:
 
     def zero(self, quantity: Quantity) -> None:
         """Fill with zeros (an array declared again)."""
-        self._zero(quantity.slot, quantity.slots)
+        self._space.zero(8 * quantity.slot, 8 * quantity.slots)
 
     def alias(self, name: str, shape: Sequence[int], slot: int, *, is_state: bool = False) -> Quantity:
         """Give existing numbers a second name (overlays and views)."""
@@ -298,55 +289,3 @@ class Values:
         if quantity.kind is Kind.COMPLEX:
             return flat.view(np.complex128).reshape(quantity.shape)
         return flat.reshape(quantity.shape)
-
-    def _zero(self, slot: int, count: int) -> None:
-        """Zero some numbers; whole pages of a large piece are given back to the system, not written."""
-        first, last = _pages(slot * 8), (slot + count) * 8 // mmap.PAGESIZE * mmap.PAGESIZE
-        if _DROPPED_PAGES_ARE_ZERO and last - first >= 1 << 20:
-            self._memory.madvise(mmap.MADV_DONTNEED, first, last - first)
-            self.data[slot : first // 8] = 0.0
-            self.data[last // 8 : slot + count] = 0.0
-        else:
-            self.data[slot : slot + count] = 0.0
-
-
-def _pages(size: int) -> int:
-    return -(-size // mmap.PAGESIZE) * mmap.PAGESIZE
-
-
-def _allowed_bytes() -> int:
-    """Three quarters of the memory of the machine or container this runs in; less under `ulimit -v`."""
-    size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    for limit in ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"):
-        try:
-            size = min(size, int(Path(limit).read_text(encoding="ascii")))
-        except (OSError, ValueError):
-            continue
-    address_space, _ = resource.getrlimit(resource.RLIMIT_AS)
-    if address_space != resource.RLIM_INFINITY:  # `ulimit -v`
-        if _free(address_space) < address_space // 2:
-            gc.collect()  # sessions that nobody has any more
-        size = min(size, _free(address_space) // ROOM_PARTS)
-    return max(size // 4 * 3, 1 << 27)
-
-
-def _free(address_space: int) -> int:
-    """Return how much of a limited address space is left."""
-    try:
-        used = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * mmap.PAGESIZE
-    except OSError:
-        used = 0
-    return max(address_space - used, 0)
-
-
-def _reserve(allowed: int) -> tuple[mmap.mmap, int]:
-    """Reserve address space of so many bytes, or as many as there are; return it and its doubles."""
-    size = _pages(allowed)
-    while True:
-        try:
-            flags = mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | _NO_RESERVE
-            return mmap.mmap(-1, size, flags=flags), size // 8
-        except OSError:
-            if size < 1 << 24:
-                raise
-            size = _pages(size // 2)

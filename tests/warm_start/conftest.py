@@ -7,14 +7,14 @@ import pytest
 from desire_tui.engine import disk_cache
 from desire_tui.engine.codegen import native_model
 from desire_tui.engine.codegen.jit.compiler import machine
-from desire_tui.engine.session import session
+from desire_tui.engine.session import workspace
 from desire_tui.engine.warm_start import start_file
 
 
 @pytest.fixture
 def stored(tmp_path, monkeypatch):
     """Store the starts of all programs; the folder where that is done."""
-    monkeypatch.setattr(session, "STORED_LEAST", 0)
+    monkeypatch.setattr(workspace, "STORED_LEAST", 0)
     monkeypatch.setattr(native_model, "SMALL", -1)
     monkeypatch.setattr(start_file, "engine_digest", lambda: b"this one")  # who edits it stores nothing
     folder, usual = tmp_path / "cache", disk_cache._path

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from desire_tui.engine.session import session
+from desire_tui.engine.session import workspace
 from tests.warm_start.starts import started
 
 LINES = (
@@ -85,7 +85,7 @@ def test_messages_of_runs_that_fail(stored, monkeypatch, shown):
     started(text, "1")
     assert stored.exists()
     failed, _ = started(text, "0")
-    monkeypatch.setattr(session, "STORED_LEAST", 10**6)
+    monkeypatch.setattr(workspace, "STORED_LEAST", 10**6)
     assert started(text, "0")[0] == failed
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -39,11 +38,8 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.prepared_run import PreparedRun
     from desire_tui.engine.session.quantity_plots import PlotOutcome
     from desire_tui.engine.values import Values
-    from desire_tui.engine.warm_start.program_start import ProgramStart
 
 BackendName = Literal["native", "reference"]
-STORED_LEAST = 10_000
-"""Characters of programs for which later processes find what this one knows."""
 CHECK_SECONDS = 3.0
 """For checking a text while somebody waits or types; 20,000 equations take half of it."""
 
@@ -103,10 +99,7 @@ class Session:
     @property
     def faulty(self) -> tuple[Diagnostic, ...]:
         """Errors of the active program's text that stop it where they are reached, and nowhere else."""
-        program, structure = self._workspace.program, self._workspace.structure
-        if program is None or structure is None:
-            return ()
-        return tuple(p for p in (*program.problems, *structure.problems) if p.severity == "error")
+        return self._workspace.faulty
 
     @property
     def runs(self) -> list[RunRecord]:
@@ -172,29 +165,10 @@ class Session:
 
         A script that stopped at STOP cannot go on afterwards (error 43), unless the text is the same.
         """
-        from desire_tui.engine.structure.structure import structure
-        from desire_tui.engine.syntax.parse import parse
-
-        began = perf_counter()
-        own = self._workspace.own if self._workspace.segments.are_remembered else None
-        if own is not None and own[0].source is not source:
-            own = None
-        if own is None:
-            start = self._workspace.segments.start = self._start(source)
-            own = start.own if start is not None else None
-        program = own[0] if own is not None else parse(source)
-        self._workspace.parse_seconds = perf_counter() - began
-        if self._script.stopped is not None and source.text != self._workspace.source.text:
+        before = self._workspace.source.text
+        program = self._workspace.accept(source, is_checked=self._listener.wants_check)
+        if self._script.stopped is not None and source.text != before:
             self._script.edited = True
-        if own is None:
-            own = program, structure(program)
-        self._workspace.own = active, script = own
-        if self._workspace.overrides:
-            from desire_tui.engine.session.overrides import with_overrides
-
-            active = with_overrides(program, script, self._workspace.overrides)
-            script = structure(active)
-        self._workspace.program, self._workspace.structure = active, script
         self._notebook.program(source)
         if self._listener.wants_check:
             problems = self.check(source, quick=True, seconds=CHECK_SECONDS)  # the run compares the JACOBIAN
@@ -202,14 +176,6 @@ class Session:
             problems = tuple(p.within(source) for p in program.problems)
         self._listener.program_accepted(program, problems)
         return problems
-
-    def _start(self, source: Source) -> ProgramStart | None:
-        """Return the start of a program that is large enough to be stored, where nothing reads all of it."""
-        if len(source.text) < STORED_LEAST or self._listener.wants_check:
-            return None
-        from desire_tui.engine.warm_start.program_start import program_start
-
-        return program_start(source)
 
     def check(
         self, source: Source, *, quick: bool = False, seconds: float | None = None
@@ -267,7 +233,7 @@ class Session:
 
     def new(self) -> None:
         """Forget the program and all quantities; scale 1, irule 1 (`NEW`)."""
-        self._workspace.program = self._workspace.structure = self._workspace.own = None
+        self._workspace.forget()
         self._script.forget()
         self._host.rule = DEFAULT_RULE
 
@@ -289,9 +255,7 @@ class Session:
 
         It runs as its text says: settings that held for the last run only (`override`) are over.
         """
-        workspace = self._workspace
-        if workspace.own is not None and not workspace.overrides:
-            workspace.program, workspace.structure = workspace.own
+        self._workspace.run_as_written()
         with self._notebook.task("run", lambda: self.graph):
             self._script.run(scale=self.values.cells[SCALE])
 
@@ -335,16 +299,7 @@ class Session:
         if not statements:
             return
         with self._notebook.task(text, lambda: self.graph):
-            waiting: list[Placed] = []
-            divides = self._commands.divides(statements)
-            for placed in statements:
-                if divides and self._commands.is_own(placed.node):
-                    self._script.interpret(waiting, source)
-                    waiting = []
-                    self._commands.carry_out_statement(placed, source)
-                else:
-                    waiting.append(placed)
-            self._script.interpret(waiting, source)
+            self._commands.carry_out_line(statements, source, self._script.interpret)
 
     # ------------------------------------------------------------------ steering, from any thread
 

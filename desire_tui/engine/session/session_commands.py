@@ -14,7 +14,7 @@ from desire_tui.engine.session.report import run_report
 from desire_tui.engine.session.status import State
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from desire_tui.engine.graph.pages import GraphPages
     from desire_tui.engine.nodes.program import Placed
@@ -74,7 +74,7 @@ class SessionCommands:
         self._runs = runs
         self._graphs = graphs
 
-    def is_own(self, node: Statement) -> bool:
+    def _is_own(self, node: Statement) -> bool:
         """Whether a statement of a command line is carried out here rather than by the interpreter."""
         match node:
             case Simple(word=word):
@@ -87,7 +87,25 @@ class SessionCommands:
                 return True
         return False
 
-    def divides(self, statements: Sequence[Placed]) -> bool:
+    def carry_out_line(
+        self,
+        statements: Sequence[Placed],
+        source: Source,
+        interpret: Callable[[list[Placed], Source], object],
+    ) -> None:
+        """Carry out a command line; what is no command goes to `interpret`, together as it stands."""
+        waiting: list[Placed] = []
+        divides = self._divides(statements)
+        for placed in statements:
+            if divides and self._is_own(placed.node):
+                interpret(waiting, source)
+                waiting = []
+                self._carry_out_statement(placed, source)
+            else:
+                waiting.append(placed)
+        interpret(waiting, source)
+
+    def _divides(self, statements: Sequence[Placed]) -> bool:
         """Whether own commands part a line: not those in blocks, which the interpreter hands back in turn."""
         nodes = [placed.node for placed in statements]
         if any(isinstance(node, Simple) and node.word in _REPLACES_THE_PROGRAM for node in nodes):
@@ -97,7 +115,7 @@ class SessionCommands:
             for node in nodes
         )
 
-    def carry_out_statement(self, placed: Placed, source: Source) -> None:
+    def _carry_out_statement(self, placed: Placed, source: Source) -> None:
         """Carry out a command; its problems get its place."""
         node = placed.node
         try:

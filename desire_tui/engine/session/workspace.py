@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -17,7 +18,10 @@ if TYPE_CHECKING:
     from desire_tui.engine.session.notebook import Notebook
     from desire_tui.engine.session.permissions import Ask, Permissions
     from desire_tui.engine.structure.structure import Structure
+    from desire_tui.engine.warm_start.program_start import ProgramStart
 
+STORED_LEAST = 10_000
+"""Characters of programs for which later processes find what this one knows."""
 _NO_SOURCE = Source("", "<none>")
 
 
@@ -49,6 +53,50 @@ class Workspace:
         self.parse_seconds = 0.0
         self.notebook = notebook
         self._folder = folder
+
+    def accept(self, source: Source, *, is_checked: bool) -> Program:
+        """Make a text the active program, with the overrides there are; return it as the text says.
+
+        `is_checked`: all of it will be read at once, so that nothing is won by what earlier processes know.
+        """
+        from desire_tui.engine.structure.structure import structure
+        from desire_tui.engine.syntax.parse import parse
+
+        began = perf_counter()
+        own = self.own if self.segments.are_remembered else None
+        if own is not None and own[0].source is not source:
+            own = None
+        if own is None:
+            start = self.segments.start = None if is_checked else _start(source)
+            own = start.own if start is not None else None
+        program = own[0] if own is not None else parse(source)
+        self.parse_seconds = perf_counter() - began
+        if own is None:
+            own = program, structure(program)
+        self.own = active, script = own
+        if self.overrides:
+            from desire_tui.engine.session.overrides import with_overrides
+
+            active = with_overrides(program, script, self.overrides)
+            script = structure(active)
+        self.program, self.structure = active, script
+        return program
+
+    def run_as_written(self) -> None:
+        """Take the active program as its text says, if it was changed for the last run only."""
+        if self.own is not None and not self.overrides:
+            self.program, self.structure = self.own
+
+    def forget(self) -> None:
+        """Have no program."""
+        self.program = self.structure = self.own = None
+
+    @property
+    def faulty(self) -> tuple[Diagnostic, ...]:
+        """Errors of the active program's text that stop it where they are reached, and nowhere else."""
+        if self.program is None or self.structure is None:
+            return ()
+        return tuple(p for p in (*self.program.problems, *self.structure.problems) if p.severity == "error")
 
     @property
     def source(self) -> Source:
@@ -102,3 +150,12 @@ class Workspace:
     def line_of(self, placed: Placed) -> int:
         """Return a statement's line in the program; 0 for a command."""
         return 0 if self.command is not None else self.source.position(placed.at).row
+
+
+def _start(source: Source) -> ProgramStart | None:
+    """Return the start of a program that is large enough to be stored."""
+    if len(source.text) < STORED_LEAST:
+        return None
+    from desire_tui.engine.warm_start.program_start import program_start
+
+    return program_start(source)
