@@ -13,6 +13,7 @@ from desire_tui.engine.codegen.jit import compiler
 from desire_tui.engine.data_classes import replace
 from desire_tui.engine.lowered.expressions import Load
 from desire_tui.engine.lowered.segment import Segment
+from desire_tui.engine.session import workspace
 from desire_tui.engine.session.listener import Listener
 from desire_tui.engine.session.session import Session
 from desire_tui.engine.source import Source
@@ -44,7 +45,7 @@ def test_a_second_start_reads_no_equation_and_compiles_nothing(first, monkeypatc
 
 
 @pytest.mark.parametrize("lines", ["u = x*y", "step\nu = x*y", "u = x*y\nstep"])
-def test_its_equations_are_there_when_somebody_asks(stored, lines):
+def test_its_equations_are_there_when_somebody_asks(stored, monkeypatch, lines):
     text = LORENZ.replace("u = x*y", lines)
     started(text)
     with new_session() as session:
@@ -53,7 +54,7 @@ def test_its_equations_are_there_when_somebody_asks(stored, lines):
         assert is_restored(session)
         session.execute("a = 3 | late = 2 | ARRAY more[3]")  # what came later is not seen
         with new_session() as other:
-            other._start = lambda source: None
+            monkeypatch.setattr(workspace, "STORED_LEAST", 10**6)
             other.erun(Source(text, "program.src"))
             plain = segment_of(other)
             assert type(restored) is not type(plain)
