@@ -20,8 +20,9 @@ ENOUGH = 60.0
 
 
 class Work:
-    def __init__(self):
+    def __init__(self, kind=0):
         self.begun = threading.Event()
+        self.kind = kind
 
     def improve(self):
         self.begun.set()
@@ -136,6 +137,20 @@ def test_at_once_where_that_is_asked_for(improver):
     assert work.begun.wait(ENOUGH)
 
 
+def test_at_once_where_runs_of_the_same_kind_were_long(improver):
+    first, second, other, unknown = Work(7), Work(7), Work(8), Work()
+    improver.add(first)
+    improver.add(unknown)
+    assert begun_in_a_run(improver, first)
+    assert begun_in_a_run(improver, unknown)
+    unknown = Work()
+    improver.add(unknown)
+    improver.add(other)
+    improver.add(second)
+    assert second.begun.wait(ENOUGH)
+    assert [known.work() for known in improver._waiting] == [unknown, other]
+
+
 class WantsLlvm(Work):
     """Work whose code is not on disk."""
 
@@ -203,19 +218,29 @@ def test_code_on_disk_needs_no_llvm(tmp_path, monkeypatch, no_llvm):
         assert compiler.compile_text(text, level=0, keep=True).address("nothing")
 
 
+def model_of(session):
+    (model,) = (known[2] for known in session._workspace.segments._backend._models.values())
+    return model
+
+
 def test_models_wait_for_it():
-    """A program's short run is over on quick code; a long one goes over to fast code."""
+    """A program's short run is over on quick code; a long one goes over to fast code, its next at once."""
     state = CompilerState()
     try:
-        session = Session(compiler=state)
+        session, again = Session(compiler=state), Session(compiler=state)
         session.erun(Source(SHORT))
-        (model,) = (known[2] for known in session._workspace.segments._backend._models.values())
+        model = model_of(session)
         assert not model.improved
         assert state.improver._waiting
+        end = time.monotonic() + ENOUGH
         with state.improver.running(model):
-            end = time.monotonic() + ENOUGH
             while not model.improved and time.monotonic() < end:
                 busy(0.001)
         assert model.improved
+        again.erun(Source(SHORT))
+        assert not state.improver._waiting
+        while not model_of(again).improved and time.monotonic() < end:
+            busy(0.001)
+        assert model_of(again).improved
     finally:
         state.close()

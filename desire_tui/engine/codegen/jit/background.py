@@ -24,6 +24,7 @@ _LOOK_SECONDS = 0.0005
 """At least, before looking again whether a run has lasted so long."""
 _PAUSE_MOST_SECONDS = 0.016
 """Before looking again while runs are short: a thread that waits for Python's lock delays all others."""
+_KINDS_MOST = 1000
 _END_SECONDS = 30.0
 _BEGUN_MOST = 3
 _QUIET_SECONDS = 0.02
@@ -55,6 +56,8 @@ class Waiting:
 
     def __init__(self, work: Improvable) -> None:
         self.work = weakref.ref(work)
+        self.kind: int = getattr(work, "kind", 0)
+        """What models of the same text have in common; 0: nothing."""
         self.may_load_llvm = False
         """Whether the work is worth that much; without it, it ends where it must."""
         self.has_run = False
@@ -127,12 +130,22 @@ class Improver:
         self.looks = False
         """Whether the thread looks at what waits without being woken, which costs more than a short run."""
         self._pause = _PATIENCE_SECONDS
+        self._long: dict[int, None] = {}
+        """Kinds of models whose runs were long enough."""
 
     def add(self, work: Improvable) -> None:
-        """Take up some work as soon as its model's runs have gone on for a moment (`running`)."""
+        """Take up some work as soon as its model's runs have gone on for a moment (`running`).
+
+        At once where those of a model of the same `kind` have: its fast code is there, or will soon be.
+        """
         with self._something:
             self._waiting = [known for known in self._waiting if known.work() is not None]
-            self._waiting.append(Waiting(work))
+            waiting = Waiting(work)
+            if waiting.kind in self._long:
+                self._new.append(waiting)
+                self._wake()
+            else:
+                self._waiting.append(waiting)
 
     def add_now(self, work: Improvable) -> None:
         """Take up some work at once."""
@@ -215,6 +228,9 @@ class Improver:
     def _take(self, due: list[Waiting]) -> None:
         if due:
             self._new += [known for known in self._waiting if known in due]
+            self._long |= {known.kind: None for known in due if known.kind}
+            while len(self._long) > _KINDS_MOST:
+                del self._long[next(iter(self._long))]
             self._waiting = [known for known in self._waiting if known not in due]
 
     def _run(self) -> None:
