@@ -33,7 +33,26 @@ MODEL = (
     "k = 3 | DT = 0.01 | TMAX = 2 | NN = 21 | x = 1 | v = 0\ndrun\nDYNAMIC\nd/dt x = v\n"
     "d/dt v = -k*sin(3*x) - tanh(v) + exp(-x*x) + ln(k + v*v)\ny = cos(x) + sin(x) + log(k + x)\ndispt x\n"
 )
-SPECIAL = (0.0, -0.0, math.nan, 1e-310, -5e-324, 1e-9, 0.126, 0.855469, 2.426265, 1e300, -3e5, 699.5, -710.0)
+SPECIAL = (
+    *(
+        0.0,
+        -0.0,
+        math.nan,
+        math.inf,
+        1e-310,
+        -5e-324,
+        1e-9,
+        0.126,
+        0.855469,
+        2.426265,
+        1e300,
+        -3e5,
+        699.5,
+        -710.0,
+    ),
+    *(1.05e8, float.fromhex("0x1.e2f7ad3af4e3p+26"), math.pi / 2 + 27 / 256),
+)
+"""The last two: where other operations would give another sine, and where glibc's sin and sincos differ."""
 UNFUSED = """
 import math
 from desire_tui.engine.codegen.exact_functions import compiled
