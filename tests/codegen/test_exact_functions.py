@@ -15,6 +15,7 @@ import pytest
 from desire_tui.engine.codegen.exact_functions import (
     compiled,
     decimal_logarithm,
+    exponential,
     hyperbolic_tangent,
     logarithm,
     lookups,
@@ -22,7 +23,7 @@ from desire_tui.engine.codegen.exact_functions import (
     sine_and_cosine,
 )
 from desire_tui.engine.codegen.exact_functions.angles import ROWS, sines_and_cosines
-from desire_tui.engine.codegen.exact_functions.constants import half_pi, ln_2, logarithm_of
+from desire_tui.engine.codegen.exact_functions.constants import half_pi, ln_2, logarithm_of, powers_of_two
 from desire_tui.engine.codegen.exact_functions.quarter_turns import quarter_turn
 from desire_tui.engine.codegen.jit.compiler import machine
 from desire_tui.studies import chunk as chunks
@@ -117,6 +118,8 @@ def test_constants_have_all_their_bits():
         ln_2() - Fraction("0.693147180559945309417232121458176568075500134360255254120680")
     ) < Fraction(1, 10**59)
     assert float(logarithm_of(Fraction(3, 2))) == math.log(1.5)
+    for n, power in enumerate(powers_of_two(7)):
+        assert abs(float(power**128 / 2**n - 1)) < 2**-200
 
 
 def test_in_every_cell_of_the_logarithm_what_is_left_is_a_double():
@@ -163,10 +166,11 @@ def test_tables_in_memory_give_what_tables_in_registers_do(monkeypatch):
 def test_a_function_that_differs_from_the_library_is_not_used(monkeypatch):
     monkeypatch.setattr(sine_and_cosine, "_TAYLOR_BELOW", 0.2)
     monkeypatch.setattr(hyperbolic_tangent, "_ONE_FROM", 3.0)
+    monkeypatch.setattr(exponential, "_COEFFICIENTS", (1 / 2, 1 / 6, 1 / 24, 1 / 120))
     monkeypatch.setattr(logarithm, "_BAND_SMALL", 0.0)
     monkeypatch.setattr(decimal_logarithm, "_PER_LN_10", 0.4342944819032519)
     width = 2 * machine().width
-    for name in ("sin", "tanh", "log", "log10"):
+    for name in ("sin", "exp", "tanh", "log", "log10"):
         assert compiled.exact_function(name, width) is None
 
 

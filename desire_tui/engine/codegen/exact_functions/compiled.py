@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 _GLIBC = (2, 28)
-"""Since then sin, cos, exp and log are those whose accuracy is relied on."""
-_FAST_LIBRARY, _WIDE = frozenset(("exp", "log")), 32
+"""Since then sin, cos, exp and log are those whose operations or accuracy are relied on."""
+_FAST_LIBRARY, _WIDE = frozenset(("log",)), 32
 """Of these the library is so quick that only vectors of so many doubles gain."""
 _TRIED = 16_384
 _TELLING = """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import isqrt
 
 _BITS = 240
 
@@ -31,3 +32,15 @@ def logarithm_of(x: Fraction) -> Fraction:
     """Return ln x = 2·artanh((x - 1)/(x + 1)), for x near 1: between a half and 2."""
     part = (x - 1) / (x + 1)
     return 2 * _series(part, part**2)
+
+
+def powers_of_two(bits: int) -> list[Fraction]:
+    """Return 2^(n/N) for n from 0 to N - 1, N = 2^bits."""
+    unit = 1 << _BITS
+    step = 2 * unit
+    for _ in range(bits):
+        step = isqrt(step * unit)
+    powers = [unit]
+    for _ in range((1 << bits) - 1):
+        powers.append(powers[-1] * step >> _BITS)
+    return [Fraction(power, unit) for power in powers]

@@ -53,36 +53,8 @@ class Pairs:
         high = self.lanes.mul(a, b)
         return Pair(high, self.fma(a, b, self.lanes.neg(high)))
 
-    def times(self, a: str, b: Pair) -> Pair:
-        """Return a number times a pair."""
-        exact = self.product(a, b.high)
-        return Pair(exact.high, self.fma(a, b.low, exact.low))
-
-    def by(self, a: Pair, b: Pair) -> Pair:
-        """Return a pair times a pair."""
-        part = self.times(a.high, b)
-        return Pair(part.high, self.fma(a.low, b.high, part.low))
-
-    def constant_plus(self, value: Fraction, small: Pair) -> Pair:
-        """Return a constant that is a double plus a smaller pair."""
-        found = self.sum(self.const(float(value)), small.high)
-        return Pair(found.high, self.lanes.add(found.low, small.low))
-
-    def series(self, x: str, first: Fraction, more: Sequence[Fraction]) -> Pair:
-        """Return first + x·(Σ more[i]·xⁱ) where the sum behind the first term is small beside it."""
-        high, low = split(first)
-        rest = self.fma(x, self.polynomial(x, more), self.const(low))
-        return self.sum(self.const(high), rest)
-
-    def polynomial(self, x: str, coefficients: Sequence[Fraction]) -> str:
-        """Return Σ coefficient[i]·xⁱ in plain doubles (Horner)."""
-        result = self.const(float(coefficients[-1]))
-        for coefficient in reversed(coefficients[:-1]):
-            result = self.fma(result, x, self.const(float(coefficient)))
-        return result
-
     def by_squares(self, x: str, coefficients: Sequence[Fraction]) -> str:
-        """Return the same, with less waiting: terms are joined two by two (Estrin)."""
+        """Return Σ coefficient[i]·xⁱ in plain doubles: terms are joined two by two (Estrin)."""
         terms = [self.const(float(coefficient)) for coefficient in coefficients]
         power = x
         while len(terms) > 1:
