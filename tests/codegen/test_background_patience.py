@@ -20,7 +20,7 @@ ENOUGH = 60.0
 
 
 class Work:
-    def __init__(self, kind=0):
+    def __init__(self, kind=None):
         self.begun = threading.Event()
         self.kind = kind
 
@@ -137,25 +137,41 @@ def test_at_once_where_that_is_asked_for(improver):
     assert work.begun.wait(ENOUGH)
 
 
-def test_at_once_where_runs_of_the_same_kind_were_long(improver):
-    first, second, other, unknown = Work(7), Work(7), Work(8), Work()
-    improver.add(first)
-    improver.add(unknown)
-    assert begun_in_a_run(improver, first)
-    assert begun_in_a_run(improver, unknown)
-    unknown = Work()
-    improver.add(unknown)
-    improver.add(other)
-    improver.add(second)
-    assert second.begun.wait(ENOUGH)
-    assert [known.work() for known in improver._waiting] == [unknown, other]
+def run(improver, work, seconds):
+    improver.add(work)
+    with improver.running(work):
+        busy(seconds)
+
+
+def test_runs_of_earlier_models_of_the_same_kind_count(improver, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_SECONDS", 0.02)
+    monkeypatch.setattr(background, "_WORTH_IT_SECONDS", 0.01)
+    improver.looks = True  # it does not: it is not there
+    works = [Work(kind) for kind in (7, 8, 7)]
+    for work in works:
+        run(improver, work, 0.015)
+    assert improver._thread is None
+    for work in (Work(), Work(8), Work(7)):
+        improver.add(work)
+        with improver.running(work):
+            assert (improver._thread is not None) == (work.kind == 7)
+    assert work.begun.wait(ENOUGH)
+
+
+def test_runs_that_are_not_worth_it_do_not_count_for_the_next(improver, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_SECONDS", 0.02)
+    monkeypatch.setattr(background, "_WORTH_IT_SECONDS", 0.019)
+    works = [Work(7) for _ in range(10)]
+    for work in works:
+        run(improver, work, 0.004)
+    assert not any(work.begun.is_set() for work in works)
 
 
 class WantsLlvm(Work):
     """Work whose code is not on disk."""
 
-    def __init__(self):
-        super().__init__()
+    def __init__(self, kind=None):
+        super().__init__(kind)
         self.attempts = 0
 
     def improve(self):
@@ -185,6 +201,17 @@ def test_longer_where_llvm_must_be_loaded_first(improver, no_llvm, monkeypatch):
     assert time.process_time() - began >= 0.05
     assert work.attempts == 2
     assert not improver.faults()
+
+
+def test_llvm_is_loaded_for_models_of_a_kind_together(improver, no_llvm, monkeypatch):
+    monkeypatch.setattr(background, "_PATIENCE_WITHOUT_LLVM_SECONDS", 0.05)
+    works = []
+    end = time.monotonic() + ENOUGH
+    while not (works and works[-1].begun.is_set()) and time.monotonic() < end:
+        works.append(WantsLlvm(7))
+        run(improver, works[-1], 0.01)
+    assert any(work.begun.is_set() for work in works)
+    assert len(works) > 4
 
 
 def test_never_for_a_run_that_is_not_worth_it(improver, no_llvm, monkeypatch):
@@ -224,7 +251,7 @@ def model_of(session):
 
 
 def test_models_wait_for_it():
-    """A program's short run is over on quick code; a long one goes over to fast code, its next at once."""
+    """A program's short run is over on quick code; a long one goes over to fast code, and then the next, too."""
     state = CompilerState()
     try:
         session, again = Session(compiler=state), Session(compiler=state)
@@ -238,7 +265,6 @@ def test_models_wait_for_it():
                 busy(0.001)
         assert model.improved
         again.erun(Source(SHORT))
-        assert not state.improver._waiting
         while not model_of(again).improved and time.monotonic() < end:
             busy(0.001)
         assert model_of(again).improved

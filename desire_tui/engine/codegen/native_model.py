@@ -101,8 +101,7 @@ class NativeModel:
         self._better: Compiled | None = None
         self.improved = self._small = False
         self._improver = improver
-        names = (name for calls in self._tables.calls.values() for name, _ in calls)
-        self.kind = hash((rule, *names))
+        self.kind = hash((rule, self._tables.kind))
         improver.add(self)
 
     # ------------------------------------------------------------------ making

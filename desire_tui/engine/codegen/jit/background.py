@@ -20,6 +20,8 @@ _PATIENCE_SECONDS = 0.002
 """Of a model's runs, before its fast code is begun: shorter ones gain nothing from 15 ms of work."""
 _PATIENCE_WITHOUT_LLVM_SECONDS = 0.015
 """If the code is not on disk and LLVM must be loaded first: 40 ms more, much of it in everybody's way."""
+_WORTH_IT_SECONDS = 0.001
+"""Of a model's runs, before they count for the next of its kind: to find fast code again takes 0.6 ms."""
 _LOOK_SECONDS = 0.0005
 """At least, before looking again whether a run has lasted so long."""
 _PAUSE_MOST_SECONDS = 0.016
@@ -56,14 +58,17 @@ class Waiting:
 
     def __init__(self, work: Improvable) -> None:
         self.work = weakref.ref(work)
-        self.kind: int = getattr(work, "kind", 0)
-        """What models of the same text have in common; 0: nothing."""
         self.may_load_llvm = False
         """Whether the work is worth that much; without it, it ends where it must."""
         self.has_run = False
         """Since the last look at it."""
         self._counted: tuple[float, float | None] = (0.0, None)
         """Runs that are over, and when this one began: one reference, which the other thread reads."""
+
+    def follow(self, earlier: Waiting) -> None:
+        """Count runs of an earlier model of the same kind, if they were worth fast code."""
+        if earlier.seconds_over >= _WORTH_IT_SECONDS:
+            self._counted, self.may_load_llvm = (earlier.seconds_over, None), earlier.may_load_llvm
 
     def begin(self, now: float) -> None:
         """Count from now on."""
@@ -87,7 +92,12 @@ class Waiting:
     @property
     def was_long_enough(self) -> bool:
         """Whether the runs before this one were."""
-        return self._counted[0] >= self.patience
+        return self.seconds_over >= self.patience
+
+    @property
+    def seconds_over(self) -> float:
+        """How long runs have lasted that are over."""
+        return self._counted[0]
 
     def left(self) -> float:
         """Return how much longer the model must run, in seconds."""
@@ -130,22 +140,25 @@ class Improver:
         self.looks = False
         """Whether the thread looks at what waits without being woken, which costs more than a short run."""
         self._pause = _PATIENCE_SECONDS
-        self._long: dict[int, None] = {}
-        """Kinds of models whose runs were long enough."""
+        self._latest: dict[object, Waiting] = {}
+        """The latest of each kind."""
 
     def add(self, work: Improvable) -> None:
         """Take up some work as soon as its model's runs have gone on for a moment (`running`).
 
-        At once where those of a model of the same `kind` have: its fast code is there, or will soon be.
+        Runs of an earlier model of the same `kind` count too, if the work has one: a program that is run
+        again is lowered anew.
         """
+        waiting, kind = Waiting(work), getattr(work, "kind", None)
         with self._something:
             self._waiting = [known for known in self._waiting if known.work() is not None]
-            waiting = Waiting(work)
-            if waiting.kind in self._long:
-                self._new.append(waiting)
-                self._wake()
-            else:
-                self._waiting.append(waiting)
+            self._waiting.append(waiting)
+            if kind is not None:
+                if kind in self._latest:
+                    waiting.follow(self._latest.pop(kind))
+                self._latest[kind] = waiting
+                if len(self._latest) > _KINDS_MOST:
+                    del self._latest[next(iter(self._latest))]
 
     def add_now(self, work: Improvable) -> None:
         """Take up some work at once."""
@@ -228,9 +241,6 @@ class Improver:
     def _take(self, due: list[Waiting]) -> None:
         if due:
             self._new += [known for known in self._waiting if known in due]
-            self._long |= {known.kind: None for known in due if known.kind}
-            while len(self._long) > _KINDS_MOST:
-                del self._long[next(iter(self._long))]
             self._waiting = [known for known in self._waiting if known not in due]
 
     def _run(self) -> None:

@@ -40,6 +40,7 @@ class PassFunctions:
     ) -> None:
         self.k1 = np.zeros(max(order, 1))
         self._tables = PieceTables(store, passes)
+        self.kind = self._tables.kind
         self._temps = np.zeros(self._tables.temps)
         self._context = WorkMemory(
             values=values.address, k1=self.k1.ctypes.data, temps=self._temps.ctypes.data, states=order

@@ -61,6 +61,8 @@ class PieceTables:
     ) -> None:
         """Write the tables of the passes' calls; `found` are the pieces by their names."""
         self.calls, self.temps = calls, temps
+        self.kind = hash(tuple(name for listed in calls.values() for name, _ in listed))
+        """The same for models whose pieces have the same texts."""
         self._kept: list[object] = list(found.values())
         self._entries: dict[str, list[ctypes.c_uint64]] = {}
         self.addresses: dict[str, int] = {}
