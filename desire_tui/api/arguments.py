@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from math import isfinite
+from operator import index
 from typing import TYPE_CHECKING, Any, NoReturn, get_args
 
 from desire_tui.engine.diagnostics import closest
 from desire_tui.engine.session.session import BackendName
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
 BACKENDS: tuple[BackendName, ...] = get_args(BackendName)
 
@@ -42,15 +43,29 @@ def checked_timeout(seconds: float | None) -> float | None:
     return float(seconds)
 
 
-def checked_workers(number: int | None) -> int | None:
-    """Return a number of threads. TypeError, ValueError: there cannot be so many."""
+def checked_count(argument: str, number: Any, least: int = 1) -> int | None:
+    """Return a whole number, NumPy's too. TypeError: it is none; ValueError: it is too small."""
     if number is None:
         return None
-    if isinstance(number, bool) or not isinstance(number, int):
-        raise TypeError(f"workers is a whole number or None, not {number!r}")
-    if number < 1:
-        raise ValueError(f"workers={number!r} make no run: give 1 or more, or None")
-    return number
+    try:
+        whole = index(number)
+    except TypeError:
+        whole = None
+    if isinstance(number, bool) or whole is None:
+        raise TypeError(f"{argument} is a whole number or None, not {number!r}")
+    if whole < least:
+        raise ValueError(f"{argument}={number!r} cannot be: give {least} or more, or None")
+    return whole
+
+
+def checked_mapping(argument: str, given: Any) -> Mapping[str, Any]:
+    """Return what is given by names; nothing for None. TypeError: it is no mapping."""
+    if given is None:
+        return {}
+    if not hasattr(given, "items"):
+        raise TypeError(f"{argument} is a mapping of names, such as {{'k': …}}, or None, not {given!r}")
+    found: Mapping[str, Any] = given
+    return found
 
 
 def checked_names(record: str | Iterable[str]) -> tuple[str, ...]:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.api.arguments import (
     checked_backend,
+    checked_count,
     checked_function,
     checked_lines,
     checked_names,
     checked_timeout,
-    checked_workers,
 )
 from desire_tui.api.instance import Instance, InstancePool, LoadOptions
 from desire_tui.api.interrupts import Interrupts
@@ -155,7 +155,7 @@ class Model:
         needed("xarray")
         names = checked_names(record)
         seconds, kept = checked_timeout(timeout), checked_keep(keep)
-        count = checked_workers(workers)
+        count = checked_count("workers", workers)
         checked_function("progress", progress)
         with Interrupts(), self._pool.one() as instance:
             self._starts.refuse_unknown(parameters, instance, "sweep", _SWEEP_ARGUMENTS)

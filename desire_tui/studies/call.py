@@ -5,7 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict
 
-from desire_tui.api.arguments import checked_backend, refuse_name
+from desire_tui.api.arguments import (
+    checked_backend,
+    checked_count,
+    checked_function,
+    checked_lines,
+    checked_mapping,
+    refuse_name,
+)
 from desire_tui.api.program_source import program_source
 from desire_tui.batch.set_option import from_mapping
 from desire_tui.engine.diagnostics import closest
@@ -59,45 +66,48 @@ def planned(program: str | PathLike[str], settings: StudySettings) -> Study:
         near = closest(str(wanted), METHODS)
         told = f"did you mean {near!r}?" if near else f"there are {', '.join(map(repr, METHODS))}"
         raise ValueError(f"design={wanted!r} is unknown; {told}")
-    seed = settings.get("seed")
+    seed = checked_count("seed", settings.get("seed"), 0)
     design = Design(
-        over_mapping(settings.get("over")),
-        sample_mapping(settings.get("sample")),
+        over_mapping(checked_mapping("over", settings.get("over"))),
+        sample_mapping(checked_mapping("sample", settings.get("sample"))),
         points_of(settings.get("points")),
-        settings.get("runs"),
+        checked_count("runs", settings.get("runs")),
         method,
         0 if seed is None else seed,
     )
     keep = settings.get("keep", "")
+    if not hasattr(keep, "__iter__"):
+        raise TypeError(f"keep is a text or a list of texts, 'x[end], max(x)', not {keep!r}")
     task = Task(
         text=source.text,
         name=source.name,
         path=None if source.path is None else str(source.path.absolute()),
         keep=keep if isinstance(keep, str) else ", ".join(keep),
         names=design.names,
-        fixed=tuple(from_mapping(settings.get("set") or {}).items()),
+        fixed=tuple(from_mapping(checked_mapping("set", settings.get("set"))).items()),
         seed=seed,
         segment=settings.get("segment"),
-        answers=tuple(settings.get("input", ())),
+        answers=checked_lines(settings.get("input", ())),
         backend=checked_backend(settings.get("backend", "native")),
         allow_shell=settings.get("allow_shell", False),
         allow_write=settings.get("allow_write", False),
         fast=settings.get("fast", False),
     )
-    store = settings.get("store")
-    return Study(
-        task, design, store=None if store is None else Path(store), resume=settings.get("resume", False)
-    )
+    store, resume = settings.get("store"), settings.get("resume", False)
+    if store is not None and Path(store).suffix != ".zarr":
+        raise ValueError(f"store={str(store)!r} is a folder that Zarr fills: end its name with .zarr")
+    if resume and store is None:
+        raise ValueError("resume=True goes on with a store: give store='results.zarr'")
+    return Study(task, design, store=None if store is None else Path(store), resume=resume)
 
 
 def run_study(program: str | PathLike[str], settings: StudySettings) -> Any:
     """See `desire_tui.study`."""
-    made = planned(program, settings)
-    threads, workers, cluster = settings.get("threads"), settings.get("workers"), settings.get("cluster")
-    for name, count in (("threads", threads), ("workers", workers)):
-        if count is not None and (not isinstance(count, int) or count < 1):
-            raise ValueError(f"{name}={count!r}: a whole number, 1 or more")
+    threads = checked_count("threads", settings.get("threads"))
+    workers, cluster = checked_count("workers", settings.get("workers")), settings.get("cluster")
     progress = settings.get("progress")
+    checked_function("progress", progress)
+    made = planned(program, settings)
     if workers is None:
         made.run(threads, cluster, progress)
     else:

@@ -76,14 +76,14 @@ def sample_texts(texts: Iterable[str]) -> dict[str, Distribution]:
     return found
 
 
-def over_mapping(given: Mapping[str, Any] | None) -> dict[str, Floats]:
+def over_mapping(given: Mapping[str, Any]) -> dict[str, Floats]:
     """Return axes from numbers, lists, arrays or texts by names. ValueError: no finite numbers."""
-    return {_name(name): _numbers(name, value) for name, value in (given or {}).items()}
+    return {_name(name): _numbers(name, value) for name, value in given.items()}
 
 
-def sample_mapping(given: Mapping[str, Any] | None) -> dict[str, Distribution]:
+def sample_mapping(given: Mapping[str, Any]) -> dict[str, Distribution]:
     """Return distributions from texts or frozen ones of scipy by names. DesireError 510."""
-    return {_name(name): distribution(value, f"sample[{name!r}]") for name, value in (given or {}).items()}
+    return {_name(name): distribution(value, f"sample[{name!r}]") for name, value in given.items()}
 
 
 def points_of(given: Any) -> dict[str, Floats]:
@@ -94,6 +94,10 @@ def points_of(given: Any) -> dict[str, Floats]:
         from pathlib import Path
 
         return points_file(Path(given))
+    if not hasattr(given, "keys"):
+        raise TypeError(
+            f"points is a CSV file's name, a DataFrame or a mapping of names to lists, not {given!r}"
+        )
     return {_name(str(name)): _numbers(str(name), given[name]) for name in given}
 
 
@@ -159,7 +163,10 @@ def _name(text: str) -> str:
 def _numbers(name: str, value: Any) -> Floats:
     if isinstance(value, str):
         return values(whole(value, f"over[{name!r}]"))
-    numbers = np.atleast_1d(np.asarray(value, dtype=np.float64))
+    try:
+        numbers = np.atleast_1d(np.asarray(value, dtype=np.float64))
+    except (TypeError, ValueError):
+        numbers = np.array([np.nan])
     if numbers.ndim != 1 or not np.isfinite(numbers).all():
         raise ValueError(f"{name} varies over finite numbers, a list of them or an array, not {value!r}")
     return numbers

@@ -153,7 +153,7 @@ async def test_a_new_wish_ends_the_run_of_an_older_one(tmp_path):
     while not made:
         pass
     previewer.close()
-    previewer._thread.join(5)
+    previewer._thread.join(120)
     assert not previewer._thread.is_alive()
     assert [preview.example for preview in made] == [fast]
     assert abs(made[0].graph.curves[0].samples()[1][-1] - 1) < 1e-12

@@ -99,6 +99,6 @@ async def test_in_a_process_that_goes_on_nothing_of_a_desktop_is_left(program):
         own = {thread for thread in set(threading.enumerate()) - before if thread.name in OF_DESKTOPS}
         assert {thread.name for thread in own} == OF_DESKTOPS
     for thread in own:
-        thread.join(10)
+        thread.join(120)
     assert not any(thread.is_alive() for thread in own)
     assert done == [True]

@@ -141,7 +141,7 @@ def test_a_pipe_is_written_and_stays_a_pipe(tmp_path):
     reader = threading.Thread(target=lambda: read.append(pipe.read_text()), daemon=True)
     reader.start()
     replace_text(pipe, "new")
-    reader.join(10)
+    reader.join(120)
     assert read == ["new"]
     assert pipe.is_fifo()
 

@@ -69,7 +69,7 @@ def test_one_set_while_the_script_runs_stops_it():
     while session.values.find("m") is None:
         time.sleep(0.001)
     session.set_breakpoints([4])
-    done.join(10)
+    done.join(120)
     assert not done.is_alive()
     assert stops(kept) == [4]
     assert value(session, "n") == value(session, "m") + 1

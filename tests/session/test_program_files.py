@@ -62,7 +62,7 @@ def run(folder, text, *, answer=False, name="p.src"):
 
     thread = threading.Thread(target=work, daemon=True)  # a file that holds the engine fails, and no more
     thread.start()
-    thread.join(10)
+    thread.join(120)  # on a machine with much to do the first picture takes 10 s
     assert not thread.is_alive(), "the program waits for a file for ever"
     return user.asked, outcome
 

@@ -179,9 +179,23 @@ def test_mistakes_are_said_before_the_first_run():
         ({"design": "latn"}, ValueError, "did you mean 'latin'?"),
         ({"over": {"k": [1, float("nan")]}}, ValueError, "k varies over finite numbers"),
         ({"threads": 0}, ValueError, "threads=0"),
+        ({"threads": "2"}, TypeError, "threads is a whole number or None, not '2'"),
+        ({"runs": 2.5}, TypeError, "runs is a whole number"),
+        ({"runs": True}, TypeError, "runs is a whole number"),
+        ({"seed": -1}, ValueError, "seed=-1 cannot be: give 0 or more"),
+        ({"over": [1, 2]}, TypeError, "over is a mapping of names"),
+        ({"over": {"k": ["a"]}}, ValueError, "k varies over finite numbers"),
+        ({"sample": "k=normal(1,2)"}, TypeError, "sample is a mapping of names"),
+        ({"set": 3}, TypeError, "set is a mapping of names"),
+        ({"points": [[1, 2]]}, TypeError, "points is a CSV file's name"),
+        ({"keep": 3}, TypeError, "keep is a text"),
+        ({"input": "3"}, TypeError, "input is a list of lines"),
+        ({"progress": 3}, TypeError, "progress is a function"),
+        ({"store": "results.csv"}, ValueError, "end its name with .zarr"),
+        ({"resume": True}, ValueError, "resume=True goes on with a store"),
     ):
         with pytest.raises(kind, match=message):
-            desire_tui.study(SPRING, keep="x[end]", **settings)
+            desire_tui.study(SPRING, **{"keep": "x[end]"} | settings)
     assert not calls
 
 
