@@ -16,7 +16,7 @@ from desire_tui.engine.recently_used import RecentlyUsed
 from desire_tui.engine.values import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowering.lowering_context import LoweringContext
@@ -39,9 +39,27 @@ class Cached(NamedTuple):
     value: Value
 
 
+class Stretch(NamedTuple):
+    """What neighbouring statements with forms became, and the slots of all their names."""
+
+    nodes: Sequence[Derivative | Assign]
+    reads: tuple[tuple[str, int], ...]
+    values: list[Value]
+
+
 _live: RecentlyUsed[int, Cached] = RecentlyUsed(ROOM)
 _checked: RecentlyUsed[int, Cached] = RecentlyUsed(ROOM)
 """Checks number the slots in their own way."""
+
+
+_live_stretches: RecentlyUsed[tuple[int, ...], Stretch] = RecentlyUsed(ROOM, cost=len)
+_checked_stretches: RecentlyUsed[tuple[int, ...], Stretch] = RecentlyUsed(ROOM, cost=len)
+"""By the ids of their nodes: names are looked up once for all of them."""
+
+
+def stretches_of(context: LoweringContext) -> RecentlyUsed[tuple[int, ...], Stretch]:
+    """Return the stretches of statements lowered in scopes of this kind."""
+    return _live_stretches if isinstance(context.scope, LiveScope) else _checked_stretches
 
 
 def cache_of(context: LoweringContext) -> RecentlyUsed[int, Cached]:
@@ -108,11 +126,11 @@ def _read_by_now(reads: dict[str, int], ready: Mapping[str, Load]) -> None:
 
 def age() -> None:
     """Between two segments: forget expressions that no program of late had."""
-    _live.age()
-    _checked.age()
+    for store in (_live, _checked, _live_stretches, _checked_stretches):
+        store.age()
 
 
 def forget() -> None:
     """Empty the caches."""
-    _live.forget()
-    _checked.forget()
+    for store in (_live, _checked, _live_stretches, _checked_stretches):
+        store.forget()

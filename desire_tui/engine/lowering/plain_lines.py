@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from desire_tui.engine.nodes.expressions import Expr
     from desire_tui.engine.recently_used import RecentlyUsed
 
-_STRETCH_FIRST, _STRETCH_MOST = 8, 512
+_STRETCH_FIRST, _STRETCH_MOST = 8, 128
 """Lines that are lowered together: at first, and once many have been."""
 _LINES_AT_ONCE = 200
 """Between two points where the work can be broken off."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.lowered.expressions import Const, Load, Op
 from desire_tui.engine.lowered.lazy_operations import new_record
 from desire_tui.engine.lowered.statements import Deriv
-from desire_tui.engine.lowering.lowering_cache import Cached, parameter
+from desire_tui.engine.lowering.lowering_cache import Cached, Stretch, can_read, parameter, stretches_of
 from desire_tui.engine.lowering.operators import OPERATIONS
 from desire_tui.engine.nodes.expressions import Binary, Name, Number, Unary
 from desire_tui.engine.nodes.segment import Derivative
@@ -145,14 +145,33 @@ def _values(
     context: LoweringContext, nodes: Sequence[Derivative | Assign], cache: RecentlyUsed[int, Cached]
 ) -> list[Value]:
     """Return the values of the first of some statements with forms, up to one that cannot be read."""
+    stretches = stretches_of(context)
+    key = tuple(map(id, nodes))
+    known = stretches[key]
+    if known is not None and can_read(context, known.reads):
+        return known.values
+    reads: dict[str, int] = {}
+    values = _values_anew(context, nodes, cache, reads)
+    if len(values) == len(nodes) > 1:
+        stretches.keep(key, Stretch(nodes, tuple(reads.items()), values))
+    return values
+
+
+def _values_anew(
+    context: LoweringContext,
+    nodes: Sequence[Derivative | Assign],
+    cache: RecentlyUsed[int, Cached],
+    reads: dict[str, int],
+) -> list[Value]:
+    """Return the same, a form's statements after the other's; note the slots of their names."""
     expressions = [node.form.value for node in nodes if node.form is not None]
     alike = {id(expression): expression for expression in expressions}
     if len(alike) == 1:
-        return _values_alike(context, expressions[0], nodes, cache)
+        return _values_alike(context, expressions[0], nodes, cache, reads)
     values: list[Value | None] = [None] * len(nodes)
     for expression in alike.values():
         numbers = [number for number, other in enumerate(expressions) if other is expression]
-        found = _values_alike(context, expression, [nodes[number] for number in numbers], cache)
+        found = _values_alike(context, expression, [nodes[number] for number in numbers], cache, reads)
         for number, value in zip(numbers, found, strict=False):
             values[number] = value
     return [*takewhile(lambda value: value is not None, values)]  # type: ignore[list-item]  # as it says
@@ -163,11 +182,13 @@ def _values_alike(
     expression: Expr,
     nodes: Sequence[Derivative | Assign],
     cache: RecentlyUsed[int, Cached],
+    reads: dict[str, int],
 ) -> list[Value]:
     """Return the values of the first of some statements with the same operations."""
     outline = _outline_of(expression)
     values: list[Value] = []
-    for node, leaves in zip(nodes, _leaves(context, outline, [node.words for node in nodes]), strict=False):
+    rows = _leaves(context, outline, [node.words for node in nodes], reads)
+    for node, leaves in zip(nodes, rows, strict=False):
         known = cache[id(node)]
         if known is not None and type(known.value) is Op and known.value.leaves == leaves:
             values.append(known.value)
@@ -180,7 +201,7 @@ def _values_alike(
 
 
 def _leaves(
-    context: LoweringContext, outline: FormOutline, lines: Sequence[Sequence[str]]
+    context: LoweringContext, outline: FormOutline, lines: Sequence[Sequence[str]], reads: dict[str, int]
 ) -> list[tuple[int | float, ...]]:
     """Return slots and numbers of lines of a form, from their words, up to a line that cannot be read."""
     columns: list[list[int] | list[float]] = []
@@ -189,7 +210,9 @@ def _leaves(
         if sign:
             columns.append([*map(float, words)] if sign > 0 else [-float(word) for word in words])
         else:
-            columns.append(_slots(context, words))
+            slots = _slots(context, words)
+            reads.update(zip(words, slots, strict=False))
+            columns.append(slots)
     return [*zip(*columns, strict=False)]
 
 
