@@ -19,6 +19,7 @@ from desire_tui.engine.nodes.commands import Drun, Simple
 from desire_tui.engine.nodes.control import GoTo, Procedure
 from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.lazy_parts import written_target
 from desire_tui.engine.nodes.names import assigned, dummies, invocation
 from desire_tui.engine.values import SYSTEM_SLOTS, SYSTEM_VARIABLES, Kind, Quantity
 from desire_tui.engine.whole_numbers import whole
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 
 _KINDS = {"ARRAY": Kind.REAL, "STATE": Kind.REAL, "INTEGER": Kind.INTEGER, "COMPLEX": Kind.COMPLEX}
 ELEMENTS_MOST = 1 << 40
+_STATEMENTS_AT_ONCE = 100
+"""Between two points where the work can be broken off."""
 
 
 @dataclass
@@ -179,8 +182,9 @@ def _assigned_in_segments(program: Program, structure: Structure) -> dict[str | 
     for segment in program.segments:
         names = found.setdefault(segment.label, set())
         invokes = False
-        for placed in segment.body:
-            cancellation_point()
+        for number, placed in enumerate(segment.body):
+            if number % _STATEMENTS_AT_ONCE == 0:
+                cancellation_point()
             invokes |= _add_assigned(placed.node, names)
         if invokes:
             names |= bodies
@@ -192,6 +196,10 @@ def _add_assigned(node: Statement, names: set[str]) -> bool:
 
     A submodel may assign its arguments.
     """
+    known = written_target(node)
+    if known is not None:
+        names.add(known)
+        return False
     targets = assigned(node).targets
     if targets:
         for target in targets:

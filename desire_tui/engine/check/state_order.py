@@ -9,6 +9,7 @@ from desire_tui.engine.check.declared import DeclaredNames
 from desire_tui.engine.gc_pause import undisturbed_allocation
 from desire_tui.engine.lowering.lowering_context import DEPTH_MAX
 from desire_tui.engine.nodes.expressions import Name
+from desire_tui.engine.nodes.lazy_parts import written_target
 from desire_tui.engine.nodes.names import invocation
 from desire_tui.engine.nodes.segment import Derivative
 from desire_tui.engine.structure.expanded_lines import LINES_MOST, expanded_lines
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from desire_tui.engine.nodes.program import Placed, Program
+
+
+_STATEMENTS_AT_ONCE = 100
+"""Between two points where the work can be broken off."""
 
 
 @undisturbed_allocation
@@ -33,10 +38,14 @@ def state_order(program: Program) -> tuple[str, ...]:
     recursive: set[str] = set()
 
     def collect(statements: Iterable[Placed], rename: Mapping[str, str], calls: tuple[str, ...]) -> None:
-        for statement, _, _ in statements:
-            cancellation_point()
+        for number, (statement, _, _) in enumerate(statements):
+            if number % _STATEMENTS_AT_ONCE == 0:
+                cancellation_point()
             if isinstance(statement, Derivative):
-                if isinstance(statement.target, Name):
+                known = written_target(statement)
+                if known is not None:
+                    names.setdefault(rename.get(known, known))
+                elif isinstance(statement.target, Name):
                     names.setdefault(rename.get(statement.target.name, statement.target.name))
                 continue
             invoked = invocation(statement)

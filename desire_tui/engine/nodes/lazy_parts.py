@@ -52,6 +52,13 @@ class LineForm(Generic[Line]):
         return made
 
 
+def written_target(statement: Node) -> str | None:
+    """Return the name of the scalar that a statement with a form assigns; None for all others."""
+    if not isinstance(statement, LazyParts) or statement.form is None:
+        return None
+    return statement.words[statement.form.target]
+
+
 class LazyParts(Node):
     """A statement that may have come from a `LineForm`: then its parts are made at their first use.
 
