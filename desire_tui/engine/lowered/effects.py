@@ -41,7 +41,7 @@ from desire_tui.engine.random_sequence import DRAWS
 from desire_tui.engine.values import IROW
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from desire_tui.engine.lowered.expressions import Value
     from desire_tui.engine.lowered.statements import Action, SimpleAction
@@ -67,7 +67,36 @@ Timing = Literal["always", "point", "step"]
 
 def count_draws(*values: Value | None) -> int:
     """Count the random numbers that one element of some expressions takes."""
-    return sum(DRAWS.get(node.name, 0) for node in walk_values(*values) if isinstance(node, Op))
+    return _facts(values).draws
+
+
+class _Facts(NamedTuple):
+    """The memory that expressions read, and how many random numbers they take."""
+
+    reads: tuple[Piece, ...]
+    draws: int
+
+
+def _facts(values: Sequence[Value | None]) -> _Facts:
+    """Look through expressions; one that is alone remembers."""
+    value = values[0] if len(values) == 1 else None
+    if not isinstance(value, Op):
+        return _found_facts(*values)
+    known = value.facts
+    if known is None:
+        if value.outline is not None:  # numbers and slots under exact operations
+            known = _Facts(tuple([(leaf, 1) for leaf in value.leaves if type(leaf) is int]), 0)
+        else:
+            known = _found_facts(value)
+        value.facts = known
+    assert isinstance(known, _Facts)
+    return known
+
+
+def _found_facts(*values: Value | None) -> _Facts:
+    nodes = [*walk_values(*values)]
+    draws = sum([DRAWS.get(node.name, 0) for node in nodes if isinstance(node, Op)])
+    return _Facts(tuple([piece for node in nodes for piece in memory(node)]), draws)
 
 
 def memory(node: Value) -> tuple[Piece, ...]:
@@ -160,8 +189,7 @@ def own_reads(action: Action) -> tuple[Piece, ...]:
 
 def reads(action: Action) -> Iterator[Piece]:
     """All memory that a statement reads, what it may leave as it was included; of a guard the condition's."""
-    for node in walk_values(*expressions(action)):
-        yield from memory(node)
+    yield from _facts(expressions(action)).reads
     yield from own_reads(action)
 
 

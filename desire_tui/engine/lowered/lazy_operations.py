@@ -28,10 +28,11 @@ class Outline(Protocol):
 class LazyOperands:
     """An operation that may have come from an `Outline`: then its operands are made at their first use.
 
-    `outline` is None for all others.
+    `outline` is None for all others. `facts` are what `lowered.effects` found out about it, None before that.
     """
 
-    __slots__ = ("leaves", "outline")
+    __slots__ = ("facts", "leaves", "outline")
+    facts: tuple[Any, ...] | None
     outline: Outline | None
     leaves: Leaves
 
@@ -39,8 +40,8 @@ class LazyOperands:
 
         def __getattr__(self, name: str) -> Any:
             """Make what is not there."""
-            if name == "outline":
-                self.outline = None
+            if name in {"outline", "facts"}:
+                setattr(self, name, None)
                 return None
             if name in {"name", "args"} and self.outline is not None:
                 made = self.outline.filled(self.leaves)

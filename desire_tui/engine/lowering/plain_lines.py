@@ -105,17 +105,17 @@ def lower_plain_lines(builder: SegmentBuilder, lines: Sequence[Line], at: int) -
     cache = cache_of(context)
     stretch = _STRETCH_FIRST
     for _ in range(_LINES_AT_ONCE):
-        wanted = lines[at : at + stretch]  # growing, so that most of what is looked at is taken
-        made = lowered_derivatives(context, wanted, states, cache) if states else []
-        body += made
-        at += len(made)
-        if len(made) == stretch:
-            stretch = min(2 * stretch, _STRETCH_MOST)
-            continue
-        stretch = _STRETCH_FIRST
         if at == len(lines):
             break
         node, frame = lines[at]
+        if type(node) is Derivative and node.form is not None and states:
+            wanted = lines[at : at + stretch]  # growing, so that most of what is looked at is taken
+            made = lowered_derivatives(context, wanted, states, cache)
+            body += made
+            at += len(made)
+            stretch = min(2 * stretch, _STRETCH_MOST) if len(made) == stretch else _STRETCH_FIRST
+            if made:
+                continue
         if type(node) is Derivative:
             state = states.get(id(node))
             value = None if state is None else _lowered(context, node, cache)

@@ -42,6 +42,7 @@ from desire_tui.engine.nodes.control import If
 from desire_tui.engine.nodes.display import Request, Show, ShowArea
 from desire_tui.engine.nodes.expressions import Element, Name
 from desire_tui.engine.nodes.faulty import Faulty
+from desire_tui.engine.nodes.lazy_parts import written_target
 from desire_tui.engine.nodes.names import assigned
 from desire_tui.engine.nodes.segment import (
     Delay,
@@ -61,6 +62,7 @@ from desire_tui.engine.nodes.segment import (
 )
 from desire_tui.engine.nodes.statements import ScriptOnlyStatement, Statement
 from desire_tui.engine.passes.noise import noisy_derivative
+from desire_tui.engine.source import Span
 from desire_tui.engine.values import T
 
 if TYPE_CHECKING:
@@ -239,6 +241,13 @@ def _lower_statement(builder: SegmentBuilder, node: Statement) -> None:
 def _collect_targets(context: LoweringContext, lines: Sequence[Line]) -> None:
     """Note where each scalar of the segment is first assigned, and whether arrays are."""
     for node, frame in [line for line in lines if type(line[0]) not in _ASSIGN_NOTHING_IN_A_PASS]:
+        known = written_target(node)
+        if known is not None:
+            name = frame.rename.get(known, known)
+            if name not in context.assigned:
+                context.assigned[name] = (Span(frame.at + node.start, frame.at + node.end),)
+                context.scope.scalar(name)
+            continue
         cancellation_point()
         found = assigned(node)
         if found.arrays:

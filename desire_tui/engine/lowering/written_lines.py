@@ -112,8 +112,19 @@ def lowered_value(
     context: LoweringContext, node: Derivative | Assign, cache: RecentlyUsed[int, Cached]
 ) -> Value | None:
     """Return the value of a statement that has a form; None: a name cannot be read without more ado."""
-    found = _values(context, [node], cache)
-    return found[0] if found else None
+    assert node.form is not None
+    outline = _outline_of(node.form.value)
+    ready, words = context.flow.ready, node.words
+    leaves: list[int | float] = []
+    for word, sign in outline.leaves:
+        if sign:
+            leaves.append(float(words[word]) if sign > 0 else -float(words[word]))
+            continue
+        load = ready.get(words[word]) or parameter(context, words[word])
+        if load is None:
+            return None
+        leaves.append(load.slot)
+    return _value(node, outline, tuple(leaves), cache)
 
 
 def lowered_derivatives(
@@ -186,18 +197,24 @@ def _values_alike(
 ) -> list[Value]:
     """Return the values of the first of some statements with the same operations."""
     outline = _outline_of(expression)
-    values: list[Value] = []
     rows = _leaves(context, outline, [node.words for node in nodes], reads)
-    for node, leaves in zip(nodes, rows, strict=False):
-        known = cache[id(node)]
-        if known is not None and type(known.value) is Op and known.value.leaves == leaves:
-            values.append(known.value)
-            continue
-        made: Op = new_record(Op)
-        made.outline, made.leaves = outline, leaves
-        values.append(made)
-        cache.keep(id(node), Cached(node, (), made))
-    return values
+    return [_value(node, outline, leaves, cache) for node, leaves in zip(nodes, rows, strict=False)]
+
+
+def _value(
+    node: Derivative | Assign,
+    outline: FormOutline,
+    leaves: tuple[int | float, ...],
+    cache: RecentlyUsed[int, Cached],
+) -> Value:
+    """Return a statement's value, the same as the last time if its leaves are."""
+    known = cache[id(node)]
+    if known is not None and type(known.value) is Op and known.value.leaves == leaves:
+        return known.value
+    made: Op = new_record(Op)
+    made.outline, made.leaves = outline, leaves
+    cache.keep(id(node), Cached(node, (), made))
+    return made
 
 
 def _leaves(
