@@ -7,7 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from desire_tui.engine.codegen.scalar import rerolling, templates
+from desire_tui.engine.lowered.effects import memory, reads
 from desire_tui.engine.lowered.expressions import Op
+from desire_tui.engine.lowered.statements import Deriv
+from desire_tui.engine.lowered.walk import walk_values
 from desire_tui.engine.lowering.lowering import lower
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.segment import Derivative
@@ -70,6 +73,8 @@ def test_no_node_is_made_until_somebody_asks():
     lazy = [action.value for action in segment.body if isinstance(action.value, Op) and action.value.outline]
     assert len(lazy) > 20
     for value in lazy:
+        read = [*reads(Deriv(0, value, None))]
+        assert read == [piece for node in walk_values(value) for piece in memory(node)]
         key, leaves = [], []
         by_columns = value.outline.key, [*value.leaves]
         templates.shape(value, key, leaves)

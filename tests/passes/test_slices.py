@@ -11,6 +11,7 @@ from desire_tui.engine.passes.slices import (
     derivative_slice,
     final_sample_pass,
     full_pass,
+    inner_slices,
     step_slice,
     without_derivatives,
 )
@@ -83,6 +84,27 @@ def test_vectors_are_sliced_too():
     )
     lowered, values = segment(body, u=(3,), w=(3,), s=(3,), q=(3,))
     assert names(derivative_slice(lowered), values) == ["SetVec", "DerivVec", "d3", "SetVec"]
+
+
+PARTS = (
+    "used = 3*x", "relay = sgn(relay - w)", "noise = ran()", "term x - 1", "w = used + relay", "if x\nw = relay\nend if",
+    "tdelay p = D(w, 0.1)", "d/dt z = w + p", "trkhld h, h0 = x, w",
+)  # fmt: skip
+
+
+@settings(max_examples=40)
+@given(st.lists(st.sampled_from(PARTS), unique=True), st.sampled_from(["", "OUT\nout = w", "step\nheld = w"]))
+def test_both_inner_passes_at_once_are_what_they_are_one_by_one(lines, end):
+    numbers = dict.fromkeys(("used", "relay", "w", "p", "z", "h", "h0"), 1)
+    lowered, _ = segment("\n".join([*lines, "d/dt x = relay", end]), D=(9,), **numbers)
+    assert inner_slices(lowered) == (derivative_slice(lowered), step_slice(lowered))
+
+
+def test_inner_passes_that_are_the_same_are_found_once():
+    stage, step = inner_slices(segment("u = 2*x\nd/dt x = u")[0])
+    assert stage is step
+    stage, step = inner_slices(segment("u = 2*x\nd/dt x = u\nterm u - 1")[0])
+    assert [len(stage), len(step)] == [2, 3]
 
 
 @settings(max_examples=60, deadline=None)

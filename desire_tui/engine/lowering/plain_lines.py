@@ -23,6 +23,7 @@ from desire_tui.engine.lowering.operators import COMPOSED, OPERATIONS, power
 from desire_tui.engine.lowering.written_lines import lowered_derivatives, lowered_value
 from desire_tui.engine.nodes.assignments import Assign
 from desire_tui.engine.nodes.expressions import Binary, Call, Name, Number, Unary
+from desire_tui.engine.nodes.lazy_parts import written_target
 from desire_tui.engine.nodes.segment import Derivative, VectorDerivative
 from desire_tui.engine.quick_tuples import tuples
 from desire_tui.engine.random_sequence import DRAWS
@@ -122,8 +123,8 @@ def lower_plain_lines(builder: SegmentBuilder, lines: Sequence[Line], at: int) -
             if state is None or value is None:
                 break
             body.append(Deriv(state.first, value, state.where))
-        elif type(node) is Assign and type(node.target) is Name:
-            slot = _slot_of(context, node.target.name)
+        elif type(node) is Assign and (name := _scalar_name(node)) is not None:
+            slot = _slot_of(context, name)
             value = None if slot is None else _lowered(context, node, cache)
             if slot is None or value is None:
                 break
@@ -131,11 +132,17 @@ def lower_plain_lines(builder: SegmentBuilder, lines: Sequence[Line], at: int) -
             body.append(definition)
             flow.assignments.append(definition)
             flow.set_slots[slot] = None
-            flow.ready[node.target.name] = Load(slot)
+            flow.ready[name] = Load(slot)
         else:
             break
         at += 1
     return at
+
+
+def _scalar_name(node: Assign) -> str | None:
+    """Return the name of the scalar that a statement assigns; None: an element."""
+    known = written_target(node)
+    return known if known is not None or type(node.target) is not Name else node.target.name
 
 
 def _slot_of(context: LoweringContext, name: str) -> int | None:

@@ -6,6 +6,7 @@ out (`dead_code`). `Guard` remains for `if` and `sample` only; `out` and `step` 
 
 from __future__ import annotations
 
+from operator import is_
 from typing import TYPE_CHECKING, assert_never
 
 from desire_tui.engine.cancellation import cancellation_point
@@ -41,6 +42,15 @@ def step_slice(segment: Segment) -> Actions:
 def derivative_slice(segment: Segment) -> Actions:
     """Neither flag: the later stages of a step."""
     return without_dead_code(_resolve(segment.body, comm=False, step=False))
+
+
+def inner_slices(segment: Segment) -> tuple[Actions, Actions]:
+    """Return `derivative_slice` and `step_slice`, one and the same where nothing is done at steps alone."""
+    stage, step = (_resolve(segment.body, comm=False, step=step) for step in (False, True))
+    always = kept_from_step_pass(step)
+    live = without_dead_code(stage)
+    same = not always and len(stage) == len(step) and all(map(is_, stage, step))
+    return live, live if same else without_dead_code(step, always)
 
 
 def without_derivatives(actions: Actions) -> Actions:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from desire_tui.engine.lowered.statements import Deriv
 from desire_tui.engine.passes.final_sample import holds_term
 from desire_tui.engine.passes.renewal import renewals
-from desire_tui.engine.passes.slices import derivative_slice, final_sample_pass, full_pass, step_slice
+from desire_tui.engine.passes.slices import final_sample_pass, full_pass, inner_slices
 
 if TYPE_CHECKING:
     from desire_tui.engine.lowered.segment import Segment
@@ -24,11 +24,12 @@ def passes_of(segment: Segment, *, variable: bool = False) -> dict[str, tuple[Ac
     if all(type(action) is Deriv for action in segment.body):
         return dict.fromkeys(("derivative", "step", "full"), segment.body) | NO_MORE
     point, step = renewals(segment) if variable else ((), ())
+    stage_pass, step_pass = inner_slices(segment)
     return NO_MORE | {
         "renewal": point,
         "step_renewal": step,
-        "derivative": derivative_slice(segment),
-        "step": step_slice(segment),
+        "derivative": stage_pass,
+        "step": step_pass,
         "full": full_pass(segment),
         # made only after a `term` has fired
         "tail": final_sample_pass(segment) if holds_term(segment.body) else (),
