@@ -67,9 +67,11 @@ def lasting(curves: int, seconds: float) -> str:
 class Reader:
     """A terminal that answers what a modern one answers, and may be slow."""
 
-    def __init__(self, folder: Path, file: str, bytes_per_second: float | None = None) -> None:
+    def __init__(
+        self, folder: Path, file: str, bytes_per_second: float | None = None, *, root: Path = ROOT
+    ) -> None:
         env = {
-            **os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", "PYTHONPATH": str(ROOT),
+            **os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", "PYTHONPATH": str(root),
             "XDG_CONFIG_HOME": str(folder / "config"), "XDG_STATE_HOME": str(folder / "state"),
         }  # fmt: skip
         env.pop("TMUX", None)

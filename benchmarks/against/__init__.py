@@ -1,0 +1,1 @@
+"""Two versions of the package side by side: `python -m benchmarks.against TREE`."""
