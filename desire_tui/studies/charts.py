@@ -158,7 +158,7 @@ def _curves(results: Results, parameter: str) -> Chart | str:
         along = np.array([row[names.index(chosen)] for row in rows])
         low, high = (along.min(), along.max()) if len(along) else (0.0, 1.0)
         parts = (along - low) / ((high - low) or 1.0)
-        title = f"{_named(results)} · {chosen} = {low:.4g} … {high:.4g}"
+        title = _named(results) + (f" · {chosen} = {low:.4g} … {high:.4g}" if len(along) else "")
     lines = [
         Line(_values(names, row), results.numbers[run], part)
         for run, row, part in zip(shown.tolist(), rows, parts.tolist(), strict=True)
@@ -228,8 +228,9 @@ def _map(results: Results) -> Chart | str:
     assert down.values is not None
     finite = numbers[np.isfinite(numbers)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    span = f" · {low:.4g} … {high:.4g}" if finite.size else ""
     return Chart(
-        "map", f"{_named(results)} · {low:.4g} … {high:.4g}", across.name, down.name,
+        "map", _named(results) + span, across.name, down.name,
         picture=(numbers - low) / ((high - low) or 1.0),
         cells=Cells(tuple(across.values.tolist()), tuple(down.values.tolist()), low, high),
     )  # fmt: skip

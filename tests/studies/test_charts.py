@@ -157,6 +157,7 @@ def test_every_chart_has_a_page_before_the_first_run_and_after_the_last(kind):
     before = Results(after.plan, after.layout, np.full_like(after.numbers, np.nan))
     pages = GraphPages()
     page = begin_page(pages, chart(before, kind), "line.src")
+    assert page.title().endswith(f" of 0/{before.plan.runs} runs"), "no range of numbers that are not there"
     update_page(page, chart(after, kind))
     assert len(pages) == 1
     if kind == "map":
