@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 
 _GLIBC = (2, 28)
 """Since then sin, cos, exp and log are those whose operations or accuracy are relied on."""
-_FAST_LIBRARY, _WIDE = frozenset(("log",)), 32
-"""Of these the library is so quick that only vectors of so many doubles gain."""
 _TRIED = 16_384
 _TELLING = """
 0x1.a91d7b5e68ef8p+15 0x1.1af155ab6de09p+15 0x1.28039a4f07325p+4 0x1.fa5d92568c154p+3 0x1.95cebb57e8688p+2
@@ -85,14 +83,12 @@ def exact_function(name: str, width: int) -> ExactFunction | None:
     with _lock:
         key = name, width
         if key not in _known:
-            _known[key] = _made(name, width) if _is_possible(name, width) else None
+            _known[key] = _made(name, width) if _is_possible(name) else None
         return _known[key]
 
 
-def _is_possible(name: str, width: int) -> bool:
-    if name not in NAMES or width > _WIDE or (name in _FAST_LIBRARY and width < 16):
-        return False
-    if "+fma" not in machine().features.split(","):
+def _is_possible(name: str) -> bool:
+    if name not in NAMES or "+fma" not in machine().features.split(","):
         return False
     try:
         library, _, version = os.confstr("CS_GNU_LIBC_VERSION").partition(" ")  # type: ignore[union-attr]  # None: caught
