@@ -225,9 +225,10 @@ def carry_out(m: Moments) -> int:
 def note(m: Moments, i: int) -> int:
     """Take up the present value of condition i; 1: its block is due."""
     value: float = m.values[m.now + i]
-    if m.in_doubt[i] != 0 and value < 0.0:
-        m.turned[i] = 1
-    m.in_doubt[i] = m.in_doubt[i] != 0 and value > 0.0 and value < m.before[i]  # still falling
+    if m.in_doubt[i] != 0:
+        if value < 0.0:
+            m.turned[i] = 1
+        m.in_doubt[i] = value > 0.0 and value < m.before[i]  # still falling
     due = rises(m, i, value)
     if due != 0:
         m.values[m.due + i] = 1.0
