@@ -8,7 +8,7 @@ from desire_tui.engine.codegen.ir.counted_loops import fetch, loop, put
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import literal
 from desire_tui.engine.codegen.taylor.fused import Fused
-from desire_tui.engine.codegen.taylor.layout import apart
+from desire_tui.engine.codegen.taylor.layout import row_length
 from desire_tui.engine.digest import blake2b
 from desire_tui.engine.passes.series.nodes import Constant, Series
 
@@ -66,7 +66,7 @@ class Arrays:
         text, one, layout = self._frame.text, Lanes(self._frame.text), self._frame.layout
         moving = [(o, at) if isinstance(o, Series) else None for o, at in node.lanes]
         places = self._table(layout.place(m[0]) + m[1] if m else layout.zeros for m in moving)
-        distances = self._table(apart(m[0]) if m else 0 for m in moving)
+        distances = self._table(layout.apart(m[0]) if m else 0 for m in moving)
 
         def element(i: str) -> None:
             offset = text.op(f"mul i64 %k, {self._entry(distances, i)}")
@@ -95,7 +95,7 @@ class Arrays:
         text = self._frame.text
         slot, rows, columns, transposed = node.matrix
         source, target = self._frame.row(x), self._frame.row(node)
-        matrix, one, lanes = self._frame.slot(slot), Lanes(text), self._lanes
+        matrix, one, lanes = self._values(slot, rows * columns), Lanes(text), self._lanes
 
         def matrix_row(r: str) -> str:
             return text.op(f"getelementptr double, ptr {matrix}, i64 {text.op(f'mul i64 {r}, {columns}')}")
@@ -151,7 +151,7 @@ class Arrays:
     def _constant(self, constant: Constant, i: str) -> str:
         if constant.count is None:
             return self._lanes.splat(self._frame.first(constant))
-        return fetch(self._lanes, self._values(constant.slot), i)
+        return fetch(self._lanes, self._values(constant.slot, constant.count), i)
 
     def _sum(self, count: int, element: Callable[[Lanes, str], str]) -> str:
         """Return the sum of some elements: as many partial sums as there are lanes, added in order."""
@@ -175,10 +175,15 @@ class Arrays:
 
     def _end(self, node: Series) -> str:
         """Return behind which element an array's loops end: whole strips."""
-        return str(apart(node))
+        return str(row_length(node))
 
-    def _values(self, slot: int) -> str:
+    def _length(self, node: Series) -> str:
+        """Return how many elements an array has here."""
+        return str(node.size)
+
+    def _values(self, slot: int, count: int) -> str:
         """Return the address of an array's values at the step's start."""
+        self._frame.loaded.append((slot, count))
         return self._frame.slot(slot)
 
     def _copy(self, to: str, source: str, count: str) -> None:

@@ -33,7 +33,8 @@ class Layout:
     """Places in a flat array: first what must be 0 at a step's start, then rows and arrays.
 
     A number's coefficients are neighbours: coefficient k at `place` + k. An array's k-th coefficients are
-    neighbours: element i's at `place` + k·`apart` + i.
+    neighbours: element i's at `place` + k·`apart` + i; `apart` is 0 where nobody reads those of lower orders,
+    so that there is one row for all.
     """
 
     def __init__(self, program: SeriesProgram) -> None:
@@ -42,6 +43,11 @@ class Layout:
         """Whether arrays' coefficients are in registers: rows are those that others read, side by side."""
         self.in_tiles = False
         """Whether arrays' coefficients but for the states' stand elsewhere (`tile_layout`)."""
+        self.kept = {node.number for node in rows_read(program)}
+        """Arrays with a row for each order."""
+        derivatives = (piece.derivative for piece in program.states)
+        self.begun = self.kept | {d.number for d in derivatives if isinstance(d, Series)}
+        """Arrays whose coefficients 0 are read from their row."""
         self._places: dict[int, int] = {}
         self._cells: dict[tuple[str, int], int] = {}
         self._squares: dict[tuple[int, int], int] = {}
@@ -66,19 +72,22 @@ class Layout:
         for which in sums:
             self._squares[which] = place
             place += ROW
-        kept = rows_read(self._program) if self.is_short else ()
-        start = place = -(-place // 8) * 8
-        for node in kept:
-            self._places[node.number] = place
-            place += -(-node.size // 8) * 8
-        self._stride = place - start
-        place += ORDER_MOST * self._stride
+        if self.is_short:
+            start = place = -(-place // 8) * 8
+            for node in rows_read(self._program):
+                self._places[node.number] = place
+                place += -(-node.size // 8) * 8
+            self._stride = place - start
+            place += ORDER_MOST * self._stride
         states = {piece.series.number for piece in self._program.states}
         for node in self._program.nodes:
             if node.count is not None and (self.is_short or (self.in_tiles and node.number not in states)):
                 continue
             self._places[node.number] = place
-            place += ROW if node.count is None else apart(node) * (ORDER_MOST + 1)
+            if node.count is None:
+                place += ROW
+            else:
+                place += row_length(node) * (ORDER_MOST + 1 if node.number in self.kept else 1)
             place = -(-place // 8) * 8
         self.zeros = place
         """Numbers that are always 0."""
@@ -94,7 +103,11 @@ class Layout:
 
     def apart(self, node: Series) -> int:
         """Return the distance of an element's neighbouring coefficients."""
-        return self._stride if self.is_short and node.count is not None else apart(node)
+        if node.count is None:
+            return 1
+        if self.is_short:
+            return self._stride
+        return row_length(node) if node.number in self.kept else 0
 
     @property
     def pieces(self) -> list[tuple[int, int, int, int]]:
@@ -156,6 +169,6 @@ def strip(size: int) -> int:
     return next((width for width in (2, 4, 8, 16, 32) if size <= width < most), most)
 
 
-def apart(node: Series) -> int:
-    """Return the distance of an element's neighbouring coefficients."""
-    return 1 if node.count is None else -(-node.count // strip(node.count)) * strip(node.count)
+def row_length(node: Series) -> int:
+    """Return how many numbers an array's coefficients of an order take: whole strips."""
+    return -(-node.size // strip(node.size)) * strip(node.size)

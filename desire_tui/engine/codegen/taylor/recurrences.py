@@ -51,10 +51,7 @@ def recurrences(program: SeriesProgram, layout: Layout) -> Written:
     frame = Frame(IrText(), layout)
     vector = ShortArrays(frame, program) if layout.is_short else VectorRecurrences(frame, machine().width)
     piece = _looped(program, frame, vector).piece()
-    values = program.values_pass
-    if layout.is_short or all(node.count is None for node in program.nodes):
-        values = needed_for(values, frame.loaded)
-    return Written(piece, values)
+    return Written(piece, needed_for(program.values_pass, frame.loaded))
 
 
 def _in_tiles(program: SeriesProgram, layout: Layout, count: int) -> Written:

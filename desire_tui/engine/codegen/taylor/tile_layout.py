@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.jit.compiler import machine
-from desire_tui.engine.codegen.taylor.layout import VECTORS, Layout, rows_read
+from desire_tui.engine.codegen.taylor.layout import VECTORS, Layout
 from desire_tui.engine.integration.taylor.memory import ORDER_MOST
 from desire_tui.engine.passes.series.nodes import Series
 
@@ -75,7 +75,6 @@ class TileLayout(Layout):
     def __init__(self, program: SeriesProgram) -> None:
         super().__init__(program)
         width = VECTORS * machine().width
-        self.kept = {node.number for node in rows_read(program)}
         arrays = [node for node in program.nodes if node.count is not None]
         rows = sum(ORDER_MOST + 1 if node.number in self.kept else 1 for node in arrays)
         self.reach = reach(program)

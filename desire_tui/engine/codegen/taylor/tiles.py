@@ -40,8 +40,6 @@ class Tile(VectorRecurrences):
         self._program, self._count = program, 0
         operands = [o for node in program.nodes if node.count is not None for o in node.operands]
         self._numbers = {o.number: o for o in operands if isinstance(o, Series) and o.count is None}
-        derivatives = (piece.derivative for piece in program.states)
-        self._start_read = self.layout.kept | {d.number for d in derivatives if isinstance(d, Series)}
 
     @property
     def numbers(self) -> Iterable[int]:
@@ -92,11 +90,6 @@ class Tile(VectorRecurrences):
 
     # ------------------------------------------------------------------ what is not as in whole arrays
 
-    def load_first(self, node: Series) -> None:
-        """Copy coefficients 0 that are read as such."""
-        if node.number in self._start_read:
-            self._copy(self._frame.at(self.layout.place(node)), self._values(node.slot), "%m")
-
     def turn(self) -> None:
         """Read the numbers' coefficients."""
         for number, node in self._numbers.items():
@@ -114,8 +107,11 @@ class Tile(VectorRecurrences):
     def _end(self, node: Series) -> str:  # noqa: ARG002 - all have the same
         return "%m"
 
-    def _values(self, slot: int) -> str:
-        self.frame.loaded.append((slot, self._count))
+    def _length(self, node: Series) -> str:  # noqa: ARG002 - all have the same
+        return "%m"
+
+    def _values(self, slot: int, count: int) -> str:
+        self.frame.loaded.append((slot, count))
         return self.text.op(f"getelementptr double, ptr %here, i64 {slot}")
 
     def _shift(self, node: Series) -> None:

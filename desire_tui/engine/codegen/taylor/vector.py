@@ -23,14 +23,17 @@ class VectorRecurrences(Arrays):
     """Writes the turns of arrays' series, and of numbers that are made of arrays' elements."""
 
     def load_first(self, node: Series) -> None:
-        """Copy coefficients 0 from the values."""
-        if node.slots:
-            one, text = Lanes(self._frame.text), self._frame.text
-            target, table = self._frame.at(self._frame.layout.place(node)), self._table(node.slots)
-            loop(text, "0", str(node.size), 1,
-                 lambda i: put(one, target, i, fetch(one, "%v", self._entry(table, i))))  # fmt: skip
+        """Copy coefficients 0 from the values, if any are read."""
+        if node.number not in self._frame.layout.begun:
             return
-        self._copy(self._frame.at(self._frame.layout.place(node)), self._values(node.slot), str(node.size))
+        target = self._frame.at(self._frame.layout.place(node))
+        if not node.slots:
+            self._copy(target, self._values(node.slot, node.size), self._length(node))
+            return
+        self._frame.loaded += [(slot, 1) for slot in node.slots]
+        one, table = Lanes(self._frame.text), self._table(node.slots)
+        loop(self._frame.text, "0", str(node.size), 1,
+             lambda i: put(one, target, i, fetch(one, "%v", self._entry(table, i))))  # fmt: skip
 
     def load_constant(self, constant: Constant) -> None:
         """Nothing is read ahead."""
