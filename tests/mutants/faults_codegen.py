@@ -17,6 +17,10 @@ def _loop(old: str, new: str, *first: str) -> Mutant:
     return Mutant("codegen/loop", old, new, first)
 
 
+def _taylor(old: str, new: str, *first: str) -> Mutant:
+    return Mutant("codegen/taylor", old, new, first)
+
+
 def _stiff(old: str, new: str, *first: str) -> Mutant:
     return Mutant("codegen/stiff", old, new, first)
 
@@ -73,4 +77,11 @@ CODEGEN = (
     _stiff("moved[seeds[i]] = y[seeds[i]]", "moved[seeds[i]] = moved[seeds[i]]", "tests/integration/test_both_back_ends.py"),
     _stiff("return GIVE_UP if problem.method == Matrix.PROGRAM else GO_BACK", "return GO_BACK",
            "tests/integration/test_stiff_runs.py"),
+    # Taylor series
+    _taylor('margin = text.op(f"mul i64 %p, {self.layout.reach}")', 'margin = text.op(f"mul i64 %p, {self.layout.reach - 1}")', "tests/taylor/test_long_arrays.py"),
+    _taylor('gone = text.op(_smaller(text, str(abs(by)), "%m"))', 'gone = "0"', "tests/taylor/test_long_arrays.py"),
+    _taylor("taken[i] = width + lane.at", "taken[i] = lane.at", "tests/taylor/test_coefficients.py"),
+    _taylor("if exponent not in _ROOTS:", "if exponent is None:", "tests/taylor/test_coefficients.py"),
+    _taylor("lanes.mul_add(lanes.const(2.0), total, lanes.mul(middle, other))", "lanes.add(total, lanes.mul(middle, other))", "tests/taylor/test_coefficients.py"),
+    _taylor("self.kept | {d.number for d in derivatives if isinstance(d, Series)}", "self.kept | set(derivatives)", "tests/taylor/test_long_arrays.py"),
 )  # fmt: skip

@@ -85,4 +85,7 @@ Mutant(
     # which steps end where samples are taken
     _fault("_set_outside(segment, conditions=True)", "_set_outside(segment)", "tests/taylor/test_events.py"),
     _fault("elif id(action) not in own:", "elif False:", "tests/taylor/test_events.py"),
+    # terms of sums with constant factors
+    _fault("Constant(Const(-constant.value.value), constant.slot, None)", "Constant(Const(constant.value.value), constant.slot, None)", "tests/taylor/test_coefficients.py"),
+    _fault('term, factor if node.kind == "add" else self._negated(factor)', "term, factor", "tests/taylor/test_coefficients.py"),
 )  # fmt: skip
