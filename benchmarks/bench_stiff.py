@@ -117,7 +117,7 @@ def desire(case: Case, tol: float, rule: int, repeats: int = 200) -> Outcome:
     """Best of the runs' own times, once the fast code is in: all that `drun` does."""
     text = case.program.format(rule=rule, ermax=tol, dt=case.dt, t_end=case.t_end, repeats=repeats)
     source = Source(text, case.name)
-    shared_state().routines.fast(len(case.start), own=True)
+    shared_state().routines.fast(len(case.start), own=True, smooth=True)
     session = Session(Listener())
     try:
         session.erun(source)

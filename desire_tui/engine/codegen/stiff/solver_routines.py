@@ -105,6 +105,8 @@ NEVER_IN_SMOOTH_MODELS = {"watch": 0, "moments": 0, "step": 0, "input_count": 0}
 steps or points changes what derivatives read: most models. Asking would take 5 % of their steps' time."""
 _RARE = frozenset(("scatter_ranges", "excuse_noise", "search_noise", "begin_anew"))
 """Functions whose code would only make the steps' longer."""
+_OWN_LEVEL = 2
+"""Level of optimisation of our solvers."""
 _FAST = 1
 """Level of optimisation of what goes with CVODE: level 2 gains nothing there."""
 SIZES_KEPT = 16
@@ -136,45 +138,46 @@ class SolverRoutines:
         """By level of optimisation."""
         self._own = RecentlyUsed[tuple[int, bool], StiffFunctions](SIZES_KEPT)
         """By number of states, and whether for smooth models; a run that goes on keeps its own."""
-        self._locks = defaultdict[int, Lock](Lock)
-        """By level: several sessions may ask for the same, and quick code does not wait for fast code."""
+        self._locks = defaultdict[tuple[str, int], Lock](Lock)
+        """By level or number of states: several sessions may ask for the same, none waits for another's."""
 
     def first(self, n: int, *, own: bool, smooth: bool = False) -> StiffFunctions:
-        """Return what a run can start with at once: fast code if there is some, else quick code.
+        """Return what a run can start with: with CVODE quick code for few states; our solver compiled well.
 
-        `smooth`: for models in which nothing of `NEVER_IN_SMOOTH_MODELS` happens.
+        That takes half a second once a machine, for all numbers of states; quick code would take 2.5 times as
+        long for each run. `smooth`: for models in which nothing of `NEVER_IN_SMOOTH_MODELS` happens.
         """
         if not own:
             return self._with_cvode(_FAST if n > LARGE else 0)
-        return self._kept(n, smooth=smooth) or self._kept(_ANY) or self._make_own(_ANY, level=0)
+        return self._kept(n, smooth=smooth) or self._kept(_ANY) or self._make_own(_ANY)
 
     def fast(self, n: int, *, own: bool, smooth: bool = False) -> StiffFunctions:
         """Compile the fastest code for n states (0.1 s; our solver, for just this n, 1 s once a machine)."""
         if not own:
             return self._with_cvode(_FAST)
-        return self._kept(n, smooth=smooth) or self._make_own(n, smooth=smooth, level=2)
+        return self._kept(n, smooth=smooth) or self._make_own(n, smooth=smooth)
 
     def series(self) -> StiffFunctions:
         """Return the solver of rule 17, compiled well once a machine: a single run may take long."""
-        return self._kept(_SERIES) or self._make_own(_SERIES, level=2)
+        return self._kept(_SERIES) or self._make_own(_SERIES)
 
     def variable(self) -> StiffFunctions:
         """Return the solver of rules 4, 7 and 8, compiled well once a machine."""
-        return self._kept(_VARIABLE) or self._make_own(_VARIABLE, level=2)
+        return self._kept(_VARIABLE) or self._make_own(_VARIABLE)
 
     def _with_cvode(self, level: int) -> StiffFunctions:
         self._connect()
-        with self._locks[level]:
+        with self._locks["level", level]:
             if level not in self._cvode:
                 self._cvode[level] = _found(compile_text(_cvode_text(), level=level, keep=True), own=False)
             return self._cvode[level]
 
-    def _make_own(self, n: int, *, smooth: bool = False, level: int) -> StiffFunctions:
-        """Compile our solver for n states, `_ANY` number of them."""
-        with self._locks[level]:
+    def _make_own(self, n: int, *, smooth: bool = False) -> StiffFunctions:
+        """Compile our solver for n states, `_ANY` number of them: vector code gains nothing for that."""
+        with self._locks["states", n]:
             if (found := self._own[n, smooth]) is None:
                 text = _text(n, smooth=smooth)
-                code = compile_and_keep(text, _name(n, smooth=smooth), level=level, vectorize=level > 0)
+                code = compile_and_keep(text, _name(n, smooth=smooth), level=_OWN_LEVEL, vectorize=n != _ANY)
                 found = self._keep(n, code, smooth=smooth)
             return found
 
@@ -214,7 +217,8 @@ def _name(n: int, *, smooth: bool = False) -> str:
         ]
     )
     everything = _DEPENDS_ON + re.sub(" at 0x[0-9a-f]+", "", layouts).encode()
-    return f"bdf-{n}{'-smooth' if smooth else ''}-{blake2b(everything, digest_size=8).hexdigest()}"
+    digest = blake2b(everything, digest_size=8).hexdigest()
+    return f"bdf-{_OWN_LEVEL}-{n}{'-smooth' if smooth else ''}-{digest}"
 
 
 def _modules(modules: tuple[ModuleType, ...]) -> list[Module]:

@@ -61,6 +61,11 @@ _ENDED = tuple(Ended)
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
 
 
+STEPS_WORTH_OWN_CODE = 100_000
+"""Steps of our solver, some 50 ms, behind which a second of LLVM's work for just this number of states may
+pay, a tenth of each step; a process that ends before keeps nothing of it."""
+
+
 class StiffModel:
     """Implements `runtime.backend.Model`: rules 9 … 17, and 4, 7, 8 where their steps go beyond points.
 
@@ -152,7 +157,8 @@ class StiffModel:
         loop = stiff_loop()  # does little between two intervals: quick code is good enough
         self._loop = code.quick([loop])[loop.name]
         self._run = _RUN(self._loop.address)
-        self._runs, self._improver = 0, improver
+        self._runs = self._steps = 0
+        self._is_to_improve, self._improver = True, improver
         self._parts = [work for work in (self._series, self._tables, functions) if work is not None]
         for part in self._parts:
             improver.add(part)
@@ -246,6 +252,10 @@ class StiffModel:
         sure = self._array and is_pure(self._extra["jacobian"])  # what it draws or remembers must stay
         return advice(self.rule, self._segment, Probe(kept, derivatives, jacobian if sure else None))
 
+    def _pays_to_improve(self) -> bool:
+        """Whether a run that begins follows others: one alone would only wait for fast code at its end."""
+        return self._runs > 1 and (not self._own or self._steps > STEPS_WORTH_OWN_CODE)
+
     def advance(self, memory: RunMemory) -> Ended:
         """Run on (`runtime.run_memory`)."""
         moments = self._moments
@@ -255,7 +265,8 @@ class StiffModel:
                 return ended
         if memory.phase == Phase.AT_POINT and memory.point == 0:
             self._runs += 1
-            if self._runs == 2:  # a program with a single run would only wait for it at its end
+            if self._is_to_improve and self._pays_to_improve():
+                self._is_to_improve = False
                 self._improver.add(self)
             better, self._better = self._better, None
             if better is not None:
@@ -268,12 +279,14 @@ class StiffModel:
                 self._watcher.begin(memory)
         system = self.system
         system.problem.memory = self.context.memory = ctypes.addressof(memory)
+        steps_before = memory.steps
         with self._improver.running(self, *self._parts):
             while (
                 ended := _ENDED[self._run(ctypes.addressof(memory), ctypes.addressof(self.context))]
             ) is Ended.FULL:
                 assert moments is not None
                 moments.grow()
+        self._steps += memory.steps - steps_before
         if self._array and self._given and ended is not Ended.RUNNING:
             fill_array(self._values, *self._given, self._array, self._numbers)
         system.report(memory)
