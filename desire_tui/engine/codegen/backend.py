@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.codegen.compiler_state import CompilerState, shared_state
 from desire_tui.engine.codegen.native_model import NativeModel
-from desire_tui.engine.codegen.pieces import kept_pieces, rolled_pieces
+from desire_tui.engine.codegen.pieces import kept_pieces
 from desire_tui.engine.codegen.scalar import rerolling, templates
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.gc_pause import undisturbed_allocation
@@ -96,7 +96,6 @@ class NativeBackend:
         rerolling.age()
         templates.age()
         kept_pieces.age()
-        rolled_pieces.age()
 
     def problems(self) -> tuple[Diagnostic, ...]:
         """Return what kept fast code from being made since somebody asked; quick code runs instead."""

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import ctypes
 
 
 class Piece(NamedTuple):
@@ -16,3 +19,10 @@ class Piece(NamedTuple):
     text: str
     needs: frozenset[str]
     temps: int = 0
+
+
+class PieceCall(NamedTuple):
+    """A piece and the data it is called with, if any (`pieces.rolled_pieces`)."""
+
+    piece: Piece
+    data: ctypes.Array[ctypes.c_uint64] | None = None

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from desire_tui.engine.cancellation import cancellation_point
 from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.jit.piece import PieceCall
 from desire_tui.engine.codegen.pieces.kept_pieces import piece_of
 from desire_tui.engine.codegen.pieces.pass_pieces import cut
-from desire_tui.engine.codegen.pieces.rolled_pieces import FunctionsOfData, PieceCall
 from desire_tui.engine.codegen.scalar.rerolling import Rolled, roll
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from desire_tui.engine.codegen.jit.cache import CodeCache, Compiled
     from desire_tui.engine.codegen.jit.piece import Piece
+    from desire_tui.engine.codegen.pieces.rolled_pieces import FunctionsOfData
     from desire_tui.engine.lowered.statements import Action
 
     NamedCall = tuple[str, ctypes.Array[ctypes.c_uint64] | None]
@@ -37,12 +38,15 @@ class PieceTables:
         calls: dict[str, list[PieceCall]] = {}
         written: dict[tuple[int, ...], PieceCall] = {}  # passes share most statements
         rolled: dict[tuple[int, ...], list[list[Action | Rolled]]] = {}
-        functions = FunctionsOfData()
+        functions: FunctionsOfData | None = None
         for kind, actions in passes.items():
             calls[kind] = []
             whole = tuple(map(id, actions))
             if whole not in rolled:
-                rolled[whole] = list(cut(roll(actions, machine().width), functions.is_one))
+                statements = roll(actions, machine().width)
+                if functions is None and any(isinstance(statement, Rolled) for statement in statements):
+                    functions = _functions_of_data()
+                rolled[whole] = [*(cut(statements, functions.is_one) if functions else cut(statements))]
             for group in rolled[whole]:
                 key = tuple(map(id, group))
                 call = written.get(key)
@@ -51,7 +55,8 @@ class PieceTables:
                     call = written[key] = _call_of(group, functions)
                     self._pieces[call.piece.name] = call.piece
                 calls[kind].append(call)
-        functions.remember()
+        if functions is not None:
+            functions.remember()
         temps = max((piece.temps for piece in self._pieces.values()), default=0)
         named = {kind: [(piece.name, data) for piece, data in listed] for kind, listed in calls.items()}
         self._lay_out(named, temps, store.quick(self._pieces.values()))
@@ -96,8 +101,14 @@ class PieceTables:
         return self._store.fast(self.pieces[name])
 
 
-def _call_of(group: Sequence[Action | Rolled], functions: FunctionsOfData) -> PieceCall:
+def _functions_of_data() -> FunctionsOfData:
+    from desire_tui.engine.codegen.pieces.rolled_pieces import FunctionsOfData  # few models are so large
+
+    return FunctionsOfData()
+
+
+def _call_of(group: Sequence[Action | Rolled], functions: FunctionsOfData | None) -> PieceCall:
     """Return a group of a pass as a call of its piece."""
-    if len(group) == 1 and functions.is_one(group[0]):
+    if functions is not None and len(group) == 1 and functions.is_one(group[0]):
         return functions.call(group[0])
     return PieceCall(piece_of(group))

@@ -16,6 +16,7 @@ from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.shared_loops import is_large
 from desire_tui.engine.codegen.ir.text import IrText, bits
 from desire_tui.engine.codegen.jit.compiler import machine
+from desire_tui.engine.codegen.jit.piece import PieceCall
 from desire_tui.engine.codegen.pieces.pass_pieces import finished
 from desire_tui.engine.codegen.scalar import templates
 from desire_tui.engine.codegen.scalar.rerolling import Rolled, plain_shape
@@ -30,13 +31,6 @@ if TYPE_CHECKING:
 _Source = tuple[Literal["side", "slots", "numbers"], int]
 """Slots side by side: a cell with the first one. So many slots or numbers that come round: a cell each."""
 _Cells = tuple[int, ...]
-
-
-class PieceCall(NamedTuple):
-    """A piece and the data it is called with, if any."""
-
-    piece: Piece
-    data: ctypes.Array[ctypes.c_uint64] | None = None
 
 
 class _Kind(NamedTuple):
@@ -62,6 +56,8 @@ class FunctionsOfData:
     """
 
     def __init__(self) -> None:
+        _pieces.age()
+        _seen.age()
         self._calls: dict[int, tuple[_Kind, _Cells]] = {}
         self._written: dict[_Kind, set[_Cells]] = {}
 
@@ -119,12 +115,6 @@ def _kind_and_cells(action: Action | Rolled) -> tuple[_Kind, _Cells] | None:
         sources.append(("slots" if slots else "numbers", period))
         cells += around[:period]
     return _Kind(type(first) is Set, found[0], width, tuple(sources)), tuple(cells)
-
-
-def age() -> None:
-    """Between two programs: forget functions that no program of late had."""
-    _pieces.age()
-    _seen.age()
 
 
 def forget() -> None:
