@@ -29,7 +29,7 @@ _LAST_BITS = (25, 53, 80)
 
 
 class Rest(NamedTuple):
-    """|x| = turns·π/2 ± (size + low)."""
+    """|x| = turns·π/2 ± (size + low); `is_whole`: nothing was taken away from any element."""
 
     size: str
     low: str
@@ -39,6 +39,7 @@ class Rest(NamedTuple):
     """Integers; the last two bits count."""
     unknown: str
     """Integers that are not 0 where all this is wrong, and the library is to be asked."""
+    is_whole: bool = False
 
 
 def quarter_turn() -> tuple[float, float, float, float]:
@@ -51,22 +52,24 @@ def quarter_turn() -> tuple[float, float, float, float]:
     return parts[0], parts[1], parts[2], float(left)
 
 
-def rest_of(lanes: Lanes, size: str) -> Rest:
-    """Return what is left of |x|. All of it is jumped over where no element is so large."""
-    text, kind, integers = lanes.text, lanes.kind, lanes.integers
-    before = text.label
-    text.branch(lanes.any(lanes.compare("uge", size, lanes.const(_SOME))), "reduce", "reduced")
-    text.begin("reduce")
+def is_large(lanes: Lanes, size: str) -> str:
+    """Return the flags of elements from which something is taken away, or which are not a number."""
+    return lanes.compare("uge", size, lanes.const(_SOME))
+
+
+def untouched(lanes: Lanes, size: str) -> Rest:
+    """Return what is left of |x| where nothing is taken away from any element."""
+    nothing = "zeroinitializer"
+    return Rest(size, lanes.const(-0.0), nothing, nothing, nothing, is_whole=True)  # + -0 changes no number
+
+
+def reduced(lanes: Lanes, size: str) -> Rest:
+    """Return what is left of |x|."""
     signed, low, turns = _reduced(lanes, size)
-    unknown = _unknown(lanes, size)
-    text.jump("reduced")
-    text.begin("reduced")
-    signed = text.op(f"phi {kind} [ {size}, %{before} ], [ {signed}, %reduce ]")
-    low = text.op(f"phi {kind} [ zeroinitializer, %{before} ], [ {low}, %reduce ]")
-    turns = text.op(f"phi {integers} [ zeroinitializer, %{before} ], [ {turns}, %reduce ]")
-    unknown = text.op(f"phi {integers} [ zeroinitializer, %{before} ], [ {unknown}, %reduce ]")
     sign = sign_of(lanes, signed)
-    return Rest(lanes.intrinsic("fabs", signed), with_sign(lanes, low, sign), sign, turns, unknown)
+    return Rest(
+        lanes.intrinsic("fabs", signed), with_sign(lanes, low, sign), sign, turns, _unknown(lanes, size)
+    )
 
 
 def _reduced(lanes: Lanes, size: str) -> tuple[str, str, str]:

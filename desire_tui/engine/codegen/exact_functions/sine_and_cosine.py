@@ -18,7 +18,14 @@ from typing import TYPE_CHECKING, NamedTuple
 from desire_tui.engine.codegen.exact_functions.angles import ROWS, sines_and_cosines
 from desire_tui.engine.codegen.exact_functions.lookups import loaded_rows
 from desire_tui.engine.codegen.exact_functions.pairs import Pairs
-from desire_tui.engine.codegen.exact_functions.quarter_turns import rest_of, sign_of, with_sign
+from desire_tui.engine.codegen.exact_functions.quarter_turns import (
+    Rest,
+    is_large,
+    reduced,
+    sign_of,
+    untouched,
+    with_sign,
+)
 from desire_tui.engine.codegen.exact_functions.rounding_test import Result
 
 if TYPE_CHECKING:
@@ -57,13 +64,36 @@ class _Row(NamedTuple):
     other_low: str
 
 
-class SineAndCosine:
-    """Functions of the argument `%x`: one of `sin` and `cos`, or both."""
+def sine_and_cosine(lanes: Lanes, names: Sequence[str]) -> list[Result]:
+    """Return functions of the argument `%x`: one of `sin` and `cos`, or both, in this order.
 
-    def __init__(self, lanes: Lanes, names: Sequence[str]) -> None:
-        self.lanes, self._fma, self._names = lanes, Pairs(lanes).fma, names
+    Where nothing is taken away from any element, all that follows from that is left out.
+    """
+    text, size = lanes.text, lanes.intrinsic("fabs", "%x")
+    text.branch(lanes.any(is_large(lanes, size)), "reduce", "small")
+    ends = []
+    for label, rest_of in (("small", untouched), ("reduce", reduced)):
+        text.begin(label)
+        rest = rest_of(lanes, size)
+        values = SineAndCosine(lanes, names, rest).values()
+        ends.append((text.label, [*values, rest.unknown]))
+        text.jump("both")
+    text.begin("both")
+    (one, own), (other, others) = ends
+    kinds = [lanes.kind] * len(names) + [lanes.integers]
+    *values, unknown = (
+        text.op(f"phi {kind} [ {a}, %{one} ], [ {b}, %{other} ]")
+        for kind, a, b in zip(kinds, own, others, strict=True)
+    )
+    return [Result(value, unknown) for value in values]
+
+
+class SineAndCosine:
+    """Functions of the argument `%x`, of whose size `rest` is left."""
+
+    def __init__(self, lanes: Lanes, names: Sequence[str], rest: Rest) -> None:
+        self.lanes, self._fma, self._names, self._rest = lanes, Pairs(lanes).fma, names, rest
         text, integers = lanes.text, lanes.integers
-        rest = self._rest = rest_of(lanes, lanes.intrinsic("fabs", "%x"))
         shifted = lanes.add(rest.size, lanes.const(_GRID))
         self._r = lanes.sub(rest.size, lanes.sub(shifted, lanes.const(_GRID)))
         place = text.op(f"bitcast {lanes.kind} {shifted} to {integers}")
@@ -78,7 +108,7 @@ class SineAndCosine:
             place = text.op(f"or {integers} {place}, {second_half}")
         self._row = _Row(*loaded_rows(lanes, place, _rows()))
 
-    def results(self) -> list[Result]:
+    def values(self) -> list[str]:
         """Return what was asked for, in the order of the names."""
         lanes = self.lanes
         if len(self._names) == 1:
@@ -89,18 +119,17 @@ class SineAndCosine:
                 "sin": lanes.choose(self._odd, cosine, sine),
                 "cos": lanes.choose(self._odd, sine, cosine),
             }
-        return [Result(self._signed(name, values[name]), self._rest.unknown) for name in self._names]
+        return [self._signed(name, values[name]) for name in self._names]
 
     def _one(self) -> str:
         """Return sin(a + d) for even, cos(a + d) for odd elements, whose row has the cosine as its own."""
-        lanes, fma, odd, zero = self.lanes, self._fma, self._odd, self.lanes.const(0.0)
+        lanes, fma, odd = self.lanes, self._fma, self._odd
         row, d = self._row, self._rest.low
         r = lanes.choose(odd, lanes.add(self._r, d), self._r)
-        d = lanes.choose(odd, zero, d)
         square, s, c = self._polynomials(r)
         s = fma(lanes.mul(r, square), s, lanes.choose(odd, r, d))
         s = lanes.choose(odd, s, lanes.add(r, s))
-        value = self._with_series(self._sum(row, s, self._two_products(r, d, square, c)), even_only=True)
+        value = self._with_series(self._sum(row, s, self._one_less_cosine(r, square, c)), even_only=True)
         integers = lanes.integers
         sign = f"{integers} {lanes.integer(0)}, {integers} {self._rest.sign}"
         return with_sign(lanes, value, lanes.text.op(f"select {lanes.flags} {odd}, {sign}"))
@@ -110,7 +139,7 @@ class SineAndCosine:
         lanes, fma, r, row = self.lanes, self._fma, self._r, self._row
         square, s, c = self._polynomials(r)
         s = lanes.add(r, fma(lanes.mul(r, square), s, self._rest.low))
-        sine = self._sum(row, s, self._two_products(r, self._rest.low, square, c))
+        sine = self._sum(row, s, self._one_less_cosine(r, square, c))
         r = lanes.add(r, self._rest.low)
         square, s, c = self._polynomials(r)
         turned = _Row(row.other, row.other_low, lanes.neg(row.own), lanes.neg(row.own_low))
@@ -124,6 +153,15 @@ class SineAndCosine:
         sine = fma(square, const(_SINE[1]), const(_SINE[0]))
         cosine = fma(square, fma(square, const(_COSINE[2]), const(_COSINE[1])), const(_COSINE[0]))
         return square, sine, cosine
+
+    def _one_less_cosine(self, r: str, square: str, c: str) -> str:
+        """Return 1 - cos(r + d) for even, 1 - cos r for odd elements of one function."""
+        lanes, d = self.lanes, self._rest.low
+        if self._rest.is_whole:
+            return lanes.mul(square, c)
+        if len(self._names) == 1:
+            d = lanes.choose(self._odd, lanes.const(0.0), d)
+        return self._two_products(r, d, square, c)
 
     def _two_products(self, a: str, b: str, c: str, d: str) -> str:
         """Return a·b + c·d: GCC fuses the first product with the sum."""
@@ -141,13 +179,13 @@ class SineAndCosine:
         if even_only:
             even = text.op(f"xor {lanes.flags} {self._odd}, splat (i1 true)")
             small = text.op(f"and {lanes.flags} {small}, {even}")
-        before = text.label
-        text.branch(lanes.any(small), "series", "summed")
-        text.begin("series")
+        before, series, summed = text.label, f"{text.label}.series", f"{text.label}.summed"
+        text.branch(lanes.any(small), series, summed)
+        text.begin(series)
         chosen = lanes.choose(small, self._series(), sine)
-        text.jump("summed")
-        text.begin("summed")
-        return text.op(f"phi {lanes.kind} [ {sine}, %{before} ], [ {chosen}, %series ]")
+        text.jump(summed)
+        text.begin(summed)
+        return text.op(f"phi {lanes.kind} [ {sine}, %{before} ], [ {chosen}, %{series} ]")
 
     def _series(self) -> str:
         """Return sin(a + d)."""

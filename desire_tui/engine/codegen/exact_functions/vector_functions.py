@@ -9,7 +9,7 @@ from desire_tui.engine.codegen.exact_functions.exponential import exponential
 from desire_tui.engine.codegen.exact_functions.hyperbolic_tangent import hyperbolic_tangent
 from desire_tui.engine.codegen.exact_functions.logarithm import logarithm
 from desire_tui.engine.codegen.exact_functions.rounding_test import Result, function_text
-from desire_tui.engine.codegen.exact_functions.sine_and_cosine import SineAndCosine
+from desire_tui.engine.codegen.exact_functions.sine_and_cosine import sine_and_cosine
 from desire_tui.engine.codegen.ir.lanes import Lanes
 from desire_tui.engine.codegen.ir.text import IrText
 
@@ -43,7 +43,7 @@ def ways(name: str) -> Sequence[Callable[[Lanes], list[Result]]]:
             lambda lanes, fused=fused: [Result(hyperbolic_tangent(lanes, fused=fused), "zeroinitializer")]
             for fused in (True, False)
         )
-    return (lambda lanes: SineAndCosine(lanes, _library(name)).results(),)
+    return (lambda lanes: sine_and_cosine(lanes, _library(name)),)
 
 
 def written(name: str, symbol: str, width: int, way: Callable[[Lanes], list[Result]]) -> Written:
