@@ -78,12 +78,13 @@ def afresh(monkeypatch):
 
 
 def arguments(seed: int) -> np.ndarray:
-    """Numbers of all sizes, and such that lie near multiples of π/2, where most bits cancel."""
+    """Numbers of all sizes, and such as lie near multiples of π/2, where most bits cancel, and where ways change."""
     random = np.random.default_rng(seed)
     sizes = random.uniform(-1, 1, 4000) * 10.0 ** random.uniform(-9, 6, 4000)
     turns = random.integers(-300, 300, 2000) * (math.pi / 2) * (1 + 10.0 ** random.uniform(-16, -3, 2000))
     ones = 1 + random.uniform(-1, 1, 2000) * 10.0 ** random.uniform(-16, -1, 2000)
-    everything = np.concatenate([sizes, turns, ones, random.uniform(-4, 4, 4000)])
+    edges = random.choice([0.126, 0.8555, 2.4263], 4000) * (1 + random.uniform(-0.1, 0.1, 4000))
+    everything = np.concatenate([sizes, turns, ones, edges, random.uniform(-4, 4, 4000)])
     return np.concatenate([everything, np.resize(np.array(SPECIAL), 32)])
 
 
