@@ -42,7 +42,7 @@ class ProgramView(RenderedText):
     def __init__(self, text: str, twin: ProgramView | None = None) -> None:
         self.views: list[ProgramView] = []
         self._is_changing = False
-        self._rows_moved = 0
+        self._rows_moved = self._rows_shown = 0
         self._width_most = 0
         self._text: str | None = None
         super().__init__(twin.marks if twin else Marks())
@@ -208,6 +208,13 @@ class ProgramView(RenderedText):
             y = min(self._cursor_offset[1] - self.size.height // 2, max(end, 0))
             self.scroll_to(0, y, animate=False, immediate=True, force=True)
         return super().scroll_cursor_visible(animate=animate)
+
+    def _on_resize(self) -> None:
+        """Keep the cursor in view where the view becomes lower: by the terminal, by a problem's rows below."""
+        super()._on_resize()  # type: ignore[no-untyped-call]
+        before, self._rows_shown = self._rows_shown, self.size.height
+        if self._rows_shown <= self.cursor_location[0] - self.scroll_offset.y < before:
+            self.scroll_cursor_visible()
 
     def _refresh_size(self) -> None:
         if self._is_changing:

@@ -87,7 +87,6 @@ class StatusRow(Horizontal):
         elif rows == self.rows or (not checked and place == self._grown_at):
             return
         self.rows = self.styles.height = rows
-        area.call_after_refresh(area.scroll_cursor_visible)
 
     def _set_label(self, place: str, text: str) -> Label:
         """Show a text in the row below; a key that changes nothing there draws nothing, lays out nothing."""

@@ -153,3 +153,18 @@ async def test_a_problem_keeps_its_room_while_its_line_is_typed(program):
         assert 1 not in heights
         await desk.press("home", *"-- ")
         await desk.until(lambda: row.rows == 1)
+
+
+async def test_a_terminal_that_becomes_lower_keeps_the_cursor_in_sight(program):
+    async with desktop(program("-- a line\n" * 80), size=(100, 40)) as desk:
+        area = desk.app.editor.front
+        area.move_cursor((area.size.height - 1, 0))
+        await desk.pilot.resize_terminal(100, 24)
+        await desk.until(
+            lambda: area.scroll_offset.y <= area.cursor_location[0] < area.scroll_offset.y + area.size.height
+        )
+        area.scroll_to(y=60, animate=False)  # who looks elsewhere is left there
+        rows = area.size.height
+        await desk.pilot.resize_terminal(100, 20)
+        await desk.until(lambda: area.size.height < rows)
+        assert area.scroll_offset.y == 60
