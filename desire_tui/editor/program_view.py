@@ -211,7 +211,7 @@ class ProgramView(RenderedText):
 
     def _on_resize(self) -> None:
         """Keep the cursor in sight where the view becomes lower: by the terminal, by a problem below it."""
-        super()._on_resize()  # type: ignore[no-untyped-call]
+        super()._on_resize()
         before, self._rows_shown = self._rows_shown, self.size.height
         if self._rows_shown <= self.cursor_location[0] - self.scroll_offset.y < before:
             self.scroll_cursor_visible()
