@@ -1,5 +1,7 @@
 """exp of many numbers: the operations of glibc's (2.28 and later), which came from Arm's optimized routines.
 
+See LICENSES/ARM.txt.
+
 x = k·ln 2/128 + r with |r| ≤ ln 2/256, and exp x = 2^(k/128)·exp r = s + s·(t + exp r - 1), where s is the
 double next to 2^(k/128) and s·(1 + t) is nearer to it. From |x| = 512 on, where s may be no double, the
 library is asked.

@@ -1,4 +1,4 @@
-"""sin and cos of many numbers: the operations of glibc's (2.28 and later).
+"""sin and cos of many numbers: the operations of glibc's (2.28 and later; LICENSES/GLIBC.txt).
 
 Its results are up to 0.55 units of the last place off, so that no bound would tell which way 1 to 2 % of them
 are rounded. Operation by operation, then: ±(a + d) is left of |x| (`quarter_turns`); a = k/128 + r. With the
