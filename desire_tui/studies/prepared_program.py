@@ -14,6 +14,7 @@ from desire_tui.engine.session.prepared_run import RunStart
 from desire_tui.studies.keep import kept
 from desire_tui.studies.lock_step import LockStep
 from desire_tui.studies.reductions import reduce
+from desire_tui.studies.settable import computed_anyway
 from desire_tui.studies.streams import first_state, stream, streams
 from desire_tui.studies.task import Chunk
 
@@ -47,6 +48,9 @@ class PreparedProgram:
         )
         self.instance = Instance(task.source, options)
         self.way = way_of(self._names, self.instance)
+        problems = computed_anyway(task.names, self.instance)
+        if problems:
+            raise DesireError(*problems)
         self.lock_step: LockStep | None = None
         """Makes several runs at a time."""
         self.hindrance = "" if task.lanes else "not wanted"

@@ -72,6 +72,7 @@ ELSEWHERE = {
     "study-store-there": "tests/studies/test_stores.py::test_another_study_does_not_go_on_with_a_store",
     "study-cluster": "tests/studies/test_cluster.py::test_a_scheduler_that_is_not_there",
     "study-library": "tests/studies/test_study.py::test_a_library_that_is_missing_is_said_first",
+    "study-computed": "tests/studies/test_settable.py::test_what_the_segment_computes_anyway_is_refused",
     "study-no-run": "tests/studies/test_study.py::test_a_script_without_a_run",
     "analysis-form": "tests/analysis/test_request.py::test_mistakes_are_told_at_their_place",
     "export-compiler": "tests/export/test_fmu.py::test_without_a_compiler_it_is_said",

@@ -34,5 +34,12 @@ MESSAGES: dict[str, Wording] = {
     "study-no-run": Wording(
         515, "the script came to its end without a run to keep '{text}' of", "a study needs a drun"
     ),
+    "study-computed": Wording(
+        517,
+        "'{name}' is computed here in every run, whatever value it is given",
+        "{remedy}",
+        "A study gives values to parameters and to what states begin with. What the DYNAMIC segment computes "
+        "before it reads it has no value of its own: all runs would be the same.",
+    ),
     "study-library": Wording(516, "{what} needs the library {library}", "pip install 'desire-tui[study]'"),
 }
