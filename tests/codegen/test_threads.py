@@ -117,10 +117,12 @@ def test_threads_sleep_between_loops(pool):
         pytest.skip("the processor time of a thread cannot be asked for here")
     pool.resize(3)
     clocks = [time.pthread_getcpuclockid(thread.ident) for thread in pool._threads]
-    time.sleep(0.05)
-    before = [time.clock_gettime(clock) for clock in clocks]
-    time.sleep(0.1)
-    assert [time.clock_gettime(clock) for clock in clocks] == before
+    for _ in range(300):  # on a busy machine they come to it later
+        before = [time.clock_gettime(clock) for clock in clocks]
+        time.sleep(0.1)
+        if [time.clock_gettime(clock) for clock in clocks] == before:
+            return
+    pytest.fail("threads without work take processor time")
 
 
 def test_a_child_process_goes_on_alone(pool, monkeypatch):
