@@ -120,11 +120,11 @@ def test_functions_of_states(way):
 
 
 SIDE_BY_SIDE = (
-    "1 - a", "-a", "2.5*a - 3*b", "p*a + b", "b - p*a", "-(2*a) + b", "3*a + p*b", "a/3", "a*t", "a*b", "a*a",
+    "1 - a", "-a", "2.5*a - 3*b", "p*a + b", "b - p*a", "b - 0.7*a", "0.9*a + b", "b - r*a", "-(s*a)", "-(2*a) + b", "3*a + p*b", "a/3", "a*t", "a*b", "a*a",
     "b/(1 + a)", "1/(1 + a)", "(1 + a)^(-1.5)", "(1 + a)^1.7", "(1 + a)^q", "sqrt(1 + a)", "exp(a)",
     "ln(1 + a*b)", "sin(a)*cos(b)", "abs(a)*b", "comp(b, a, t*a)",
 )  # fmt: skip
-"""Expressions of a state, a neighbour of it and parameters."""
+"""Expressions of a state, a neighbour of it and parameters; some products stand in one sum, some in several."""
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -138,12 +138,20 @@ def test_numbers_equations_that_are_alike(way):
         for i in range(n):
             spelled = re.sub(r"\ba\b", f"a{i}", re.sub(r"\bb\b", f"a{order[i]}", text))
             lines.append(f"d/dt y{e}_{i} = {spelled}")
-    given = {f"a{i}": start[i] for i in range(n)} | {"p": 1.5, "q": -0.8}
+    given = {f"a{i}": start[i] for i in range(n)} | {"p": 1.5, "q": -0.8, "r": 0.6, "s": 0.3}
     found = coefficients("DYNAMIC\n" + "\n".join(lines) + "\n", way, given)
     wrong = {}
     radius = 0.3
     space = {name: getattr(cmath, name) for name in ("sqrt", "exp", "sin", "cos")}
-    space |= {"ln": cmath.log, "abs": lambda a: a, "comp": lambda b, a, c: c, "p": 1.5, "q": -0.8}
+    space |= {
+        "ln": cmath.log,
+        "abs": lambda a: a,
+        "comp": lambda b, a, c: c,
+        "p": 1.5,
+        "q": -0.8,
+        "r": 0.6,
+        "s": 0.3,
+    }
     for e, text in enumerate(SIDE_BY_SIDE):
         code = compile(text.replace("^", "**"), text, "eval")
         for i in range(n):
