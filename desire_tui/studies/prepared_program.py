@@ -14,7 +14,7 @@ from desire_tui.engine.session.prepared_run import RunStart
 from desire_tui.studies.keep import kept
 from desire_tui.studies.lock_step import LockStep
 from desire_tui.studies.reductions import reduce
-from desire_tui.studies.settable import computed_anyway
+from desire_tui.studies.settable import computed_anyway, elements_beyond, known_shapes
 from desire_tui.studies.streams import first_state, stream, streams
 from desire_tui.studies.task import Chunk
 
@@ -48,7 +48,10 @@ class PreparedProgram:
         )
         self.instance = Instance(task.source, options)
         self.way = way_of(self._names, self.instance)
-        problems = computed_anyway(task.names, self.instance)
+        program, blocks = self.instance.prepared.script
+        shapes = known_shapes(self._names, self.instance)
+        problems = elements_beyond(self._names, program, blocks, shapes)
+        problems += computed_anyway(task.names, self.instance)
         if problems:
             raise DesireError(*problems)
         self.lock_step: LockStep | None = None

@@ -20,6 +20,7 @@ from desire_tui.engine.structure.structure import structure
 from desire_tui.engine.syntax.parse import parse
 from desire_tui.studies.keep import kept, slices
 from desire_tui.studies.reductions import reduce
+from desire_tui.studies.settable import elements_beyond
 from desire_tui.studies.streams import first_state, stream
 from desire_tui.studies.task import Chunk
 from desire_tui.studies.way import of_the_script
@@ -43,7 +44,8 @@ class ScriptProgram:
         self.kept = kept(task.keep)
         program = parse(task.source)
         values = dict.fromkeys((*task.names, *(name for name, _ in task.fixed)), 0.0)
-        problems = problems_of(program, structure(program), values)
+        blocks = structure(program)
+        problems = problems_of(program, blocks, values) or elements_beyond(values, program, blocks)
         if problems:
             raise DesireError(*problems)
         self._results = of_the_script(program, self.kept)

@@ -74,3 +74,22 @@ def test_the_hint_names_what_can_vary():
     with pytest.raises(DesireError) as error:
         desire_tui.study(program("e = 4\nd/dt x = -e"), over={"e": [1, 2]}, keep="x[end]")
     assert "out of the DYNAMIC segment" in error.value.diagnostics[0].hint
+
+
+@pytest.mark.parametrize("script", ["", "drun\nt = 0\n"], ids=["one run", "two runs"])
+def test_elements_that_no_run_has_are_refused(script):
+    text = program("d/dt x = -y[3]", script)
+    for name, code in (("y[4]", 2), ("y[0]", 2), ("y[1,2]", 53)):
+        with pytest.raises(DesireError) as error:
+            desire_tui.study(text, over={name: [1, 2]}, keep="x[end]")
+        (problem,) = error.value.diagnostics
+        assert (problem.code, problem.line) == (code, 1)
+    assert not desire_tui.study(text, over={"y[3]": [1, 2]}, keep="x[end]").attrs["failed"]
+
+
+def test_sizes_that_the_script_computes():
+    text = program("d/dt x = -a[1]", "n = 2\nARRAY a[n + 1]\n")
+    with pytest.raises(DesireError, match="subscript 4 is not between 1 and 3"):
+        desire_tui.study(text, over={"a[4]": [1, 2], "k": [1, 2]}, keep="x[end]")
+    found = desire_tui.study(text, over={"a[4]": [1, 2], "n": [2, 3]}, keep="x[end]")
+    assert found["error"].values.tolist() == [[2, 0], [2, 0]], "only where there are fewer"
