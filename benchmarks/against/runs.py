@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
+from time import process_time
 from typing import TYPE_CHECKING
 
 from benchmarks.against.work import wait_until_idle
@@ -74,9 +75,13 @@ def _runs(text: str) -> Prepared:
     session = Session()
     session.erun(Source(text, "work"))
     assert session.runs
-    for _ in range(3):  # the second thread compiles fast code meanwhile
+    for _ in range(
+        3
+    ):  # the second thread compiles fast code meanwhile, some of it once runs have lasted 15 ms
+        end = process_time() + 0.02
+        while process_time() < end:
+            session.execute("drunr")
         wait_until_idle()
-        session.execute("drunr")
     return lambda: session.execute("drunr")
 
 
