@@ -46,7 +46,7 @@ from desire_tui.cli.run_command import settings
     multiple=True,
     required=True,
     metavar="QUANTITIES",
-    help="What is kept of each run: x[end], max(x), min(x), mean(x), integral(x), t[x<1], y@0:2:0.1.",
+    help="What is kept of each run: x[end], max(x), min(x), mean(x), std(x), integral(x), t[x<1], y@0:2:0.1.",
 )
 @click.option("-o", "--output", metavar="F", help="Where the results go: .nc, .csv, or a folder .zarr.")
 @click.option("--resume", is_flag=True, help="Go on with what the .zarr folder holds.")

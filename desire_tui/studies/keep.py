@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
     from desire_tui.studies.texts import Piece
 
-Reduction = Literal["max", "min", "mean", "integral", "first", "last"]
+Reduction = Literal["max", "min", "mean", "std", "integral", "first", "last"]
 Kind = Reduction | Literal["when", "at"]
 REDUCTIONS = get_args(Reduction)
 EXAMPLE = "x[end], max(x), mean(x), t[x<1], x@2, x@0:2:0.1"
 _ALIAS = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)", re.ASCII)
 _CALL = re.compile(r"([A-Za-z]\w*)\s*\(", re.ASCII)
-_OF_KEPT = re.compile(r"\[\s*end\s*\]|\b(max|min|mean|integral|first|last)\s*\((?!.*,)")
+_OF_KEPT = re.compile(r"\[\s*end\s*\]|\b(max|min|mean|std|integral|first|last)\s*\((?!.*,)")
 _NAME = re.compile(r"[A-Za-z][\w$]*(\[[^\[\]]*\])?", re.ASCII)
 _RELATION = re.compile(r"[<>=]|\b(and|or|not)\b")
 TIMES_MOST = 1_000_000

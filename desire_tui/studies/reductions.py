@@ -50,7 +50,10 @@ def _reduced(items: Sequence[Kept], t: Floats, columns: Sequence[Floats], counts
                 some = values if behind is None else np.where(behind, nothing, values)
                 made[:, place] = (some.max(axis=0) if item.kind == "max" else some.min(axis=0))[:, None]
             case "mean":
-                made[:, place] = (np.add.accumulate(values, axis=0)[last, lanes] / counts)[:, None]
+                made[:, place] = _mean(values, counts, lanes)[:, None]
+            case "std":
+                squares = (values - _mean(values, counts, lanes)) ** 2
+                made[:, place] = np.sqrt(_mean(squares, counts, lanes))[:, None]
             case "integral":
                 made[:, place] = _integral(t, values, last, lanes)[:, None]
             case "when":
@@ -58,6 +61,12 @@ def _reduced(items: Sequence[Kept], t: Floats, columns: Sequence[Floats], counts
             case "at":
                 made[:, place] = _at(np.array(item.times), t, values, counts)
     return made
+
+
+def _mean(values: Floats, counts: NDArray[np.intp], lanes: NDArray[np.intp]) -> Floats:
+    """Return the means of each run's first `counts` samples."""
+    mean: Floats = np.add.accumulate(values, axis=0)[counts - 1, lanes] / counts
+    return mean
 
 
 def _integral(t: Floats, values: Floats, last: NDArray[np.intp], lanes: NDArray[np.intp]) -> Floats:

@@ -36,7 +36,12 @@ def test_what_can_be_kept():
         ("y[end], mx(x)", 9, "'mx(x)' is no number of a run", "did you mean 'max(x)'?"),
         ("max(x, y)", 1, "'max(x, y)' has many values", "x[end]"),
         ("abs(x)", 1, "'abs(x)' has many values", "x[end]"),
-        ("std(x)", 1, "'std' is neither kept nor computed", "max, min, mean, integral, first, last"),
+        (
+            "kurtosis(x)",
+            1,
+            "'kurtosis' is neither kept nor computed",
+            "max, min, mean, std, integral, first, last",
+        ),
         ("max(x) - min(x)", 1, "is computed from what is kept", "max(x - y)"),
         ("abs(x[end])", 1, "is computed from what is kept", "(x - y)[end]"),
         ("x@0:2", 3, "'0:2' names no times", "from, to, step"),

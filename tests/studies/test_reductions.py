@@ -8,7 +8,7 @@ import pytest
 from desire_tui.studies.keep import kept
 from desire_tui.studies.reductions import reduce
 
-KEEP = "max(y), min(y), mean(y), integral(y), first(y), y[end], t[y>2], y@(0, 0.25, 0.5, 9), y@1"
+KEEP = "max(y), min(y), mean(y), integral(y), first(y), y[end], t[y>2], y@(0, 0.25, 0.5, 9), y@1, std(y)"
 
 
 def made(t, *columns, counts=None):
@@ -20,7 +20,7 @@ def made(t, *columns, counts=None):
 
 def test_of_one_run():
     t, y = [0, 0.5, 1.0, 2.0], [1.0, 3.0, -2.0, 4.0]
-    expected = [4, -2, 1.5, 1.0 + 0.25 + 1.0, 1, 4, 0.5, 1, 2, 3, np.nan, -2]
+    expected = [4, -2, 1.5, 1.0 + 0.25 + 1.0, 1, 4, 0.5, 1, 2, 3, np.nan, -2, 5.25**0.5]
     assert made([t], y)[0] == pytest.approx(expected, nan_ok=True)
 
 
@@ -57,3 +57,13 @@ def test_a_run_that_leaves_all_numbers_is_kept_without_a_word():
     found = made([t], y)[0]
     assert found[0] == found[2] == found[3] == np.inf
     assert found[1] == found[4] == 1e308
+
+
+def test_the_standard_deviation_of_numbers_far_from_0():
+    """The mean is taken off before squares are: of (1e9 + 1 … 1e9 + 3) it is that of (1, 2, 3)."""
+    items = kept("std(y)").items
+    t, y = (
+        np.arange(4.0)[:, None].repeat(2, axis=1),
+        1e9 + np.array([[1, 1], [2, 3], [3, np.nan], [2, np.inf]]),
+    )
+    assert reduce(items, t, [y], np.array([4, 2]))[:, 0].tolist() == [0.5**0.5, 1.0]
