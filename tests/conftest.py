@@ -111,10 +111,11 @@ def quick_code_only(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Improver, "add", lambda _self, _work: None)
 
 
-# else the examples depend on the modules that happen to be imported, whose numbers and strings are drawn now and then;
-# to read them takes each worker 2 s in a fresh clone. There is no public switch for it.
-providers._get_local_constants = lambda: providers._local_constants
-
 settings.register_profile("repeatable", deadline=None, derandomize=True, database=None)
 settings.register_profile("search", deadline=None, max_examples=1000)
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+_PROFILE = os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
+settings.load_profile(_PROFILE)
+if _PROFILE == "repeatable":
+    # else the examples depend on the modules that happen to be imported, whose numbers and strings are drawn now and
+    # then; to read them takes each worker 2 s in a fresh clone. There is no public switch for it.
+    providers._get_local_constants = lambda: providers._local_constants
