@@ -92,6 +92,12 @@ def prepare(task: Task) -> str:
         return program.way_taken
 
 
+def runs_together(task: Task) -> int:
+    """Return how many runs take hardly longer than one: those that lanes of vector code make side by side."""
+    with _PROGRAMS.one(task) as program:
+        return program.runs_together
+
+
 def end_runs(task: Task) -> None:
     """End the runs of a study that go on in this process; from any thread."""
     _PROGRAMS.end(task)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.engine.thread_count import THREADS_MOST, runs_at_once
-from desire_tui.studies.chunk import run_chunk
+from desire_tui.studies.chunk import run_chunk, runs_together
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -96,6 +96,7 @@ def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iter
     from distributed import as_completed
 
     size, most = FIRST, max(1, NUMBERS_MOST // max(plan.kept.size, 1))
+    together = runs_together(plan.task)
     stretches = list(missing)[::-1]
     coming = as_completed()
     under_way: dict[str, Any] = {}
@@ -119,7 +120,7 @@ def _chunks(plan: Plan, missing: Iterable[tuple[int, int]], client: Any) -> Iter
         del under_way[future.key]
         future.release()
         wanted = int(len(chunk.errors) * SECONDS / max(seconds, 1e-6))
-        size = max(1, min(most, wanted, 16 * size))
+        size = min(most, max(together, min(wanted, 16 * size) // together * together))
         yield chunk
 
 

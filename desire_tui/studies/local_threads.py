@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from desire_tui.engine.thread_count import runs_at_once
-from desire_tui.studies.chunk import end_runs, run_chunk
+from desire_tui.studies.chunk import end_runs, run_chunk, runs_together
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from desire_tui.studies.plan import Plan
     from desire_tui.studies.task import Chunk
 
-FIRST = 64
-"""Runs of the first chunks: a result is seen at once."""
 SECONDS, LEAST = 0.25, 0.002
 """How long a chunk takes, at most and at least: short enough to stop at, long enough to cost nothing."""
 _WAITING = 2
@@ -49,7 +47,7 @@ class _Crew:
 
     def __init__(self, plan: Plan, missing: Iterable[tuple[int, int]], workers: int) -> None:
         self._plan, self._workers, self._working = plan, workers, workers
-        self._sizes = _Sizes(plan, workers)
+        self._sizes = _Sizes(plan, workers, runs_together(plan.task))
         self._jobs = self._sizes.jobs(missing)
         self._lock, self._stop = Lock(), Event()
         self._made: SimpleQueue[Chunk | BaseException | None] = SimpleQueue()
@@ -96,11 +94,15 @@ class _Crew:
 
 
 class _Sizes:
-    """Cuts stretches of runs into chunks by the time that those before have taken."""
+    """Cuts stretches of runs into chunks by the time that those before have taken.
 
-    def __init__(self, plan: Plan, workers: int) -> None:
-        self._size, self._least = FIRST, FIRST
-        self._workers = workers
+    Chunks are whole groups of `together` runs, which take hardly longer than one of them. The first is one
+    group: a result is seen at once.
+    """
+
+    def __init__(self, plan: Plan, workers: int, together: int) -> None:
+        self._size, self._least = together, together
+        self._workers, self._together = workers, together
         self._most = max(1, NUMBERS_MOST // max(plan.kept.size, 1))
 
     def took(self, runs: int, seconds: float) -> None:
@@ -119,9 +121,9 @@ class _Sizes:
                 first, left = first + count, left - count
 
     def _next(self, left: int) -> int:
-        """Return how many runs of those left are next: whole groups of lanes where there are many."""
-        if self._workers == 1:
-            return self._size
-        # half of a fair share: what is left at the end is small, and no thread waits long for another
-        count = min(self._size, max(self._least, left // (2 * self._workers)))
-        return count if count < FIRST else -(-count // FIRST) * FIRST
+        """Return how many runs of those left are next."""
+        count = self._size
+        if self._workers > 1:
+            # half of a fair share: what is left at the end is small, and no thread waits long for another
+            count = min(count, max(self._least, left // (2 * self._workers)))
+        return -(-count // self._together) * self._together

@@ -59,9 +59,10 @@ class LockStep:
         )
         self.draws = self._model.draws
         """Whether the model takes random numbers."""
-        width = self._model.width
-        self._row = (1 + len(columns)) * width
-        self.runs_most = width
+        self.width = self._model.width
+        """Runs of a group: they take as long as one of them."""
+        self._row = (1 + len(columns)) * self.width
+        self.runs_most = self.width
         """Runs to be made at a time."""
 
     def end(self) -> None:
@@ -75,7 +76,7 @@ class LockStep:
         try:
             starts, plan, failed = self._starts(settings)
             numbers = self._row * (1 if self._model.folds else plan.rows_most)
-            self.runs_most = self._model.width * max(1, min(_GROUPS_MOST, _NUMBERS_MOST // numbers))
+            self.runs_most = self.width * max(1, min(_GROUPS_MOST, _NUMBERS_MOST // numbers))
             made = self._model.run(plan, starts, seeds)
         except DesireError:
             nothing = np.zeros((1, 1, runs))

@@ -76,6 +76,11 @@ class PreparedProgram:
         """How runs are made, in words."""
         return "in lock step" if self.lock_step is not None else f"one by one ({self.hindrance})"
 
+    @property
+    def runs_together(self) -> int:
+        """How many runs take hardly longer than one."""
+        return 1 if self.lock_step is None else self.lock_step.width
+
     def settings(self, rows: Floats) -> Floats:
         """Return the values of everything that is set: what varies, then what is fixed."""
         return np.concatenate([rows, np.broadcast_to(self._fixed, (len(rows), len(self._fixed)))], axis=1)

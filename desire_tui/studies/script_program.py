@@ -66,6 +66,11 @@ class ScriptProgram:
         """How runs are made, in words."""
         return "each by the whole script"
 
+    @property
+    def runs_together(self) -> int:
+        """How many runs take hardly longer than one."""
+        return 1
+
     def chunk(self, first: int, rows: Floats, stopped: Callable[[], bool]) -> Chunk:
         """Run the script once for each row."""
         made = Chunk.empty(first, len(rows), self.kept.size)

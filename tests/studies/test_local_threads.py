@@ -7,11 +7,13 @@ from threading import Event, Thread
 import numpy as np
 import pytest
 
+from desire_tui.engine.data_classes import replace
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
 from desire_tui.studies import local_threads
+from desire_tui.studies.chunk import runs_together
 from desire_tui.studies.design import Design
 from desire_tui.studies.keep import kept
-from desire_tui.studies.local_threads import FIRST, LEAST, SECONDS, chunks_by_threads
+from desire_tui.studies.local_threads import LEAST, SECONDS, chunks_by_threads
 from desire_tui.studies.plan import Plan
 from desire_tui.studies.task import Chunk, Task
 
@@ -21,33 +23,47 @@ RATE = 1e6
 
 @pytest.fixture
 def plan():
-    task = Task("drun\nDYNAMIC\nx = k\ndispt x\n", "<text>", None, "x[end]", ("k",))
+    task = Task("k = 0\ndrun\nDYNAMIC\nx = k\ndispt x\n", "<text>", None, "x[end]", ("k",))
     return Plan(task, Design({"k": np.arange(float(RUNS))}), kept(task.keep))
 
 
-def cut(plan, workers):
-    """The chunks if each run takes 1/RATE seconds."""
-    sizes = local_threads._Sizes(plan, workers)
+def cut(plan, workers, together=1, rate=RATE, runs=RUNS):
+    """The chunks if each group of runs that go together takes together/rate seconds."""
+    sizes = local_threads._Sizes(plan, workers, together)
     made = []
-    for first, count in sizes.jobs([(0, RUNS)]):
+    for first, count in sizes.jobs([(0, runs)]):
         made.append((first, count))
-        sizes.took(count, count / RATE)
+        sizes.took(count, -(-count // together) * together / rate)
     return made
 
 
+@pytest.mark.parametrize("together", [1, 32])
 @pytest.mark.parametrize("workers", [1, 2, 5])
-def test_chunks_follow_each_other_and_none_is_too_short_or_too_long(plan, workers):
-    made = cut(plan, workers)
+def test_chunks_follow_each_other_and_none_is_too_short_or_too_long(plan, workers, together):
+    made = cut(plan, workers, together)
     assert [first for first, _ in made] == [0, *np.cumsum([count for _, count in made])[:-1]]
     assert sum(count for _, count in made) == RUNS
-    assert made[0] == (0, FIRST)
+    assert made[0] == (0, together)
     assert all(LEAST * RATE <= count <= SECONDS * RATE for _, count in made[3:-1])
+
+
+@pytest.mark.parametrize("together", [1, 32])
+@pytest.mark.parametrize("workers", [1, 2])
+def test_slow_runs_come_one_by_one_and_lanes_are_filled(plan, workers, together):
+    """Each takes 10 seconds: progress is told as often as can be, and no lane of a group is left empty."""
+    made = cut(plan, workers, together, together / 10, 10 * together)
+    assert [count for _, count in made] == 10 * [together]
+
+
+def test_a_study_in_lock_step_knows_how_many_runs_go_together(plan):
+    assert runs_together(plan.task) > 1
+    assert runs_together(replace(plan.task, lanes=False)) == 1
 
 
 def test_the_last_chunks_of_several_threads_are_short(plan):
     left = RUNS
     for _, count in cut(plan, 2):
-        assert count <= max(left / 4, LEAST * RATE) + FIRST
+        assert count <= max(left / 4, LEAST * RATE)
         left -= count
 
 
