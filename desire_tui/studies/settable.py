@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from desire_tui.api.settings import slot_of
 from desire_tui.engine.diagnostics import Diagnostic
 from desire_tui.engine.lowered.effects import memory, reads, writes
-from desire_tui.engine.lowered.statements import DelayLine, Guard, Set, SetDot, SetMat, SetVec
+from desire_tui.engine.lowered.statements import DelayLine, Set, SetDot, SetMat, SetVec
 from desire_tui.engine.lowered.walk import walk_actions, walk_values
 from desire_tui.engine.nodes.declarations import Declare
 from desire_tui.engine.nodes.expressions import Number
@@ -115,9 +115,8 @@ def _computes_first(segment: Segment, slot: int) -> Computed | None:
     for action in segment.body:
         if any(_meets(reads(each), slot) for each in walk_actions((action,))):
             return None
-        if isinstance(action, Guard) or not _meets(writes(action), slot):
-            continue
-        return action if isinstance(action, Set | SetDot | SetVec | SetMat) else None
+        if _meets(writes(action), slot):  # what stands under a condition is no write of its guard
+            return action if isinstance(action, Set | SetDot | SetVec | SetMat) else None
     return None
 
 
