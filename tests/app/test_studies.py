@@ -34,7 +34,7 @@ async def test_a_study_explains_itself(program):
         keys, table = graph.query_one(KeyRow), graph.query_one(ReadingTable)
         assert "c = 1 … 48" in row(keys)
         assert "study.src · runs 1–48 · c = 1 … 48 · scale = 60"[-30:] in graph.frame.lines[0]
-        high = graph.room[1]
+        high, rows_without_table = graph.room[1], graph.frame.rows
         # a table that pages takes the place of one long row
         graph.focus()
         await desk.press("r")
@@ -61,6 +61,7 @@ async def test_a_study_explains_itself(program):
         assert graph.readout.above is None
         assert not table.display
         assert graph.room[1] == high
+        await desk.until(lambda: graph.frame.rows == rows_without_table)
         # the mouse picks the curve it is near to
         frame = graph.frame
         top = frame.top + round((1 - 0.9) / 2 * frame.rows)  # 54 of 60: no curve
