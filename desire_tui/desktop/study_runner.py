@@ -32,7 +32,7 @@ CHARTS_MOST = 6
 
 
 class StudyRunner:
-    """The desktop's study: one at a time; the last one stays until another begins."""
+    """The desktop's study: one at a time; the last one stays until another is planned."""
 
     def __init__(self, app: DesireApp) -> None:
         self._app = app
@@ -40,6 +40,7 @@ class StudyRunner:
         self.charts: list[StudyChart] = []
         self.progress: Progress | None = None
         self.program = ""
+        self._earlier = self._own()
         self.is_going = False
         self._is_ended_by_user = False
         self._may_go_on = Event()
@@ -51,11 +52,15 @@ class StudyRunner:
         """Whether it goes on only when it is told to."""
         return self.is_going and not self._may_go_on.is_set()
 
+    def _own(self) -> tuple[Study | None, list[StudyChart], Progress | None, str]:
+        return self.study, self.charts, self.progress, self.program
+
     # ------------------------------------------------------------------------------ on the app's thread
 
     def begin(self, source: Source, options: dict[str, Any], output: Path | None) -> None:
         """Plan a study of a program and make its runs."""
         self.is_going, self._is_ended_by_user = True, False
+        self._earlier = self._own()
         self.study, self.charts, self.progress = None, [], None
         self.program = source.file_name
         self._may_go_on.set()
@@ -119,7 +124,8 @@ class StudyRunner:
         app, study = self._app, self.study
         if problem is not None:
             app.show_problems(problem.diagnostics)
-        if study is None:
+        if study is None:  # refused: the earlier one can still be asked for charts
+            self.study, self.charts, self.progress, self.program = self._earlier
             return
         made = self.progress.made if self.progress is not None else 0
         told = f"Study of {self.program}: {made:,} of {study.plan.runs:,} runs"

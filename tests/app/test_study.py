@@ -32,6 +32,10 @@ async def test_a_study_from_its_line_to_its_file(program, tmp_path):
         x, y = page.curves[0].samples()
         assert len(x) == 60
         assert abs(x - y).max() < 1e-12
+        await desk.line("study --over aa=1:2:2 --keep x[end]")  # refused: the study before it stays
+        await over(desk)
+        await desk.line("study chart cumulated top")
+        assert "There is no study" not in desk.output
         await desk.line("study save out.csv")
         await desk.until((tmp_path / "out.csv").exists)
         assert len((tmp_path / "out.csv").read_text().splitlines()) == 61
