@@ -128,13 +128,18 @@ SIDE_BY_SIDE = (
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_numbers_equations_that_are_alike(way):
+@pytest.mark.parametrize(
+    "expressions",
+    [SIDE_BY_SIDE, *((power,) for power in ("(1 + a)^(-1.5)", "(1 + a)^2.5", "(1 + a)^1.7"))],
+    ids=["many", "-1.5", "2.5", "1.7"],  # exponents that differ become an array, one alone stays a number
+)
+def test_numbers_equations_that_are_alike(way, expressions):
     """They become short arrays, whose operands are other equations' elements; values by Cauchy's integral."""
     n = 9
     order = [3, 0, 7, 1, 8, 2, 6, 5, 4]
     start = [0.2 + 0.07 * i for i in range(n)]
     lines = [f"d/dt a{i} = {0.5 + 0.1 * i!r} - 0.4*t" for i in range(n)]
-    for e, text in enumerate(SIDE_BY_SIDE):
+    for e, text in enumerate(expressions):
         for i in range(n):
             spelled = re.sub(r"\ba\b", f"a{i}", re.sub(r"\bb\b", f"a{order[i]}", text))
             lines.append(f"d/dt y{e}_{i} = {spelled}")
@@ -152,7 +157,7 @@ def test_numbers_equations_that_are_alike(way):
         "r": 0.6,
         "s": 0.3,
     }
-    for e, text in enumerate(SIDE_BY_SIDE):
+    for e, text in enumerate(expressions):
         code = compile(text.replace("^", "**"), text, "eval")
         for i in range(n):
 
