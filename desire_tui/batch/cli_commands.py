@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from desire_tui.batch.console import Console
+from desire_tui.batch.ending import giving_up_files
 from desire_tui.batch.headless_listener import HeadlessListener
 from desire_tui.batch.progress import Progress
 from desire_tui.batch.runner import Runner, RunOptions
@@ -62,7 +63,8 @@ def run_file(
         report(runner.problems)
         status = _EXIT[runner.status]
         known = len(runner.problems)
-        problems = [problem.within(source) for problem in outputs.write(runner.session, runner.result)]
+        with giving_up_files():
+            problems = [problem.within(source) for problem in outputs.write(runner.session, runner.result)]
         report([*runner.problems[known:], *problems])
         status = _EXIT[runner.status]
         if status == DONE and any(problem.severity == "error" for problem in problems):

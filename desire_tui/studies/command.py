@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from desire_tui.batch.cli_commands import DONE, FAILED, LIMIT, report, source_named
+from desire_tui.batch.ending import giving_up_files
 from desire_tui.batch.progress import short
 from desire_tui.batch.status_line import StatusLine, bar
 from desire_tui.engine.diagnostics import DesireError, Diagnostic
@@ -101,7 +102,8 @@ def _run(study: Study, options: dict[str, Any], shown: _ProgressLine | None) -> 
 def _tell(study: Study, output: Path | None, status: int, *, quiet: bool) -> int:
     result = study.result()
     if output is not None and output.suffix != ".zarr":
-        write(result, output)
+        with giving_up_files():
+            write(result, output)
     failures, runs = study.store.failures, study.plan.runs
     for line in failures.lines():
         sys.stderr.write(f"{line}\n")
