@@ -316,3 +316,15 @@ def test_a_study_shares_the_threads_of_large_models_among_its_runs(monkeypatch):
     )
     assert set(seen) == {3}
     assert thread_count.thread_count() == 6
+
+
+def test_more_steps_than_a_number_can_count():
+    """TMAX/DT is infinite; every run ends long before."""
+    program = (
+        "k = 1 | w = 2 | TMAX = 1E200 | DT = 1E-200 | NN = 2\ndrun\nDYNAMIC\n"
+        "d/dt x = k*1E199*cos(w*t)\nterm x - 2\ndispt x\n"
+    )
+    found = desire_tui.study(program, over={"k": [1.0, 2.0]}, keep="x[end]")["x[end]"].values
+    wanted = [desire_tui.load(program).run(k=k)["x"][-1] for k in (1.0, 2.0)]
+    assert found.tolist() == wanted
+    assert 2.0 < wanted[0] < 2.2

@@ -162,7 +162,7 @@ class LaneModel:
         lags = np.zeros(max(self._segment.counters, 1), dtype=np.int64)
         for counter, records in self._delays.lags(self._segment, plan, self._values).items():
             lags[counter] = records
-        shared = self._shared.cleared(math.ceil(plan.t_max / plan.dt) if self._segment.order else plan.nn)
+        shared = self._shared.cleared(plan.t_max / plan.dt + 1.0 if self._segment.order else plan.nn)
         memory.shared, memory.kept = shared.ctypes.data, self._shared.kept
         base = self._values.data[self._slots]
         memory.base = base.ctypes.data

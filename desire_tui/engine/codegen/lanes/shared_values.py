@@ -97,9 +97,9 @@ class SharedMemory:
         self.kept = 0
         """Steps that it holds."""
 
-    def cleared(self, steps: int) -> NDArray[np.int64]:
-        """Return memory that holds nothing, for runs of so many steps."""
-        self.kept = min(steps, _BYTES_MOST // (8 * self._words)) if self._words else 0
+    def cleared(self, steps: float) -> NDArray[np.int64]:
+        """Return memory that holds nothing, for runs of about so many steps; infinitely many are none too many."""
+        self.kept = int(min(_BYTES_MOST // (8 * self._words), steps)) if self._words else 0
         wanted = (self.kept + 1) * self._words
         if len(self._numbers) < wanted:
             self._numbers = np.empty(wanted, dtype=np.int64)
