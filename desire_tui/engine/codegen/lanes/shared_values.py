@@ -98,7 +98,7 @@ class SharedMemory:
         """Steps that it holds."""
 
     def cleared(self, steps: float) -> NDArray[np.int64]:
-        """Return memory that holds nothing, for runs of about so many steps; infinitely many are none too many."""
+        """Return memory that holds nothing, for runs of about so many steps, perhaps infinitely many."""
         self.kept = int(min(_BYTES_MOST // (8 * self._words), steps)) if self._words else 0
         wanted = (self.kept + 1) * self._words
         if len(self._numbers) < wanted:
